@@ -1,0 +1,20 @@
+//! Soap bubbles with correct thin-film interference, on wgpu.
+//!
+//! The colours of the film come from spectral optics, the film flows, and the two are one field: the thickness that the simulation
+//! moves is the thickness that the shader colours.
+//!
+//! # Layers
+//!
+//! `use` goes only downwards in this table; a test holds the crate to it.
+//!
+//! | module | question it answers | knows nothing of |
+//! |---|---|---|
+//! | [`cli`], [`app`] | who asks: the command line, and the window | each other |
+//! | [`output`], [`input`] | files: pictures, tables and reports out; environments and spectra in | windows, GPUs |
+//! | [`gpu`] | HOW: one module for each pass, named like its shader, and the executor that walks a plan | windows, files |
+//! | [`plan`] | WHEN: a pure function from what is wanted and what is there to the passes in between | wgpu, windows, files |
+//! | [`scene`] | WHAT is shown: plain data, TOML, presets, events | everything else |
+//! | [`physics`] | what is TRUE: f64 on the CPU | wgpu, scene files |
+
+pub mod physics;
+pub mod scene;
