@@ -16,5 +16,15 @@
 //! | [`scene`] | WHAT is shown: plain data, TOML, presets, events | everything else |
 //! | [`physics`] | what is TRUE: f64 on the CPU | wgpu, scene files |
 
+#![warn(missing_docs)]
+
+#[cfg(not(target_arch = "wasm32"))]
+pub mod cli;
+pub mod gpu;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod input;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod output;
 pub mod physics;
+pub mod plan;
 pub mod scene;

@@ -1,1 +1,7 @@
-fn main() {}
+//! The `soapfilm` program: hands its arguments to the library.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    soapfilm::cli::main(std::env::args_os())
+}

@@ -1,0 +1,59 @@
+// Tone curve, gamut mapping, encoding and dither of the display. The f64 twin is src/physics/colour/display.rs.
+
+// Relative luminance of linear BT.709.
+const LUMINANCE: vec3f = vec3f(0.2126390, 0.7151687, 0.0721923);
+
+// Radiance at which the curve leaves the straight line, and the radiance that it maps to display white. Both are relative to
+// the brightest channel, so the hue of a saturated fringe does not turn.
+const SHOULDER: f32 = 0.6;
+const WHITE: f32 = 6.0;
+
+// Maps the largest channel onto [0, 1]: straight up to SHOULDER (what is measured is what is seen), then a rational shoulder of
+// the same slope that reaches 1 at WHITE. Colours far beyond the shoulder lose saturation as film and eyes do.
+fn tone_curve(linear: vec3f) -> vec3f {
+    let peak = max(linear.r, max(linear.g, linear.b));
+    if (peak <= SHOULDER) {
+        return linear;
+    }
+    let room = 1.0 - SHOULDER;
+    let over = (min(peak, WHITE) - SHOULDER) / room;
+    let over_white = (WHITE - SHOULDER) / room;
+    let mapped = SHOULDER + room * over * (1.0 + over / (over_white * over_white)) / (1.0 + over);
+    let bleach = smoothstep(1.0, WHITE, peak) * 0.8;
+    return mix(linear * (mapped / peak), vec3f(mapped), bleach);
+}
+
+// Brings a colour outside [0, 1] back by moving it towards the grey of its own luminance, just as far as needed.
+fn into_gamut(linear: vec3f) -> vec3f {
+    let grey = clamp(dot(LUMINANCE, linear), 0.0, 1.0);
+    let offset = linear - grey;
+    // Along grey + t offset, the t at which each channel leaves [0, 1].
+    let room = select(vec3f(grey), vec3f(1.0 - grey), offset > vec3f(0.0));
+    let t = room / max(abs(offset), vec3f(1e-9));
+    return clamp(grey + min(1.0, min(t.x, min(t.y, t.z))) * offset, vec3f(0.0), vec3f(1.0));
+}
+
+fn encode_srgb(linear: vec3f) -> vec3f {
+    let low = 12.92 * linear;
+    let high = 1.055 * pow(max(linear, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
+    return select(high, low, linear <= vec3f(0.0031308));
+}
+
+// A well-mixed 32-bit hash (PCG output permutation).
+fn hash(value: u32) -> u32 {
+    let state = value * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+// Uniform in [0, 1).
+fn uniform_of(bits: u32) -> f32 {
+    return f32(bits >> 8u) / 16777216.0;
+}
+
+// Adds triangular noise of the given width in 8-bit steps, the same in all channels (the eye forgives grey noise most).
+fn dithered(encoded: vec3f, pixel: vec2u, seed: u32, steps: f32) -> vec3f {
+    let first = hash(pixel.x + hash(pixel.y + hash(seed)));
+    let noise = uniform_of(first) - uniform_of(hash(first));
+    return encoded + steps * noise / 255.0;
+}

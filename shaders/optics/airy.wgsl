@@ -1,0 +1,44 @@
+// Reflectance of a free film, air | film | air, for s and p light. The f64 truth is src/physics/optics/airy.rs.
+//
+// Phases are counted in turns and reduced before any trigonometry: WGSL promises sin() only to 2^-11, which would cost
+// up to 0.1 of a colour difference; the polynomial below keeps the whole reflectance at f32 rounding.
+
+// Cosine of the refracted angle inside a film of index n, from the cosine of the angle outside (Snell).
+fn cos_refracted(n: f32, cos_theta: f32) -> f32 {
+    return sqrt(1.0 - (1.0 - cos_theta * cos_theta) / (n * n));
+}
+
+// Squared Fresnel amplitudes (r_s^2, r_p^2) of one surface, air to film.
+fn surface_reflectance(n: f32, cos_theta: f32) -> vec2f {
+    let cos_t = cos_refracted(n, cos_theta);
+    let r = vec2f(
+        (cos_theta - n * cos_t) / (cos_theta + n * cos_t),
+        (n * cos_theta - cos_t) / (n * cos_theta + cos_t),
+    );
+    return r * r;
+}
+
+// Greatest reflectance that interference can give at this angle, mean of s and p: 1 at grazing, 0.08 at the normal for water.
+fn max_reflectance(n: f32, cos_theta: f32) -> f32 {
+    let r2 = surface_reflectance(n, cos_theta);
+    let peak = 2.0 / (1.0 + r2);
+    return 0.5 * dot(r2 * peak, peak);
+}
+
+// sin(pi x) for |x| <= 1/2; absolute error below 7e-9 before rounding (Chebyshev fit).
+fn sin_pi(x: f32) -> f32 {
+    let y = x * x;
+    return x * (3.14159264 + y * (-5.16771008 + y * (2.55007752 + y * (-0.598291286 + y * 0.0776576603))));
+}
+
+// Airy reflectance (R_s, R_p) of the film. With s = sin(delta/2), R = 4 r^2 s^2 / ((1 - r^2)^2 + 4 r^2 s^2): this form has no
+// cancellation, so that a black film comes out right by itself.
+fn film_reflectance(n: f32, cos_theta: f32, thickness_nm: f32, wavelength_nm: f32) -> vec2f {
+    let r2 = surface_reflectance(n, cos_theta);
+    let half_turns = 2.0 * n * thickness_nm * cos_refracted(n, cos_theta) / wavelength_nm;
+    let s = sin_pi(half_turns - round(half_turns));
+    let interference = 4.0 * r2 * s * s;
+    let gap = 1.0 - r2;
+    // The floor only matters at exactly grazing incidence on no film, where 0/0 stands for "nothing there".
+    return interference / max(gap * gap + interference, vec2f(1e-30));
+}

@@ -1,0 +1,20 @@
+// What stands behind everything: one colour, or the environment itself.
+
+import package::camera::view::{View, view_ray, pixel_angle};
+import package::light::environment::{Light, backdrop_radiance};
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> light: Light;
+@group(0) @binding(2) var environment: texture_cube<f32>;
+@group(0) @binding(3) var environment_sampler: sampler;
+
+@vertex
+fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+}
+
+@fragment
+fn backdrop(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let ray = view_ray(view, position.xy);
+    return vec4f(backdrop_radiance(environment, environment_sampler, light, ray, pixel_angle(view, ray)), 1.0);
+}

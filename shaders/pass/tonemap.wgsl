@@ -1,0 +1,30 @@
+// From scene radiance to what a display shows: exposure, tone curve, gamut, dither, sRGB encoding. Each happens once, here.
+
+import package::colour::display::{dithered, encode_srgb, into_gamut, tone_curve};
+
+// Mirrors `TonemapUniform` in src/gpu/tonemap.rs.
+struct Tonemap {
+    // Columns of the matrix from linear BT.2020 to linear BT.709.
+    to_bt709: mat3x3f,
+    // Factor on radiance: 2^exposure_ev.
+    exposure: f32,
+    // Seed of the dither; its amplitude in steps of the 8-bit display, 0 for none.
+    dither_seed: u32,
+    dither_steps: f32,
+}
+
+@group(0) @binding(0) var<uniform> tonemap: Tonemap;
+@group(0) @binding(1) var radiance: texture_2d<f32>;
+
+@vertex
+fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+}
+
+@fragment
+fn tonemapped(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2u(position.xy);
+    let exposed = tonemap.exposure * textureLoad(radiance, pixel, 0).rgb;
+    let display = into_gamut(tonemap.to_bt709 * tone_curve(exposed));
+    return vec4f(dithered(encode_srgb(display), pixel, tonemap.dither_seed, tonemap.dither_steps), 1.0);
+}

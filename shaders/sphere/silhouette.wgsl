@@ -1,0 +1,45 @@
+// Analytic coverage of a pixel by a sphere's outline, which in perspective is an ellipse.
+
+import package::camera::view::View;
+
+struct Silhouette {
+    // Part of the sample's square inside the outline, 0 to 1.
+    coverage: f32,
+    // Unit ray through the middle of the covered part.
+    inside: vec3f,
+}
+
+// `plane` is the sample's point on the plane one metre before the eye, relative to the eye; `width` its square's side in pixels.
+// The distance to the outline is measured as an angle, asin(R/D) minus the angle to the centre, and divided by how fast that angle
+// changes from pixel to pixel.
+fn silhouette(view: View, centre_m: vec3f, radius_m: f32, plane: vec3f, width: f32) -> Silhouette {
+    let offset = centre_m - view.eye_m;
+    let distance = length(offset);
+    if (distance <= radius_m) {
+        return Silhouette(1.0, normalize(plane));
+    }
+    let to_centre = offset / distance;
+    let ray = normalize(plane);
+    // The part of the ray across the axis to the centre; its length is the sine of the angle between them.
+    let across = ray - dot(ray, to_centre) * to_centre;
+    let sine = length(across);
+    let sin_limb = radius_m / distance;
+    let cos_limb = sqrt(1.0 - sin_limb * sin_limb);
+    // asin(sin_limb) - asin(sine), by the sine of the difference: exact at the limb, where it matters.
+    var inward = sin_limb * dot(ray, to_centre) - cos_limb * sine;
+    if (dot(ray, to_centre) <= 0.0) {
+        return Silhouette(0.0, ray);
+    }
+    let outward = across / max(sine, 1e-9);
+    // Unit vector along which the ray turns away from the centre, and its rate a pixel along x and y.
+    let turn = normalize(outward - dot(outward, ray) * ray);
+    let rate = vec2f(dot(turn, view.right), dot(turn, view.up)) * view.pixel_height / length(plane);
+    let pixel = max(length(rate), 1e-12) * width;
+    let depth = inward / pixel + 0.5;
+    let coverage = clamp(depth, 0.0, 1.0);
+    // A partly covered sample is shaded at the middle of what it covers, half of `depth` inside the outline.
+    let limb = sin_limb * outward + cos_limb * to_centre;
+    let step_in = (0.5 * coverage * pixel);
+    let inside = normalize(limb - step_in * (cos_limb * outward - sin_limb * to_centre));
+    return Silhouette(coverage, inside);
+}

@@ -1,0 +1,176 @@
+//! `soapfilm colour`: the colour that a film reflects.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::Args;
+use glam::DVec3;
+
+use super::{AdapterArguments, parse};
+use crate::{
+    gpu::{
+        bake_table::Table,
+        probe_colour::{ProbePoint, probe_colours},
+        timing::Recorder,
+    },
+    input::read_text,
+    output::write_text,
+    physics::{
+        colour::{BT2020, FilmOptics, Illuminant, Walls},
+        optics::FilmIndex,
+    },
+    plan::TableKey,
+};
+
+/// Report the colour that a film reflects.
+#[derive(Args)]
+#[command(after_help = "Example:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), and linear BT.2020 r,g,b.")]
+pub struct Arguments {
+    /// Thickness in nm
+    #[arg(long, value_name = "NM", value_parser = parse::thickness_nm, requires = "cos", required_unless_present = "points")]
+    thickness: Option<f64>,
+    /// Cosine of the angle outside the film
+    #[arg(long, value_name = "C", value_parser = parse::cosine, requires = "thickness")]
+    cos: Option<f64>,
+    /// A CSV file of films
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["thickness", "cos"])]
+    points: Option<PathBuf>,
+    /// `water`, or a refractive index
+    #[arg(long, value_name = "water|INDEX", default_value = "water")]
+    film: FilmIndex,
+    /// The light: D65, D50, A or E
+    #[arg(long, value_name = "NAME", default_value = "D65")]
+    illuminant: String,
+    /// `standard` (through the table that pictures use) or `reference` (f64 on the CPU, no GPU needed)
+    #[arg(long, value_name = "QUALITY", default_value = "standard", value_parser = parse::quality)]
+    quality: parse::Quality,
+    /// Add the reflectance every 5 nm from 360 to 780 nm
+    #[arg(long)]
+    spectrum: bool,
+    /// Write to a file in place of the terminal
+    #[arg(short, value_name = "FILE.csv")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    adapter: AdapterArguments,
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let illuminant: Illuminant = arguments.illuminant.parse()?;
+    let points = points(arguments)?;
+    let optics = FilmOptics::new(arguments.film, &illuminant);
+    let colours = match arguments.quality {
+        parse::Quality::Reference => points.films.iter().map(|film| optics.xyz(film.cos_theta, film.walls)).collect(),
+        parse::Quality::Standard => through_table(arguments, illuminant, &points.films)?,
+    };
+    let text = table(&points, &colours, arguments.spectrum.then_some(&optics))?;
+    match &arguments.output {
+        Some(path) => write_text(path, &text)?,
+        None => print!("{text}"),
+    }
+    Ok(())
+}
+
+/// One line of sight.
+#[derive(Clone, Copy, Debug)]
+struct FilmPoint {
+    cos_theta: f64,
+    walls: Walls,
+}
+
+/// Films to measure, with the text they came from.
+struct Points {
+    header: Vec<String>,
+    rows: Vec<Vec<String>>,
+    films: Vec<FilmPoint>,
+}
+
+fn points(arguments: &Arguments) -> anyhow::Result<Points> {
+    if let Some(path) = &arguments.points {
+        return read_points(path);
+    }
+    let (thickness_nm, cos_theta) = arguments.thickness.zip(arguments.cos).context("give --thickness and --cos, or --points")?;
+    Ok(Points {
+        header: vec!["thickness_nm".to_owned(), "cos_theta".to_owned()],
+        rows: vec![vec![thickness_nm.to_string(), cos_theta.to_string()]],
+        films: vec![FilmPoint { cos_theta, walls: Walls::One { thickness_nm } }],
+    })
+}
+
+fn read_points(path: &Path) -> anyhow::Result<Points> {
+    let text = read_text(path)?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
+    let header: Vec<String> = reader.headers().with_context(|| path.display().to_string())?.iter().map(str::to_owned).collect();
+    let column = |name: &str| header.iter().position(|known| known == name);
+    let needed = |name: &str| column(name).with_context(|| format!("{}:1: no column `{name}`", path.display()));
+    let columns =
+        [needed("thickness_nm")?, needed("cos_theta")?, column("back_nm").unwrap_or(usize::MAX), column("exit_nm").unwrap_or(usize::MAX)];
+    let (mut rows, mut films) = (Vec::new(), Vec::new());
+    for record in reader.records() {
+        let record = record.with_context(|| path.display().to_string())?;
+        let line = record.position().map_or(0, csv::Position::line);
+        films.push(film_of(&record, columns).with_context(|| format!("{}:{line}", path.display()))?);
+        rows.push(record.iter().map(str::to_owned).collect());
+    }
+    anyhow::ensure!(!films.is_empty(), "{}: no points below the header", path.display());
+    Ok(Points { header, rows, films })
+}
+
+fn film_of(record: &csv::StringRecord, [thickness, cosine, back, exit]: [usize; 4]) -> anyhow::Result<FilmPoint> {
+    let parsed = |column: usize, name: &str, parser: fn(&str) -> Result<f64, String>| {
+        let text = record.get(column).unwrap_or("");
+        parser(text).map_err(|reason| anyhow::anyhow!("{name} `{text}`: {reason}"))
+    };
+    let given = |column: usize| record.get(column).is_some_and(|text| !text.is_empty());
+    let front_nm = parsed(thickness, "thickness_nm", parse::thickness_nm)?;
+    let cos_theta = parsed(cosine, "cos_theta", parse::cosine)?;
+    let walls = if given(back) || given(exit) {
+        let back_nm = parsed(back, "back_nm", parse::thickness_nm)?;
+        let exit_nm = parsed(exit, "exit_nm", parse::thickness_nm)?;
+        Walls::Two { front_nm, back_nm, exit_nm }
+    } else {
+        Walls::One { thickness_nm: front_nm }
+    };
+    Ok(FilmPoint { cos_theta, walls })
+}
+
+/// Unpolarised XYZ through the table and the shader functions of pictures.
+fn through_table(arguments: &Arguments, illuminant: Illuminant, films: &[FilmPoint]) -> anyhow::Result<Vec<DVec3>> {
+    let gpu = arguments.adapter.open()?;
+    let points: Vec<ProbePoint> = films.iter().map(probe_point).collect();
+    let thickest = points.iter().flat_map(|point| [point.front_nm, point.back_nm, point.exit_nm]).fold(0.0, f32::max);
+    let key = TableKey::full(arguments.film, illuminant.into(), f64::from(thickest));
+    let baked = Table::new(&gpu, &key);
+    let mut recorder = Recorder::new(&gpu);
+    baked.bake(&mut recorder, &key, 0..key.rows)?;
+    recorder.submit(&Default::default());
+    let mut colours = Vec::with_capacity(films.len());
+    for chunk in probe_colours(&gpu, &baked, &points)? {
+        let rgba: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&chunk.wait(&gpu)?);
+        colours.extend(rgba.iter().map(|[r, g, b, _]| BT2020.to_xyz() * glam::Vec3::new(*r, *g, *b).as_dvec3()));
+    }
+    Ok(colours)
+}
+
+fn probe_point(film: &FilmPoint) -> ProbePoint {
+    let (walls, [front_nm, back_nm, exit_nm]) = match film.walls {
+        Walls::One { thickness_nm } => (1, [thickness_nm, 0.0, 0.0]),
+        Walls::Two { front_nm, back_nm, exit_nm } => (2, [front_nm, back_nm, exit_nm]),
+    };
+    let [front_nm, back_nm, exit_nm] = [front_nm, back_nm, exit_nm].map(|nm| nm as f32);
+    ProbePoint { cos_theta: film.cos_theta as f32, front_nm, back_nm, exit_nm, walls }
+}
+
+fn table(points: &Points, colours: &[DVec3], spectrum: Option<&FilmOptics>) -> anyhow::Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let wavelengths = || (360..=780).step_by(5).map(|nm| format!("R{nm}"));
+    let added = ["X", "Y", "Z", "r", "g", "b"].map(str::to_owned).into_iter();
+    writer.write_record(points.header.iter().cloned().chain(added).chain(wavelengths().filter(|_| spectrum.is_some())))?;
+    for ((row, film), xyz) in points.rows.iter().zip(&points.films).zip(colours) {
+        let rgb = BT2020.from_xyz() * *xyz;
+        let numbers = xyz.to_array().into_iter().chain(rgb.to_array());
+        let samples = spectrum.map(|optics| optics.spectrum(film.cos_theta, film.walls)).unwrap_or_default();
+        let numbers = numbers.chain(samples.into_iter().map(|(_, reflectance)| reflectance));
+        writer.write_record(row.iter().cloned().chain(numbers.map(|number| number.to_string())))?;
+    }
+    Ok(String::from_utf8(writer.into_inner()?)?)
+}

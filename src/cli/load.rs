@@ -1,0 +1,84 @@
+//! Brings a scene and what it names into memory.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use glam::DVec3;
+
+use crate::{
+    input::{self, InputError},
+    physics::{
+        colour::{Illuminant, UnknownIlluminant},
+        environment::{CubeMap, Procedural},
+    },
+    plan::Resources,
+    scene::{Environment, Light, Scene, SceneError, preset, preset_names},
+};
+
+/// A scene, where it came from, and what it names.
+#[derive(Clone, Debug)]
+pub struct LoadedScene {
+    /// The scene.
+    pub scene: Scene,
+    /// A preset's name or a file's path, for titles and messages.
+    pub name: String,
+    /// Folder that relative paths in the scene start from.
+    pub folder: PathBuf,
+    /// What it names.
+    pub resources: Resources,
+}
+
+/// Why a scene cannot be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// Neither a file nor a preset.
+    #[error("no scene file or preset is named `{name}`; presets: {presets}")]
+    NoSuchScene {
+        /// The name given.
+        name: String,
+        /// The presets there are.
+        presets: String,
+    },
+    /// The file's text is not a scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A file cannot be read.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// No such light.
+    #[error(transparent)]
+    Illuminant(#[from] UnknownIlluminant),
+}
+
+/// Loads a preset by name or a scene file by path, with its environment and light.
+pub fn load_scene(name: &str) -> Result<LoadedScene, LoadError> {
+    let path = Path::new(name);
+    let (scene, folder) = match preset(name) {
+        Some(scene) => (scene, PathBuf::new()),
+        None if !path.exists() && path.extension().is_none() => {
+            return Err(LoadError::NoSuchScene { name: name.to_owned(), presets: preset_names().collect::<Vec<_>>().join(", ") });
+        }
+        None => {
+            let text = input::read_text(path)?;
+            (Scene::from_toml(&text, name)?, path.parent().map(Path::to_owned).unwrap_or_default())
+        }
+    };
+    let resources = Resources {
+        environment: load_environment(&scene.light, &folder)?,
+        illuminant: Arc::new(Illuminant::named(&scene.light.illuminant)?),
+    };
+    Ok(LoadedScene { scene, name: name.to_owned(), folder, resources })
+}
+
+/// Loads the environment that a light names; file paths start from a folder.
+pub fn load_environment(light: &Light, folder: &Path) -> Result<Arc<CubeMap>, LoadError> {
+    let map = match &light.environment {
+        _ if light.constant.is_some() => CubeMap::constant(DVec3::ONE),
+        Environment::Tent => CubeMap::from_procedural(Procedural::Tent),
+        Environment::Windows => CubeMap::from_procedural(Procedural::Windows),
+        Environment::File(path) => CubeMap::from_equirect(&input::load_environment(&folder.join(path))?),
+    };
+    Ok(Arc::new(map))
+}

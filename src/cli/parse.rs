@@ -1,0 +1,102 @@
+//! Parsers of single arguments.
+
+/// Pixels of the largest picture: what a card of 4 GB can hold at full precision.
+const MAX_PIXELS: u64 = 1 << 26;
+
+/// `1280x720`.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
+    let parts = text.split_once(['x', 'X']).ok_or("write a size as WIDTHxHEIGHT, as in 1280x720")?;
+    let number = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is not a number of pixels"));
+    let size = [number(parts.0)?, number(parts.1)?];
+    let pixels = size.map(u64::from).iter().product::<u64>();
+    match pixels {
+        0 => Err("a picture needs at least one pixel each way".to_owned()),
+        pixels if pixels > MAX_PIXELS => Err(format!("that is {pixels} pixels; at most {MAX_PIXELS} (8192x8192) fit")),
+        _ => Ok(size),
+    }
+}
+
+/// A time in seconds, from 0.
+pub fn time_s(text: &str) -> Result<f64, String> {
+    let time = finite(text)?;
+    if time < 0.0 { Err("a time before the start: use 0 or later".to_owned()) } else { Ok(time) }
+}
+
+/// A number that is neither infinite nor NaN.
+pub fn finite(text: &str) -> Result<f64, String> {
+    text.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(|| "not a finite number".to_owned())
+}
+
+/// `X,Y,Z`, not all zero.
+pub fn direction(text: &str) -> Result<glam::DVec3, String> {
+    let numbers = text.split(',').map(finite).collect::<Result<Vec<_>, _>>()?;
+    let [x, y, z] = numbers[..] else { return Err("write a direction as X,Y,Z".to_owned()) };
+    glam::DVec3::new(x, y, z).try_normalize().ok_or_else(|| "a direction must not be 0,0,0".to_owned())
+}
+
+/// A cosine in [0, 1].
+pub fn cosine(text: &str) -> Result<f64, String> {
+    let value = finite(text)?;
+    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a cosine lies between 0 and 1".to_owned()) }
+}
+
+/// A thickness in nm.
+pub fn thickness_nm(text: &str) -> Result<f64, String> {
+    let value = finite(text)?;
+    if (0.0..=10_000.0).contains(&value) { Ok(value) } else { Err("a thickness lies between 0 and 10000 nm".to_owned()) }
+}
+
+/// How colours are found: see the crate's documentation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quality {
+    /// The lookup table.
+    Standard,
+    /// f64 on the CPU.
+    Reference,
+}
+
+/// `standard` or `reference`; those that will come are refused by name.
+pub fn quality(text: &str) -> Result<Quality, String> {
+    match text {
+        "standard" => Ok(Quality::Standard),
+        "reference" => Ok(Quality::Reference),
+        "fast" | "spectral" => Err(format!("quality `{text}` is not built yet; use `standard` or `reference`")),
+        _ => Err("use `standard` or `reference`".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size("1280x720"), Ok([1280, 720]));
+        for wrong in ["0x0", "0x5", "100000x100000", "12", "axb", "-1x5", "99999999999x1", ""] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn numbers_must_be_finite() {
+        for wrong in ["nan", "inf", "-inf", "", "1,2"] {
+            assert!(finite(wrong).is_err() && time_s(wrong).is_err(), "{wrong}");
+        }
+        assert!(time_s("-1").is_err());
+        assert_eq!(time_s("2.5"), Ok(2.5));
+    }
+
+    #[test]
+    fn directions_are_normalised_and_never_zero() {
+        assert_eq!(direction("0,0,2"), Ok(glam::DVec3::Z));
+        for wrong in ["0,0,0", "1,2", "1,2,3,4", "a,b,c"] {
+            assert!(direction(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn qualities_to_come_are_refused_by_name() {
+        assert_eq!(quality("standard"), Ok(Quality::Standard));
+        assert!(quality("spectral").unwrap_err().contains("not built yet"));
+    }
+}

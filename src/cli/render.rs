@@ -1,0 +1,148 @@
+//! `soapfilm render`: one picture.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, bail};
+use clap::Args;
+
+use super::{AdapterArguments, measure, parse};
+use crate::{
+    gpu::{GpuError, Renderer},
+    input::{LoadedScene, load_scene},
+    output::{Picture, save_picture},
+    physics::picture,
+    plan::{Moment, Pace, Shot, Want, want},
+};
+
+/// Draw one picture into a PNG or EXR file.
+#[derive(Args)]
+#[command(after_help = "Example:\n  soapfilm render windows -o bubble.png --size 1920x1080 --time 5\n\nPNG shows what the window shows. EXR holds linear BT.709 scene radiance as f32, before exposure and tone mapping.")]
+pub struct Arguments {
+    /// A scene file, or the name of a preset
+    scene: String,
+    /// The file to write, .png or .exr
+    #[arg(short, value_name = "FILE")]
+    output: PathBuf,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse::size)]
+    size: [u32; 2],
+    /// Moment of the film, in seconds from its start
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = parse::time_s)]
+    time: f64,
+    /// `standard` (the lookup table) or `reference` (f64 on the CPU, no GPU needed)
+    #[arg(long, value_name = "QUALITY", default_value = "standard", value_parser = parse::quality)]
+    quality: parse::Quality,
+    /// Print the frame plan, and why each pass runs
+    #[arg(long)]
+    explain: bool,
+    /// Draw the frame so many times more, everything but the bakes anew each time, and measure
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    repeat: u32,
+    /// Between the repeated frames, draw as many with a plain sphere that does one environment lookup, and report both
+    #[arg(long)]
+    yardstick: bool,
+    /// Write what the frame cost to a JSON file
+    #[arg(long, value_name = "FILE.json")]
+    stats: Option<PathBuf>,
+    #[command(flatten)]
+    adapter: AdapterArguments,
+}
+
+/// Ticks that one picture may need: a day at 60 a second takes hours, more is a slip of the pen.
+const MAX_TICKS: u64 = 10_000_000;
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let format = Format::of(arguments)?;
+    let loaded = load_scene(&arguments.scene)?;
+    let moment = Moment::of_time(arguments.time, loaded.scene.motion.tick_s);
+    if moment.tick > MAX_TICKS {
+        bail!("--time {} is {} ticks of this scene; at most {MAX_TICKS} can be simulated", arguments.time, moment.tick);
+    }
+    let shot = Shot {
+        size: arguments.size,
+        moment,
+        full_precision: format == Format::Exr,
+        yardstick: false,
+        pace: Pace::Whole,
+    };
+    let want = want(&loaded.scene, &loaded.resources, &shot)?;
+    let picture = match arguments.quality {
+        parse::Quality::Standard => draw(arguments, &want, format)?,
+        parse::Quality::Reference => compute(arguments, &want, format)?,
+    };
+    save_picture(&arguments.output, &picture, &metadata(arguments, &loaded))?;
+    Ok(())
+}
+
+/// The kind of file to write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Png,
+    Exr,
+}
+
+impl Format {
+    fn of(arguments: &Arguments) -> anyhow::Result<Self> {
+        let ending = arguments.output.extension().and_then(|ending| ending.to_str()).unwrap_or("").to_ascii_lowercase();
+        match ending.as_str() {
+            "png" => Ok(Self::Png),
+            "exr" => Ok(Self::Exr),
+            _ => bail!("{}: write to a file that ends in .png or .exr", arguments.output.display()),
+        }
+    }
+}
+
+fn draw(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result<Picture> {
+    let mut renderer = Renderer::new(arguments.adapter.open()?);
+    fits(&renderer, arguments.size)?;
+    let plan = renderer.bring(want)?;
+    if arguments.explain {
+        print!("{plan}");
+    }
+    let picture = match format {
+        Format::Png => renderer.read_picture(),
+        Format::Exr => renderer.read_radiance(),
+    };
+    let bytes = picture.context("no picture was drawn")?.wait(&renderer.gpu)?;
+    let first = measure::passes(&renderer);
+    if arguments.repeat > 0 || arguments.stats.is_some() {
+        let cost = measure::frames(&mut renderer, want, arguments.repeat, arguments.yardstick)?;
+        measure::report(&renderer, &first, &cost, arguments.stats.as_deref())?;
+    }
+    let picture = match format {
+        Format::Png => Picture::Display { size: arguments.size, rgba: bytes },
+        Format::Exr => Picture::radiance_from_bt2020(arguments.size, &bytemuck::pod_collect_to_vec(&bytes)),
+    };
+    Ok(picture)
+}
+
+/// Refuses a picture that the adapter cannot hold before anything is made for it.
+fn fits(renderer: &Renderer, [width, height]: [u32; 2]) -> Result<(), GpuError> {
+    let limits = renderer.gpu.device.limits();
+    let side = limits.max_texture_dimension_2d;
+    if width.max(height) > side {
+        let limit = format!("its textures have at most {side} pixels a side");
+        return Err(GpuError::TooLarge { width, height, limit });
+    }
+    Ok(())
+}
+
+fn compute(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result<Picture> {
+    if arguments.explain {
+        println!("reference picture on the CPU: no passes");
+    }
+    let radiance = picture::radiance(&want.picture.draw)?;
+    Ok(match format {
+        Format::Png => Picture::Display { size: arguments.size, rgba: picture::display(&want.picture, &radiance) },
+        Format::Exr => Picture::radiance_from_bt2020(arguments.size, &radiance),
+    })
+}
+
+fn metadata(arguments: &Arguments, loaded: &LoadedScene) -> Vec<(String, String)> {
+    let entry = |key: &str, value: String| (key.to_owned(), value);
+    vec![
+        entry("Software", format!("soapfilm {}", env!("CARGO_PKG_VERSION"))),
+        entry("Scene", loaded.name.clone()),
+        entry("Time", format!("{} s", arguments.time)),
+    ]
+}

@@ -1,0 +1,270 @@
+//! `soapfilm transport`: the published tests of transport on the sphere, on the GPU.
+
+use std::{path::PathBuf, time::Instant};
+
+use clap::{Args, ValueEnum};
+use cpu_time::ProcessTime;
+use glam::DVec3;
+use rayon::prelude::*;
+use serde_json::json;
+
+use super::{AdapterArguments, parse};
+use crate::{
+    gpu::{Gpu, GpuError, advance_map::Step, film::Field, timing::Recorder},
+    output::write_text,
+    physics::{
+        sphere::CubedSphere,
+        transport::{Measured, PERIOD, Quantity, Tracer, TracerKind, Wind, WindKind, exact, measure},
+    },
+};
+
+/// Run a published test of transport on the sphere.
+#[derive(Args)]
+#[command(after_help = "Example:\n  soapfilm transport --wind nd --tracer cb --cells 60 --steps 120 --json norms.json")]
+pub struct Arguments {
+    /// Solid body, non-divergent or divergent
+    #[arg(long, value_name = "sb|nd|dv")]
+    wind: WindKind,
+    /// Gaussian hills, cosine bells, correlated cosine bells, slotted cylinders, or the bell of test case 1
+    #[arg(long, value_name = "gh|cb|ccb|sc|tc1")]
+    tracer: TracerKind,
+    /// Cells along an edge of the cube
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=1024))]
+    cells: u32,
+    /// Steps a period
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    steps: u32,
+    /// Periods
+    #[arg(long, value_name = "P", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    periods: u32,
+    /// Stop after this part of all steps
+    #[arg(long, value_name = "F", default_value = "1", value_parser = fraction)]
+    until: f64,
+    /// Axis of the wind [default: 1,0,0 for sb, 0,0,1 for nd and dv]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse::direction, allow_hyphen_values = true)]
+    axis: Option<DVec3>,
+    /// Put one feature of the tracer there
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse::direction, allow_hyphen_values = true)]
+    tracer_at: Option<DVec3>,
+    /// What the tracer stands for: `density` or `ratio`; they differ in the divergent wind
+    #[arg(long, value_name = "density|ratio", default_value = "density")]
+    kind: Quantity,
+    /// How the tracer is moved: the flow map remapped rarely, or at each step
+    #[arg(long, value_name = "map|bicubic", default_value = "map", value_parser = scheme)]
+    scheme: Scheme,
+    /// Limiter of over- and undershoots
+    #[arg(long, value_name = "on|off", default_value = "off")]
+    limiter: Switch,
+    /// Write every cell to a CSV file
+    #[arg(short, value_name = "FILE.csv")]
+    output: Option<PathBuf>,
+    /// Write the norms to a JSON file
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    adapter: AdapterArguments,
+}
+
+/// How often the flow map is remapped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Scheme {
+    /// At each step: semi-Lagrangian, bicubic.
+    Bicubic,
+    /// Five times a period.
+    Map,
+}
+
+impl Scheme {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Bicubic => "bicubic",
+            Self::Map => "map",
+        }
+    }
+
+    /// Steps from one remap to the next.
+    fn interval(self, steps_a_period: u32) -> u32 {
+        match self {
+            Self::Bicubic => 1,
+            Self::Map => (steps_a_period / 5).max(1),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Switch {
+    On,
+    Off,
+}
+
+fn scheme(text: &str) -> Result<Scheme, String> {
+    match text {
+        "bicubic" => Ok(Scheme::Bicubic),
+        "map" => Ok(Scheme::Map),
+        "bilinear" | "bfecc" | "map-accurate" => Err(format!("scheme `{text}` is not built yet; use `map` or `bicubic`")),
+        _ => Err("use `map` or `bicubic`".to_owned()),
+    }
+}
+
+fn fraction(text: &str) -> Result<f64, String> {
+    let value = parse::finite(text)?;
+    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a part lies between 0 and 1".to_owned()) }
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    anyhow::ensure!(arguments.limiter == Switch::Off, "the limiter is not built yet; use --limiter off");
+    if arguments.wind == WindKind::Divergent && arguments.kind == Quantity::Density {
+        anyhow::bail!("a density in the divergent wind is not built yet; use --kind ratio");
+    }
+    let case = Case::new(arguments)?;
+    let gpu = arguments.adapter.open()?;
+    let moved = case.run(&gpu)?;
+    let norms = case.measure(&moved.values);
+    println!(
+        "{} steps of {}, {} remaps: l1 {:.6}, l2 {:.6}, linf {:.6}, range {:.6} to {:.6}",
+        moved.steps, case.scheme.name(), moved.remaps, norms.l1, norms.l2, norms.linf, norms.min, norms.max
+    );
+    if let Some(path) = &arguments.output {
+        write_text(path, &case.cells_csv(&moved.values))?;
+    }
+    if let Some(path) = &arguments.json {
+        let copy_ms = copy_ms_per_step(&gpu, &case)?;
+        write_text(path, &serde_json::to_string_pretty(&case.json(&norms, &moved, arguments.kind, copy_ms))?)?;
+    }
+    Ok(())
+}
+
+/// One test, with all it needs.
+struct Case {
+    grid: CubedSphere,
+    wind: Wind,
+    tracer: Tracer,
+    scheme: Scheme,
+    steps_a_period: u32,
+    steps: u64,
+}
+
+/// What a run left.
+struct Moved {
+    values: Vec<f64>,
+    steps: u64,
+    remaps: u64,
+    wall_ms: f64,
+    cpu_ms: f64,
+}
+
+/// Steps in one submission, so that none runs long.
+const STEPS_A_SUBMISSION: u64 = 16;
+
+impl Case {
+    fn new(arguments: &Arguments) -> anyhow::Result<Self> {
+        let wind = Wind::new(arguments.wind, arguments.axis)?;
+        let tracer = match arguments.tracer_at {
+            Some(place) => Tracer::at(arguments.tracer, place)?,
+            None => Tracer::new(arguments.tracer, wind.tracer_rotation()),
+        };
+        let all = f64::from(arguments.steps) * f64::from(arguments.periods);
+        Ok(Self {
+            grid: CubedSphere::new(arguments.cells as usize)?,
+            wind,
+            tracer,
+            scheme: arguments.scheme,
+            steps_a_period: arguments.steps,
+            steps: (arguments.until * all).round() as u64,
+        })
+    }
+
+    /// Time after so many steps.
+    fn time(&self, steps: u64) -> f64 {
+        PERIOD * steps as f64 / f64::from(self.steps_a_period)
+    }
+
+    fn initial(&self) -> Vec<f64> {
+        (0..self.grid.cells()).into_par_iter().map(|cell| self.tracer.value(self.grid.cell_direction(cell))).collect()
+    }
+
+    fn run(&self, gpu: &Gpu) -> Result<Moved, GpuError> {
+        let mut field = Field::new(gpu, self.grid);
+        let mut recorder = Recorder::new(gpu);
+        let initial: Vec<f32> = self.initial().iter().map(|value| *value as f32).collect();
+        field.seed(&mut recorder, &initial)?;
+        recorder.submit(&Default::default());
+        gpu.wait()?;
+        let (cpu, wall) = (ProcessTime::now(), Instant::now());
+        let interval = u64::from(self.scheme.interval(self.steps_a_period));
+        for first in (0..self.steps).step_by(STEPS_A_SUBMISSION as usize) {
+            let mut recorder = Recorder::new(gpu);
+            for step in first..(first + STEPS_A_SUBMISSION).min(self.steps) {
+                let wind = Step::wind(&self.wind, self.time(step), self.time(step + 1));
+                field.advance(&mut recorder, &wind, (step + 1) % interval == 0)?;
+            }
+            recorder.submit(&Default::default());
+            gpu.wait()?;
+        }
+        let per_step = |ms: f64| ms / self.steps.max(1) as f64;
+        let (cpu_ms, wall_ms) = (cpu.elapsed().as_secs_f64() * 1e3, wall.elapsed().as_secs_f64() * 1e3);
+        let mut recorder = Recorder::new(gpu);
+        field.show(&mut recorder, None)?;
+        recorder.submit(&Default::default());
+        let padded: Vec<f32> = bytemuck::pod_collect_to_vec(&field.read_shown(gpu).wait(gpu)?);
+        let values = field.inner(&padded).into_iter().map(f64::from).collect();
+        Ok(Moved { values, steps: self.steps, remaps: self.steps / interval, wall_ms: per_step(wall_ms), cpu_ms: per_step(cpu_ms) })
+    }
+
+    fn measure(&self, values: &[f64]) -> Measured {
+        let time = self.time(self.steps);
+        // Four times the steps of the run: the exact answer's own error is then far below the scheme's.
+        let steps = (4 * self.steps).clamp(400, 100_000) as u32;
+        let answer = |cell: usize| {
+            exact(&self.wind, &self.tracer, Quantity::Ratio, self.grid.cell_direction(cell), time, steps)
+        };
+        let answers: Vec<f64> = (0..self.grid.cells()).into_par_iter().map(answer).collect();
+        measure(self.grid, values, &answers, &self.initial())
+    }
+
+    fn cells_csv(&self, values: &[f64]) -> String {
+        let areas = self.grid.areas();
+        let mut text = String::from("x,y,z,area,value\n");
+        for (cell, value) in values.iter().enumerate() {
+            let at = self.grid.cell_direction(cell);
+            text.push_str(&format!("{},{},{},{},{value}\n", at.x, at.y, at.z, areas[cell]));
+        }
+        text
+    }
+
+    fn json(&self, norms: &Measured, moved: &Moved, kind: Quantity, copy_ms: f64) -> serde_json::Value {
+        json!({
+            "l1": norms.l1,
+            "l2": norms.l2,
+            "linf": norms.linf,
+            "mass_drift": (kind == Quantity::Density).then_some(norms.mass_drift),
+            "min": norms.min,
+            "max": norms.max,
+            "steps": moved.steps,
+            "cells": self.grid.cells(),
+            "remaps": moved.remaps,
+            "scheme": self.scheme.name(),
+            "wall_ms_per_step": moved.wall_ms,
+            "cpu_ms_per_step": moved.cpu_ms,
+            "copy_ms_per_step": copy_ms,
+        })
+    }
+}
+
+/// Wall time of a copy of what a step reads and writes, the map and the tracer: the floor under any step.
+fn copy_ms_per_step(gpu: &Gpu, case: &Case) -> Result<f64, GpuError> {
+    const COPIES: u32 = 16;
+    let field = Field::new(gpu, case.grid);
+    let copies = || {
+        let mut recorder = Recorder::new(gpu);
+        for _ in 0..COPIES {
+            field.copy_state(&mut recorder);
+        }
+        recorder.submit(&Default::default());
+        gpu.wait()
+    };
+    copies()?;
+    let wall = Instant::now();
+    copies()?;
+    Ok(wall.elapsed().as_secs_f64() * 1e3 / f64::from(COPIES))
+}

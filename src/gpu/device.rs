@@ -1,0 +1,299 @@
+//! The adapter and device that everything runs on, and what can go wrong with them.
+
+use std::sync::{
+    Arc, Mutex,
+    atomic::{AtomicBool, AtomicU64, Ordering},
+};
+
+use super::{pipelines::Pipelines, shaders::ShaderError};
+
+/// What a user asked for; without a name or backend the best adapter there is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AdapterChoice {
+    /// Part of the adapter's name, in any case.
+    pub name: Option<String>,
+    /// `vulkan`, `metal`, `dx12` or `gl`.
+    pub backend: Option<String>,
+}
+
+impl AdapterChoice {
+    /// The choice of the environment variables `WGPU_ADAPTER_NAME` and `WGPU_BACKEND`, for whatever this one leaves open.
+    #[must_use]
+    pub fn or_env(self) -> Self {
+        let read = |key| std::env::var(key).ok().filter(|value: &String| !value.is_empty());
+        Self { name: self.name.or_else(|| read("WGPU_ADAPTER_NAME")), backend: self.backend.or_else(|| read("WGPU_BACKEND")) }
+    }
+
+    fn backends(&self) -> Result<wgpu::Backends, GpuError> {
+        let Some(names) = &self.backend else { return Ok(wgpu::Backends::all()) };
+        let mut backends = wgpu::Backends::empty();
+        for name in names.split(',') {
+            backends |= match name.trim().to_ascii_lowercase().as_str() {
+                "vulkan" | "vk" => wgpu::Backends::VULKAN,
+                "metal" | "mtl" => wgpu::Backends::METAL,
+                "dx12" | "d3d12" => wgpu::Backends::DX12,
+                "gl" | "gles" | "opengl" => wgpu::Backends::GL,
+                _ => return Err(GpuError::UnknownBackend(name.trim().to_owned())),
+            };
+        }
+        Ok(backends)
+    }
+}
+
+/// Why there is no GPU to draw with, or why it failed.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum GpuError {
+    /// The backend's name is not one that exists.
+    #[error("unknown graphics backend `{0}`: use vulkan, metal, dx12 or gl")]
+    UnknownBackend(String),
+    /// No driver at all.
+    #[error("no graphics adapter found{0}: install a Vulkan, Metal, DX12 or OpenGL ES driver (on Linux without a GPU: Mesa's lavapipe)")]
+    NoAdapter(String),
+    /// An adapter was named, and is not there.
+    #[error("no graphics adapter is named `{name}`; found: {found}")]
+    NoSuchAdapter {
+        /// The name asked for.
+        name: String,
+        /// The adapters that exist.
+        found: String,
+    },
+    /// The adapter cannot do what the program needs.
+    #[error("adapter {adapter} cannot be used: {reason}; choose another with --adapter or --backend")]
+    NoDevice {
+        /// The adapter's name.
+        adapter: String,
+        /// What the driver said.
+        reason: String,
+    },
+    /// The device went away while in use.
+    #[error("the graphics device was lost: {0}")]
+    Lost(String),
+    /// The driver refused something that the program recorded.
+    #[error("the graphics driver refused a command: {0}")]
+    Refused(String),
+    /// A picture larger than the adapter can hold.
+    #[error("a picture of {width}x{height} pixels does not fit this adapter: {limit}")]
+    TooLarge {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+        /// Which limit is passed.
+        limit: String,
+    },
+    /// A shader does not compile.
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
+}
+
+/// Adapter, device, queue, and the pipelines made so far.
+pub struct Gpu {
+    /// The instance that the adapter came from; windows make their surfaces with it.
+    pub instance: wgpu::Instance,
+    /// The adapter in use.
+    pub adapter: wgpu::Adapter,
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    /// Pipelines, made on first use.
+    pub pipelines: Pipelines,
+    lost: Arc<AtomicBool>,
+    failure: Arc<Mutex<Option<GpuError>>>,
+    uploaded_bytes: AtomicU64,
+}
+
+impl Gpu {
+    /// Opens the chosen adapter without a window.
+    pub async fn headless(choice: &AdapterChoice) -> Result<Self, GpuError> {
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        descriptor.backends = choice.backends()?;
+        let instance = wgpu::Instance::new(descriptor);
+        Self::on_instance(instance, choice, None).await
+    }
+
+    /// The instance for a choice, for use with a window system's display.
+    pub fn instance_for(choice: &AdapterChoice, display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>) -> Result<wgpu::Instance, GpuError> {
+        let mut descriptor = wgpu::InstanceDescriptor::new_with_display_handle(display);
+        descriptor.backends = choice.backends()?;
+        Ok(wgpu::Instance::new(descriptor))
+    }
+
+    /// Opens the chosen adapter of an instance; with a surface, one that can present to it.
+    pub async fn on_instance(
+        instance: wgpu::Instance,
+        choice: &AdapterChoice,
+        surface: Option<&wgpu::Surface<'_>>,
+    ) -> Result<Self, GpuError> {
+        let adapter = find_adapter(&instance, choice, surface).await?;
+        let info = adapter.get_info();
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("soapfilm"),
+            required_features: adapter.features() & OPTIONAL_FEATURES,
+            required_limits: limits_for(&adapter.limits()),
+            ..Default::default()
+        };
+        let (device, queue) = adapter
+            .request_device(&descriptor)
+            .await
+            .map_err(|error| GpuError::NoDevice { adapter: info.name.clone(), reason: error.to_string() })?;
+        let lost = Arc::new(AtomicBool::new(false));
+        let failure = Arc::new(Mutex::new(None));
+        watch(&device, &lost, &failure);
+        let pipelines = Pipelines::new();
+        Ok(Self { instance, adapter, device, queue, pipelines, lost, failure, uploaded_bytes: AtomicU64::new(0) })
+    }
+
+    /// Name of the adapter, with its backend: what every command prints.
+    #[must_use]
+    pub fn adapter_name(&self) -> String {
+        let info = self.adapter.get_info();
+        format!("{} ({:?})", info.name, info.backend)
+    }
+
+    /// The driver's name and version.
+    #[must_use]
+    pub fn driver(&self) -> String {
+        let info = self.adapter.get_info();
+        format!("{} {}", info.driver, info.driver_info).trim().to_owned()
+    }
+
+    /// Whether passes can be timed on the GPU.
+    #[must_use]
+    pub fn can_time(&self) -> bool {
+        self.device.features().contains(wgpu::Features::TIMESTAMP_QUERY)
+    }
+
+    /// Fails if the device was lost or refused a command since the last call.
+    pub fn check(&self) -> Result<(), GpuError> {
+        match self.failure.lock().map(|mut failure| failure.take()) {
+            Ok(Some(error)) => Err(error),
+            _ if self.is_lost() => Err(GpuError::Lost("make a new one".to_owned())),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether the device is gone and everything on it with it.
+    #[must_use]
+    pub fn is_lost(&self) -> bool {
+        self.lost.load(Ordering::Relaxed)
+    }
+
+    /// Bytes sent to the device so far.
+    #[must_use]
+    pub fn uploaded_bytes(&self) -> u64 {
+        self.uploaded_bytes.load(Ordering::Relaxed)
+    }
+
+    /// Counts bytes that are about to be sent by other means than [`Gpu::upload`].
+    pub fn count_upload(&self, bytes: usize) {
+        self.uploaded_bytes.fetch_add(bytes as u64, Ordering::Relaxed);
+    }
+
+    /// Writes plain data to the start of a buffer.
+    pub fn upload<T: bytemuck::NoUninit>(&self, buffer: &wgpu::Buffer, data: &[T]) {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        self.count_upload(bytes.len());
+        self.queue.write_buffer(buffer, 0, bytes);
+    }
+
+    /// A buffer of a given size and use, filled with zeros.
+    #[must_use]
+    pub fn buffer(&self, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+    }
+
+    /// A uniform buffer that holds one value.
+    #[must_use]
+    pub fn uniform<T: bytemuck::NoUninit>(&self, label: &str, value: &T) -> wgpu::Buffer {
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let buffer = self.buffer(label, size_of::<T>() as u64, usage);
+        self.upload(&buffer, std::slice::from_ref(value));
+        buffer
+    }
+
+    /// A storage buffer that holds a list, which must not be empty.
+    #[must_use]
+    pub fn storage<T: bytemuck::NoUninit>(&self, label: &str, values: &[T]) -> wgpu::Buffer {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        let buffer = self.buffer(label, size_of_val(values) as u64, usage);
+        self.upload(&buffer, values);
+        buffer
+    }
+
+    /// A bind group of resources numbered from 0.
+    #[must_use]
+    pub fn bind(&self, layout: &wgpu::BindGroupLayout, resources: &[wgpu::BindingResource<'_>]) -> wgpu::BindGroup {
+        let entry = |(binding, resource): (usize, &wgpu::BindingResource<'_>)| wgpu::BindGroupEntry {
+            binding: binding as u32,
+            resource: resource.clone(),
+        };
+        let entries: Vec<_> = resources.iter().enumerate().map(entry).collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+    }
+
+    /// Waits until the device has done all that was submitted. Not for browsers, where nothing may block.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn wait(&self) -> Result<(), GpuError> {
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Lost(error.to_string()))?;
+        self.check()
+    }
+}
+
+/// What is used where it exists and done without elsewhere.
+pub const OPTIONAL_FEATURES: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY;
+
+/// WebGPU's guaranteed limits, which every shader keeps to, with pictures as large as the adapter can hold.
+fn limits_for(adapter: &wgpu::Limits) -> wgpu::Limits {
+    wgpu::Limits {
+        max_texture_dimension_2d: adapter.max_texture_dimension_2d,
+        max_buffer_size: adapter.max_buffer_size,
+        ..Default::default()
+    }
+}
+
+async fn find_adapter(
+    instance: &wgpu::Instance,
+    choice: &AdapterChoice,
+    surface: Option<&wgpu::Surface<'_>>,
+) -> Result<wgpu::Adapter, GpuError> {
+    let backends = choice.backends()?;
+    let Some(name) = &choice.name else {
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            compatible_surface: surface,
+            ..Default::default()
+        };
+        let backend = choice.backend.as_ref().map(|name| format!(" for backend {name}")).unwrap_or_default();
+        return instance.request_adapter(&options).await.map_err(|_| GpuError::NoAdapter(backend));
+    };
+    let adapters = instance.enumerate_adapters(backends).await;
+    let found = adapters.iter().map(|adapter| adapter.get_info().name).collect::<Vec<_>>().join(", ");
+    adapters
+        .into_iter()
+        .find(|adapter| {
+            let matches = adapter.get_info().name.to_lowercase().contains(&name.to_lowercase());
+            matches && surface.is_none_or(|surface| adapter.is_surface_supported(surface))
+        })
+        .ok_or_else(|| GpuError::NoSuchAdapter {
+            name: name.clone(),
+            found: if found.is_empty() { "none at all".to_owned() } else { found },
+        })
+}
+
+/// Keeps what the device reports by callback, so that the next [`Gpu::check`] returns it as an error.
+fn watch(device: &wgpu::Device, lost: &Arc<AtomicBool>, failure: &Arc<Mutex<Option<GpuError>>>) {
+    let gone = lost.clone();
+    device.set_device_lost_callback(move |_, message| {
+        log::warn!("graphics device lost: {message}");
+        gone.store(true, Ordering::Relaxed);
+    });
+    let failure = failure.clone();
+    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+        let text = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+        log::error!("{text}");
+        if let Ok(mut failure) = failure.lock() {
+            failure.get_or_insert(GpuError::Refused(text));
+        }
+    }));
+}

@@ -1,0 +1,250 @@
+//! Draws the linear picture: the backdrop, then each bubble through its bounding quad.
+
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+
+use super::{
+    Gpu, GpuError,
+    bake_table::{Table, table_sampler},
+    environment::{Environment, texel_angle},
+    pipelines::RenderKey,
+    timing::Recorder,
+};
+use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmKey};
+
+/// The camera: see `shaders/camera/view.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct ViewUniform {
+    /// The eye.
+    pub eye_m: [f32; 3],
+    /// Height of a pixel on the plane one metre before the eye.
+    pub pixel_height: f32,
+    /// Line of sight.
+    pub forward: [f32; 3],
+    /// Picture width in pixels.
+    pub width: f32,
+    /// Right of the picture.
+    pub right: [f32; 3],
+    /// Picture height in pixels.
+    pub height: f32,
+    /// Top of the picture.
+    pub up: [f32; 3],
+    pad: f32,
+}
+
+/// The light: see `shaders/light/environment.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct LightUniform {
+    /// Factor on the environment's radiance.
+    pub gain: [f32; 3],
+    /// Angle between texels of its finest level.
+    pub texel_angle: f32,
+    /// Radiance of the backdrop where it is a colour.
+    pub backdrop: [f32; 3],
+    /// 1 where the backdrop is the environment.
+    pub backdrop_is_environment: f32,
+    /// The illuminant's white.
+    pub white: [f32; 3],
+    /// Cosine of the environment's turn.
+    pub turn_cos: f32,
+    /// Sine of the environment's turn.
+    pub turn_sin: f32,
+    pad: [f32; 3],
+}
+
+/// One bubble: see `shaders/pass/bubble.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct BubbleUniform {
+    /// Centre.
+    pub centre_m: [f32; 3],
+    /// Radius.
+    pub radius_m: f32,
+    /// Left, bottom, right, top in clip coordinates.
+    pub bounds: [f32; 4],
+    /// Thickness of a uniform film, in nm.
+    pub thickness_nm: f32,
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    pad: [u32; 2],
+}
+
+/// What a draw reads that other passes left.
+pub struct DrawInputs<'a> {
+    /// The environment.
+    pub environment: &'a Environment,
+    /// The table.
+    pub table: Option<&'a Table>,
+    /// Shown thickness of a film, by its index.
+    pub thickness: &'a dyn Fn(usize) -> Option<&'a wgpu::Buffer>,
+}
+
+/// Pixels that one submission draws at most, so that none runs long.
+const PIXELS_A_SUBMISSION: u32 = 2_000_000;
+
+/// Horizontal strips that a picture is cut into.
+pub fn strips([width, height]: [u32; 2]) -> impl Iterator<Item = std::ops::Range<u32>> {
+    let rows = (PIXELS_A_SUBMISSION / width.max(1)).max(1);
+    (0..height).step_by(rows as usize).map(move |top| top..(top + rows).min(height))
+}
+
+/// The uniforms and bind groups of one picture, made once and used for each of its strips.
+pub struct DrawPass {
+    backdrop: (wgpu::RenderPipeline, wgpu::BindGroup),
+    bubbles: Vec<(wgpu::RenderPipeline, wgpu::BindGroup)>,
+    width: u32,
+}
+
+impl DrawPass {
+    /// Makes ready what a key asks for.
+    pub fn new(gpu: &Gpu, key: &DrawKey, inputs: &DrawInputs<'_>) -> Result<Self, GpuError> {
+        let view = gpu.uniform("view", &view_uniform(key));
+        let light = gpu.uniform("light", &light_uniform(key));
+        let shared = [
+            view.as_entire_binding(),
+            light.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&inputs.environment.view),
+            wgpu::BindingResource::Sampler(&inputs.environment.sampler),
+        ];
+        let backdrop_key = RenderKey {
+            pass: "backdrop",
+            vertex: "cover",
+            fragment: "backdrop",
+            format: radiance_format(key.full_precision),
+            constants: vec![],
+        };
+        let pipeline = gpu.pipelines.render(gpu, &backdrop_key)?;
+        let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &shared);
+        let mut pass = Self { backdrop: (pipeline, bindings), bubbles: Vec::new(), width: key.size[0] };
+        let Some(table) = inputs.table else { return Ok(pass) };
+        let sampler = table_sampler(gpu);
+        // Where the film is uniform no field is read, and any small buffer will do.
+        let no_field = gpu.buffer("no field", 4, wgpu::BufferUsages::STORAGE);
+        for bubble in &key.bubbles {
+            let pipeline = gpu.pipelines.render(gpu, &bubble_pipeline(key, bubble))?;
+            let uniform = gpu.uniform("bubble", &bubble_uniform(bubble));
+            let film = (inputs.thickness)(bubble.index).unwrap_or(&no_field);
+            let own = [
+                uniform.as_entire_binding(),
+                table.axes.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&table.view),
+                wgpu::BindingResource::Sampler(&sampler),
+                film.as_entire_binding(),
+            ];
+            let resources: Vec<_> = shared.iter().chain(&own).cloned().collect();
+            let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &resources);
+            pass.bubbles.push((pipeline, bindings));
+        }
+        Ok(pass)
+    }
+
+    /// Records some rows of the picture.
+    pub fn record(&self, recorder: &mut Recorder<'_>, target: &wgpu::TextureView, rows: std::ops::Range<u32>) {
+        recorder.render("draw", target, |pass| {
+            pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
+            pass.set_pipeline(&self.backdrop.0);
+            pass.set_bind_group(0, &self.backdrop.1, &[]);
+            pass.draw(0..3, 0..1);
+            for (pipeline, bindings) in &self.bubbles {
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, bindings, &[]);
+                pass.draw(0..4, 0..1);
+            }
+        });
+        recorder.counts.draws += 1 + self.bubbles.len() as u64;
+    }
+}
+
+/// Pixels that the picture's draws cover: all of the backdrop, and each bubble's bounding rectangle.
+#[must_use]
+pub fn pixels_shaded(key: &DrawKey) -> u64 {
+    let [width, height] = key.size.map(u64::from);
+    let bubble = |bubble: &BubbleKey| {
+        let [x, y] = [0, 1].map(|axis| pixel_span(bubble, key.size[axis], axis)).map(|[low, high]| u64::from(high - low));
+        x * y
+    };
+    width * height + key.bubbles.iter().map(bubble).sum::<u64>()
+}
+
+/// First and last pixel of a bounding rectangle along one axis.
+fn pixel_span(bubble: &BubbleKey, size: u32, axis: usize) -> [u32; 2] {
+    bubble.bounds.map(|corner| {
+        let clip = if axis == 0 { corner.x } else { corner.y };
+        ((clip + 1.0) * 0.5 * f64::from(size)).round().clamp(0.0, f64::from(size)) as u32
+    })
+}
+
+/// Format of the linear picture.
+#[must_use]
+pub fn radiance_format(full_precision: bool) -> wgpu::TextureFormat {
+    if full_precision { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float }
+}
+
+fn bubble_pipeline(key: &DrawKey, bubble: &BubbleKey) -> RenderKey {
+    let uniform = matches!(bubble.film, FilmKey::Uniform(_));
+    RenderKey {
+        pass: "bubble",
+        vertex: "bounding_quad",
+        fragment: "shade",
+        format: radiance_format(key.full_precision),
+        constants: vec![
+            ("UNIFORM_FILM", u32::from(uniform)),
+            ("YARDSTICK", u32::from(key.yardstick)),
+            ("SAMPLES", bubble.samples),
+        ],
+    }
+}
+
+fn floats(vector: DVec3) -> [f32; 3] {
+    vector.as_vec3().to_array()
+}
+
+fn view_uniform(key: &DrawKey) -> ViewUniform {
+    let camera = &key.camera;
+    ViewUniform {
+        eye_m: floats(camera.eye_m),
+        pixel_height: camera.pixel_height_m as f32,
+        forward: floats(camera.forward),
+        width: key.size[0] as f32,
+        right: floats(camera.right),
+        height: key.size[1] as f32,
+        up: floats(camera.up),
+        pad: 0.0,
+    }
+}
+
+fn light_uniform(key: &DrawKey) -> LightUniform {
+    let light = &key.light;
+    let (backdrop, is_environment) = match light.backdrop {
+        BackdropKey::Environment => (DVec3::ZERO, 1.0),
+        BackdropKey::Colour(colour) => (colour, 0.0),
+    };
+    LightUniform {
+        gain: floats(light.gain),
+        texel_angle: texel_angle(key.environment.size()),
+        backdrop: floats(backdrop),
+        backdrop_is_environment: is_environment,
+        white: floats(light.white),
+        turn_cos: light.rotation_rad.cos() as f32,
+        turn_sin: light.rotation_rad.sin() as f32,
+        pad: [0.0; 3],
+    }
+}
+
+fn bubble_uniform(bubble: &BubbleKey) -> BubbleUniform {
+    let [low, high] = bubble.bounds.map(|corner| corner.as_vec2());
+    let (thickness_nm, cells) = match &bubble.film {
+        FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0),
+        FilmKey::Field(field) => (0.0, field.cells),
+    };
+    BubbleUniform {
+        centre_m: floats(bubble.centre_m),
+        radius_m: bubble.radius_m as f32,
+        bounds: [low.x, low.y, high.x, high.y],
+        thickness_nm,
+        cells,
+        pad: [0; 2],
+    }
+}

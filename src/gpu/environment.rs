@@ -1,0 +1,69 @@
+//! The environment on the device: a cube map with all its levels.
+
+use super::Gpu;
+use crate::physics::environment::CubeMap;
+
+/// An environment and how it is sampled.
+pub struct Environment {
+    /// The cube.
+    pub view: wgpu::TextureView,
+    /// Linear within and between levels; cube maps have no seams.
+    pub sampler: wgpu::Sampler,
+}
+
+impl Environment {
+    /// Sends a cube map to the device.
+    #[must_use]
+    pub fn upload(gpu: &Gpu, map: &CubeMap) -> Self {
+        let size = wgpu::Extent3d { width: map.size, height: map.size, depth_or_array_layers: 6 };
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("environment"),
+            size,
+            mip_level_count: map.mips.len() as u32,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba16Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        for (level, faces) in map.mips.iter().enumerate() {
+            for (face, texels) in faces.iter().enumerate() {
+                write_face(gpu, &texture, level as u32, face as u32, bytemuck::cast_slice(texels));
+            }
+        }
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::Cube),
+            ..Default::default()
+        });
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("environment"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
+        Self { view, sampler }
+    }
+}
+
+fn write_face(gpu: &Gpu, texture: &wgpu::Texture, level: u32, face: u32, texels: &[u8]) {
+    gpu.count_upload(texels.len());
+    let width = (texture.width() >> level).max(1);
+    gpu.queue.write_texture(
+        wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: level,
+            origin: wgpu::Origin3d { x: 0, y: 0, z: face },
+            aspect: wgpu::TextureAspect::All,
+        },
+        texels,
+        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * width), rows_per_image: None },
+        wgpu::Extent3d { width, height: width, depth_or_array_layers: 1 },
+    );
+}
+
+/// Angle between neighbouring texels at the centre of a face, in radians.
+#[must_use]
+pub fn texel_angle(size: u32) -> f32 {
+    2.0 / size as f32
+}

@@ -1,0 +1,191 @@
+//! A film's field on the device: the flow map, the tracer of the last remap, and the thickness that is shown.
+//!
+//! The film is moved as a flow map: `map(x)` says where the liquid at x was at the last remap, and the thickness is the tracer of that remap
+//! looked up there. Each step composes the map with one backtrace; a remap looks the tracer up once for good and makes the map the identity.
+//! Remapping at every step is the classic semi-Lagrangian scheme with bicubic interpolation; remapping rarely keeps filaments sharp, for the
+//! error then grows with the number of remaps and not of steps (Taylor & Nave, arXiv 2106.13170).
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{
+    Gpu, GpuError,
+    advance_map::{MapBuffers, Step, advance_map},
+    pipelines::ComputeKey,
+    readback::Readback,
+    timing::Recorder,
+};
+use crate::physics::sphere::{CubedSphere, HALO, HaloEntry};
+
+/// The grid, as `sample_tracer` reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct GridUniform {
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    pad: [u32; 3],
+}
+
+/// A film's field.
+pub struct Field {
+    cells: u32,
+    grid: wgpu::Buffer,
+    tangents: wgpu::Buffer,
+    /// Halo cells beyond an edge, then those beyond a corner, which read the edges.
+    halo: [HaloList; 2],
+    /// The map, and where its next step goes.
+    map: [wgpu::Buffer; 2],
+    map_is_identity: bool,
+    /// The tracer of the last remap, and where the next remap goes.
+    tracer: [wgpu::Buffer; 2],
+    /// What the picture reads.
+    shown: wgpu::Buffer,
+}
+
+struct HaloList {
+    entries: wgpu::Buffer,
+    count: u32,
+}
+
+impl Field {
+    /// An empty field.
+    #[must_use]
+    pub fn new(gpu: &Gpu, grid: CubedSphere) -> Self {
+        let cells = grid.n() as u32;
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+        let padded = grid.padded_len() as u64;
+        let table = HaloTable::new(grid);
+        let list = |entries: &[HaloEntry]| HaloList { entries: gpu.storage("halo", entries), count: entries.len() as u32 };
+        Self {
+            cells,
+            grid: gpu.uniform("grid", &GridUniform { cells, pad: [0; 3] }),
+            tangents: gpu.storage("tangents", &tangents(cells)),
+            halo: [list(&table.edges), list(&table.corners)],
+            map: ["map", "next map"].map(|label| gpu.buffer(label, padded * 16, usage)),
+            map_is_identity: true,
+            tracer: ["tracer", "next tracer"].map(|label| gpu.buffer(label, padded * 4, usage)),
+            shown: gpu.buffer("thickness", padded * 4, usage),
+        }
+    }
+
+    /// Cells along a panel's edge.
+    #[must_use]
+    pub fn cells(&self) -> u32 {
+        self.cells
+    }
+
+    /// Thickness in nm in padded storage, halo included: what pictures read.
+    #[must_use]
+    pub fn shown(&self) -> &wgpu::Buffer {
+        &self.shown
+    }
+
+    /// Sets the tracer, in the grid's order of cells, and forgets all motion.
+    pub fn seed(&mut self, recorder: &mut Recorder<'_>, values: &[f32]) -> Result<(), GpuError> {
+        recorder.gpu.upload(&self.tracer[0], &padded(self.cells, values));
+        self.map_is_identity = true;
+        fill_halo(recorder, &self.halo, "seed_field", HaloOf::Tracer(&self.tracer[0]))
+    }
+
+    /// Moves the liquid by one step. If a remap follows at once, the map's halo is not needed.
+    pub fn advance(&mut self, recorder: &mut Recorder<'_>, step: &Step, remap: bool) -> Result<(), GpuError> {
+        self.advance_into_spare(recorder, "step_field", step)?;
+        self.map.swap(0, 1);
+        if remap {
+            return self.remap(recorder);
+        }
+        self.map_is_identity = false;
+        fill_halo(recorder, &self.halo, "step_field", HaloOf::Map(&self.map[0]))
+    }
+
+    fn advance_into_spare(&self, recorder: &mut Recorder<'_>, name: &'static str, step: &Step) -> Result<(), GpuError> {
+        let before = (!self.map_is_identity).then_some(&self.map[0]);
+        let map = MapBuffers { cells: self.cells, tangents: &self.tangents, before, after: &self.map[1] };
+        advance_map(recorder, name, step, &map)
+    }
+
+    /// Looks the tracer up through the map, for good.
+    fn remap(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
+        self.sample(recorder, "step_field", &self.map[0], &self.tracer[1])?;
+        fill_halo(recorder, &self.halo, "step_field", HaloOf::Tracer(&self.tracer[1]))?;
+        self.tracer.swap(0, 1);
+        self.map_is_identity = true;
+        Ok(())
+    }
+
+    /// Makes the thickness ready to be drawn, a part of a step ahead of the state if one is given. The state stays.
+    pub fn show(&self, recorder: &mut Recorder<'_>, ahead: Option<&Step>) -> Result<(), GpuError> {
+        let name = "show_field";
+        if let Some(step) = ahead {
+            self.advance_into_spare(recorder, name, step)?;
+            self.sample(recorder, name, &self.map[1], &self.shown)?;
+        } else if self.map_is_identity {
+            let size = self.shown.size();
+            recorder.encoder().copy_buffer_to_buffer(&self.tracer[0], 0, &self.shown, 0, size);
+            return Ok(());
+        } else {
+            self.sample(recorder, name, &self.map[0], &self.shown)?;
+        }
+        fill_halo(recorder, &self.halo, name, HaloOf::Tracer(&self.shown))
+    }
+
+    fn sample(&self, recorder: &mut Recorder<'_>, name: &'static str, map: &wgpu::Buffer, to: &wgpu::Buffer) -> Result<(), GpuError> {
+        let gpu = recorder.gpu;
+        let key = ComputeKey { pass: "sample_tracer", entry: "sample_tracer", constants: vec![] };
+        let pipeline = gpu.pipelines.compute(gpu, &key)?;
+        let bindings = gpu.bind(
+            &pipeline.get_bind_group_layout(0),
+            &[&self.grid, map, &self.tracer[0], to].map(wgpu::Buffer::as_entire_binding),
+        );
+        recorder.dispatch(name, &pipeline, &bindings, [self.cells.div_ceil(64), self.cells, 6]);
+        Ok(())
+    }
+
+    /// Copies as many bytes as a step moves, and leaves the state alone: what steps are measured against.
+    pub fn copy_state(&self, recorder: &mut Recorder<'_>) {
+        for [from, to] in [&self.map, &self.tracer] {
+            recorder.encoder().copy_buffer_to_buffer(from, 0, to, 0, from.size());
+        }
+    }
+
+    /// Starts to bring the shown thickness back; [`Field::inner`] picks the cells from what arrives.
+    #[must_use]
+    pub fn read_shown(&self, gpu: &Gpu) -> Readback {
+        Readback::of_buffer(gpu, &self.shown, self.shown.size())
+    }
+
+    /// The cells of padded storage, in the grid's order.
+    #[must_use]
+    pub fn inner(&self, padded: &[f32]) -> Vec<f32> {
+        CubedSphere::new(self.cells as usize).cells().map(|cell| padded[cell.padded]).collect()
+    }
+}
+
+/// tan(α) of each cell coordinate of an edge, halo included, rounded once from f64.
+fn tangents(cells: u32) -> Vec<f32> {
+    let halo = HALO as f64;
+    let step = std::f64::consts::FRAC_PI_2 / f64::from(cells);
+    let count = cells as usize + 2 * HALO;
+    (0..count).map(|k| ((k as f64 - halo + 0.5) * step - std::f64::consts::FRAC_PI_4).tan() as f32).collect()
+}
+
+enum HaloOf<'a> {
+    Map(&'a wgpu::Buffer),
+    Tracer(&'a wgpu::Buffer),
+}
+
+fn fill_halo(recorder: &mut Recorder<'_>, lists: &[HaloList], name: &'static str, of: HaloOf<'_>) -> Result<(), GpuError> {
+    let gpu = recorder.gpu;
+    let (entry, buffer) = match of {
+        HaloOf::Map(buffer) => ("fill_map", buffer),
+        HaloOf::Tracer(buffer) => ("fill_tracer", buffer),
+    };
+    let pipeline = gpu.pipelines.compute(gpu, &ComputeKey { pass: "fill_halo", entry, constants: vec![] })?;
+    for list in lists {
+        let bindings = gpu.bind(
+            &pipeline.get_bind_group_layout(0),
+            &[&list.entries, buffer].map(wgpu::Buffer::as_entire_binding),
+        );
+        recorder.dispatch(name, &pipeline, &bindings, [list.count.div_ceil(64), 1, 1]);
+    }
+    Ok(())
+}

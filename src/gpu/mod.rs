@@ -1,0 +1,20 @@
+//! How: one module for each pass, named like its shader in `shaders/pass/`, and the [`Renderer`] that walks a [`Plan`](crate::plan::Plan).
+//!
+//! Nothing here decides whether a pass runs: a pass is recorded from its key alone, and the plan says which.
+
+pub mod advance_map;
+pub mod bake_table;
+pub mod device;
+pub mod draw;
+pub mod environment;
+pub mod film;
+pub mod pipelines;
+pub mod probe_colour;
+pub mod readback;
+pub mod renderer;
+pub mod shaders;
+pub mod timing;
+pub mod tonemap;
+
+pub use device::{AdapterChoice, Gpu, GpuError};
+pub use renderer::Renderer;

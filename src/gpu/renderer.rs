@@ -1,0 +1,277 @@
+//! Walks a plan: owns the products, records each pass from its key, and keeps the books of what is there.
+
+use super::{
+    Gpu, GpuError,
+    advance_map::Step,
+    bake_table::Table,
+    draw::{DrawInputs, DrawPass, pixels_shaded, radiance_format, strips},
+    environment::Environment,
+    film::Field,
+    readback::Readback,
+    timing::{Counts, Recorder, TimeLog},
+    tonemap::{PICTURE_FORMAT, tonemap},
+};
+use crate::{
+    physics::{environment::CubeMap, film::PrescribedFlow, sphere::CubedSphere},
+    plan::{DrawKey, FieldKey, FlowLaw, Have, Pass, Plan, TableKey, TonemapKey, Want, plan},
+};
+
+/// Cells stepped in one submission, so that none runs long: about 50 ms on a software rasteriser.
+const CELLS_A_SUBMISSION: u64 = 1_600_000;
+
+/// Everything that is on the device.
+#[derive(Default)]
+struct Products {
+    table: Option<Table>,
+    baking: Option<Table>,
+    environment: Option<Environment>,
+    fields: Vec<Option<Field>>,
+    radiance: Option<Target>,
+    picture: Option<Target>,
+}
+
+/// A picture on the device.
+struct Target {
+    texture: wgpu::Texture,
+    view: wgpu::TextureView,
+}
+
+impl Target {
+    fn new(gpu: &Gpu, label: &str, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> Self {
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        Self { texture, view }
+    }
+
+    /// Keeps a target that fits, else makes a new one.
+    fn fit<'a>(slot: &'a mut Option<Self>, gpu: &Gpu, label: &str, size: [u32; 2], format: wgpu::TextureFormat) -> &'a Self {
+        let fits = |target: &Self| {
+            [target.texture.width(), target.texture.height()] == size && target.texture.format() == format
+        };
+        if !slot.as_ref().is_some_and(fits) {
+            *slot = None;
+        }
+        slot.get_or_insert_with(|| Self::new(gpu, label, size, format))
+    }
+}
+
+/// Draws scenes: plans, executes, and hands out pictures.
+pub struct Renderer {
+    /// The device.
+    pub gpu: Gpu,
+    /// Times of the passes that ran.
+    pub times: TimeLog,
+    /// Work done since the start.
+    pub counts: Counts,
+    have: Have,
+    products: Products,
+}
+
+impl Renderer {
+    /// A renderer with nothing on the device yet.
+    #[must_use]
+    pub fn new(gpu: Gpu) -> Self {
+        Self { gpu, times: TimeLog::default(), counts: Counts::default(), have: Have::default(), products: Products::default() }
+    }
+
+    /// What is on the device.
+    #[must_use]
+    pub fn have(&self) -> &Have {
+        &self.have
+    }
+
+    /// Does what brings the wanted picture nearer, and says what that was.
+    pub fn bring(&mut self, want: &Want) -> Result<Plan, GpuError> {
+        let plan = plan(want, &self.have);
+        self.execute(&plan)?;
+        Ok(plan)
+    }
+
+    /// Runs a plan that was made for what is there.
+    pub fn execute(&mut self, plan: &Plan) -> Result<(), GpuError> {
+        if plan.is_empty() {
+            return Ok(());
+        }
+        let result = plan.steps.iter().try_for_each(|(pass, _)| self.run(pass)).and_then(|()| self.gpu.check());
+        // After a failure nobody knows what is there: everything is made anew.
+        self.have = if result.is_ok() { plan.after.clone() } else { Have::default() };
+        result
+    }
+
+    /// Forgets a picture, or a film's moment, so that the next plan makes them again: how frames are measured.
+    pub fn forget_picture(&mut self) {
+        self.have.radiance = None;
+        self.have.picture = None;
+        for field in self.have.fields.iter_mut().flatten() {
+            field.shown = None;
+        }
+    }
+
+    /// View of the finished picture, if there is one.
+    #[must_use]
+    pub fn picture(&self) -> Option<&wgpu::TextureView> {
+        self.products.picture.as_ref().map(|target| &target.view)
+    }
+
+    /// Starts to bring the finished picture back: rows of RGBA, 8 bits, sRGB.
+    #[must_use]
+    pub fn read_picture(&self) -> Option<Readback> {
+        self.products.picture.as_ref().map(|target| Readback::of_texture(&self.gpu, &target.texture))
+    }
+
+    /// Starts to bring the linear picture back: rows of RGBA in the format of the wanted precision, linear BT.2020.
+    #[must_use]
+    pub fn read_radiance(&self) -> Option<Readback> {
+        self.products.radiance.as_ref().map(|target| Readback::of_texture(&self.gpu, &target.texture))
+    }
+
+    fn run(&mut self, pass: &Pass) -> Result<(), GpuError> {
+        match pass {
+            Pass::UploadEnvironment(key) => {
+                self.products.environment = Some(Environment::upload(&self.gpu, &key.0));
+                Ok(())
+            }
+            Pass::BakeTable { key, rows } => self.bake(key, rows.clone()),
+            Pass::SeedField { film, key } => self.seed(*film, key),
+            Pass::StepField { film, key, ticks } => self.step(*film, key, ticks.clone()),
+            Pass::ShowField { film, key } => self.show(*film, key),
+            Pass::Draw(key) => self.draw(key),
+            Pass::Tonemap(key) => self.tonemap(key),
+        }
+    }
+
+    fn submit(times: &TimeLog, counts: &mut Counts, recorder: Recorder<'_>) {
+        let done = recorder.submit(times);
+        counts.dispatches += done.dispatches;
+        counts.draws += done.draws;
+        counts.pixels_shaded += done.pixels_shaded;
+        counts.cells_stepped += done.cells_stepped;
+        counts.submissions += done.submissions;
+    }
+
+    fn bake(&mut self, key: &TableKey, rows: std::ops::Range<u32>) -> Result<(), GpuError> {
+        if rows.start == 0 {
+            self.products.baking = Some(Table::new(&self.gpu, key));
+        }
+        let Some(table) = &self.products.baking else { return Ok(()) };
+        let mut recorder = Recorder::new(&self.gpu);
+        table.bake(&mut recorder, key, rows.clone())?;
+        Self::submit(&self.times, &mut self.counts, recorder);
+        if rows.end == key.rows {
+            self.products.table = self.products.baking.take();
+        }
+        Ok(())
+    }
+
+    fn seed(&mut self, film: usize, key: &FieldKey) -> Result<(), GpuError> {
+        if self.products.fields.len() <= film {
+            self.products.fields.resize_with(film + 1, || None);
+        }
+        let slot = &mut self.products.fields[film];
+        if slot.as_ref().is_none_or(|field| field.cells() != key.cells) {
+            *slot = Some(Field::new(&self.gpu, key.cells));
+        }
+        let Some(field) = slot else { return Ok(()) };
+        let values = key.initial.sample(CubedSphere::new(key.cells as usize));
+        let mut recorder = Recorder::new(&self.gpu);
+        field.seed(&mut recorder, &values)?;
+        Self::submit(&self.times, &mut self.counts, recorder);
+        Ok(())
+    }
+
+    fn step(&mut self, film: usize, key: &FieldKey, ticks: std::ops::Range<u64>) -> Result<(), GpuError> {
+        let Some(Some(field)) = self.products.fields.get_mut(film) else { return Ok(()) };
+        let per_submission = (CELLS_A_SUBMISSION / key.cell_count()).max(1);
+        let mut flow = LawInForce::default();
+        let mut first = ticks.start;
+        while first < ticks.end {
+            let last = (first + per_submission).min(ticks.end);
+            let mut recorder = Recorder::new(&self.gpu);
+            for tick in first..last {
+                let remap = (tick + 1) % u64::from(key.remap_ticks) == 0;
+                field.advance(&mut recorder, &flow.step(key, tick, 1.0), remap)?;
+            }
+            Self::submit(&self.times, &mut self.counts, recorder);
+            first = last;
+        }
+        Ok(())
+    }
+
+    fn show(&mut self, film: usize, key: &FieldKey) -> Result<(), GpuError> {
+        let Some(Some(field)) = self.products.fields.get(film) else { return Ok(()) };
+        let moment = key.moment;
+        let ahead = (moment.fraction > 0.0).then(|| LawInForce::default().step(key, moment.tick, moment.fraction));
+        let mut recorder = Recorder::new(&self.gpu);
+        field.show(&mut recorder, ahead.as_ref())?;
+        Self::submit(&self.times, &mut self.counts, recorder);
+        Ok(())
+    }
+
+    fn draw(&mut self, key: &DrawKey) -> Result<(), GpuError> {
+        let format = radiance_format(key.full_precision);
+        let target = Target::fit(&mut self.products.radiance, &self.gpu, "radiance", key.size, format);
+        // Without an environment key nothing of it is read; a black one fills the binding.
+        let environment =
+            self.products.environment.get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant([0.0; 3])));
+        let fields = &self.products.fields;
+        let thickness = |film: usize| fields.get(film).and_then(Option::as_ref).map(Field::shown);
+        let inputs = DrawInputs { environment, table: self.products.table.as_ref(), thickness: &thickness };
+        let pass = DrawPass::new(&self.gpu, key, &inputs)?;
+        for rows in strips(key.size) {
+            let mut recorder = Recorder::new(&self.gpu);
+            pass.record(&mut recorder, &target.view, rows);
+            Self::submit(&self.times, &mut self.counts, recorder);
+        }
+        self.counts.pixels_shaded += pixels_shaded(key);
+        Ok(())
+    }
+
+    fn tonemap(&mut self, key: &TonemapKey) -> Result<(), GpuError> {
+        let Some(radiance) = &self.products.radiance else { return Ok(()) };
+        let picture = Target::fit(&mut self.products.picture, &self.gpu, "picture", key.draw.size, PICTURE_FORMAT);
+        let mut recorder = Recorder::new(&self.gpu);
+        tonemap(&mut recorder, key, &radiance.view, &picture.view)?;
+        recorder.counts.pixels_shaded += key.draw.size.map(u64::from).iter().product::<u64>();
+        Self::submit(&self.times, &mut self.counts, recorder);
+        Ok(())
+    }
+}
+
+/// The law that drives a film, made into a flow once for as long as it holds.
+#[derive(Default)]
+struct LawInForce(Option<(FlowLaw, PrescribedFlow)>);
+
+impl LawInForce {
+    /// A part of one tick, from its start.
+    fn step(&mut self, key: &FieldKey, tick: u64, fraction: f64) -> Step {
+        let law = key.law(tick);
+        if self.0.as_ref().is_none_or(|(known, _)| *known != law) {
+            self.0 = Some((law, prescribed(law)));
+        }
+        let dt_s = key.tick_s * fraction;
+        let middle_s = key.tick_s * tick as f64 + 0.5 * dt_s;
+        match &self.0 {
+            Some((_, flow)) => Step::prescribed(&flow.frozen_at(middle_s), dt_s),
+            None => Step::prescribed(&PrescribedFlow::default().frozen_at(middle_s), dt_s),
+        }
+    }
+}
+
+fn prescribed(law: FlowLaw) -> PrescribedFlow {
+    match law {
+        FlowLaw::Rest => PrescribedFlow::default(),
+        FlowLaw::Sloshing { strength, seed } => PrescribedFlow::sloshing(seed, strength),
+        FlowLaw::Draught { strength, seed } => PrescribedFlow::draught(seed, strength),
+        FlowLaw::Stirred { strength, seed } => PrescribedFlow::stirred(seed, strength),
+    }
+}

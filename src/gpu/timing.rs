@@ -1,0 +1,169 @@
+//! What a frame cost: GPU time of each pass where the adapter can tell, and counts of the work asked for.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::Gpu;
+
+/// Passes that one submission can time; later ones run untimed.
+const SLOTS: u32 = 64;
+
+/// GPU time of one pass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassTime {
+    /// The pass.
+    pub name: &'static str,
+    /// Milliseconds, or nothing where the adapter cannot tell or told nonsense.
+    pub gpu_ms: Option<f64>,
+}
+
+/// Counts of the work that was submitted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Compute dispatches.
+    pub dispatches: u64,
+    /// Draw calls.
+    pub draws: u64,
+    /// Pixels inside the rectangles that were drawn.
+    pub pixels_shaded: u64,
+    /// Cells whose liquid was moved.
+    pub cells_stepped: u64,
+    /// Submissions to the queue.
+    pub submissions: u64,
+}
+
+/// Records passes into one submission, counting and timing them.
+pub struct Recorder<'g> {
+    /// The device.
+    pub gpu: &'g Gpu,
+    /// Counts so far.
+    pub counts: Counts,
+    encoder: wgpu::CommandEncoder,
+    queries: Option<wgpu::QuerySet>,
+    names: Vec<&'static str>,
+}
+
+impl<'g> Recorder<'g> {
+    /// An empty submission.
+    #[must_use]
+    pub fn new(gpu: &'g Gpu) -> Self {
+        let queries = gpu.can_time().then(|| {
+            gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("pass times"),
+                ty: wgpu::QueryType::Timestamp,
+                count: 2 * SLOTS,
+            })
+        });
+        let encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("soapfilm") });
+        Self { gpu, counts: Counts { submissions: 1, ..Counts::default() }, encoder, queries, names: Vec::new() }
+    }
+
+    /// Indices of the next pass's two timestamps, or nothing if all are taken.
+    fn slot(&mut self, name: &'static str) -> Option<u32> {
+        let slot = self.names.len() as u32;
+        self.names.push(name);
+        (slot < SLOTS).then_some(2 * slot)
+    }
+
+    /// One dispatch of a compute pipeline.
+    pub fn dispatch(&mut self, name: &'static str, pipeline: &wgpu::ComputePipeline, bindings: &wgpu::BindGroup, groups: [u32; 3]) {
+        let slot = self.slot(name);
+        let timestamp_writes = self.queries.as_ref().zip(slot).map(|(query_set, slot)| wgpu::ComputePassTimestampWrites {
+            query_set,
+            beginning_of_pass_write_index: Some(slot),
+            end_of_pass_write_index: Some(slot + 1),
+        });
+        let mut pass =
+            self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, bindings, &[]);
+        pass.dispatch_workgroups(groups[0], groups[1], groups[2]);
+        self.counts.dispatches += 1;
+    }
+
+    /// A render pass into one target, which keeps what it holds.
+    pub fn render(&mut self, name: &'static str, target: &wgpu::TextureView, draw: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
+        let slot = self.slot(name);
+        let timestamp_writes = self.queries.as_ref().zip(slot).map(|(query_set, slot)| wgpu::RenderPassTimestampWrites {
+            query_set,
+            beginning_of_pass_write_index: Some(slot),
+            end_of_pass_write_index: Some(slot + 1),
+        });
+        let attachment = wgpu::RenderPassColorAttachment {
+            view: target,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+        };
+        let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(name),
+            color_attachments: &[Some(attachment)],
+            timestamp_writes,
+            ..Default::default()
+        });
+        draw(&mut pass);
+    }
+
+    /// The encoder, for copies.
+    pub fn encoder(&mut self) -> &mut wgpu::CommandEncoder {
+        &mut self.encoder
+    }
+
+    /// Submits what was recorded. Times arrive in `times` once the device has done it and was polled.
+    pub fn submit(mut self, times: &TimeLog) -> Counts {
+        let slots = 2 * (self.names.len() as u32).min(SLOTS);
+        let readable = self.queries.as_ref().filter(|_| slots > 0).map(|queries| {
+            let size = u64::from(slots) * 8;
+            let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
+            let resolved = self.gpu.buffer("resolved pass times", size, usage);
+            let readable = self.gpu.buffer("pass times", size, wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
+            self.encoder.resolve_query_set(queries, 0..slots, &resolved, 0);
+            self.encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, size);
+            readable
+        });
+        self.gpu.queue.submit([self.encoder.finish()]);
+        match readable {
+            Some(readable) => times.expect(&readable, self.names, self.gpu.queue.get_timestamp_period()),
+            None => times.add(self.names.into_iter().map(|name| PassTime { name, gpu_ms: None })),
+        }
+        self.counts
+    }
+}
+
+/// Times that have arrived, summed by pass.
+#[derive(Clone, Debug, Default)]
+pub struct TimeLog(Arc<Mutex<Vec<PassTime>>>);
+
+impl TimeLog {
+    /// Takes all times that have arrived since the last call, in the order in which passes first ran.
+    #[must_use]
+    pub fn take(&self) -> Vec<PassTime> {
+        std::mem::take(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn add(&self, times: impl Iterator<Item = PassTime>) {
+        let mut log = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        for time in times {
+            match log.iter_mut().find(|known| known.name == time.name) {
+                Some(known) => known.gpu_ms = known.gpu_ms.zip(time.gpu_ms).map(|(a, b)| a + b),
+                None => log.push(time),
+            }
+        }
+    }
+
+    fn expect(&self, readable: &wgpu::Buffer, names: Vec<&'static str>, period_ns: f32) {
+        let log = self.clone();
+        let buffer = readable.clone();
+        readable.map_async(wgpu::MapMode::Read, .., move |mapped| {
+            let ticks: Vec<u64> = match (mapped, buffer.get_mapped_range(..)) {
+                (Ok(()), Ok(bytes)) => bytemuck::pod_collect_to_vec(&bytes),
+                _ => Vec::new(),
+            };
+            let span = |slot: usize| {
+                let ticks = ticks.get(2 * slot + 1)?.checked_sub(ticks[2 * slot])?;
+                // Some drivers answer zero where they do not know.
+                (ticks > 0).then(|| ticks as f64 * f64::from(period_ns) * 1e-6)
+            };
+            log.add(names.into_iter().enumerate().map(|(slot, name)| PassTime { name, gpu_ms: span(slot) }));
+        });
+    }
+}

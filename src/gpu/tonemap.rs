@@ -1,0 +1,67 @@
+//! Makes the finished picture from the linear one: exposure, tone curve, gamut, dither, encoding.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{GpuError, pipelines::RenderKey, timing::Recorder};
+use crate::{physics::colour::bt2020_to_bt709, plan::TonemapKey};
+
+/// Format of the finished picture: gamma-encoded values in a plain format, so that no driver encodes a second time.
+pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// See `shaders/pass/tonemap.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct TonemapUniform {
+    /// Columns of the matrix from BT.2020 to BT.709; the fourth number of each is padding.
+    pub to_bt709: [[f32; 4]; 3],
+    /// Factor on radiance.
+    pub exposure: f32,
+    /// Seed of the dither.
+    pub dither_seed: u32,
+    /// Its amplitude in steps of the display.
+    pub dither_steps: f32,
+    pad: f32,
+}
+
+impl TonemapUniform {
+    fn of(key: &TonemapKey) -> Self {
+        let matrix = bt2020_to_bt709().as_mat3();
+        Self {
+            to_bt709: matrix.to_cols_array_2d().map(|[x, y, z]| [x, y, z, 0.0]),
+            exposure: key.exposure_ev.exp2() as f32,
+            dither_seed: key.dither.unwrap_or(0),
+            dither_steps: if key.dither.is_some() { 1.0 } else { 0.0 },
+            pad: 0.0,
+        }
+    }
+}
+
+/// Records the tonemap of a whole picture.
+pub fn tonemap(
+    recorder: &mut Recorder<'_>,
+    key: &TonemapKey,
+    radiance: &wgpu::TextureView,
+    picture: &wgpu::TextureView,
+) -> Result<(), GpuError> {
+    let gpu = recorder.gpu;
+    let pipeline_key = RenderKey {
+        pass: "tonemap",
+        vertex: "cover",
+        fragment: "tonemapped",
+        format: PICTURE_FORMAT,
+        constants: vec![],
+    };
+    let pipeline = gpu.pipelines.render(gpu, &pipeline_key)?;
+    let uniform = gpu.uniform("tonemap", &TonemapUniform::of(key));
+    let bindings = gpu.bind(
+        &pipeline.get_bind_group_layout(0),
+        &[uniform.as_entire_binding(), wgpu::BindingResource::TextureView(radiance)],
+    );
+    recorder.render("tonemap", picture, |pass| {
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &bindings, &[]);
+        pass.draw(0..3, 0..1);
+    });
+    recorder.counts.draws += 1;
+    Ok(())
+}

@@ -1,0 +1,342 @@
+//! The keys of products: for each, exactly what its pass reads.
+
+use std::{fmt, sync::Arc};
+
+use glam::{DVec2, DVec3};
+
+use crate::physics::{
+    colour::Illuminant,
+    environment::CubeMap,
+    film::InitialFilm,
+    optics::FilmIndex,
+};
+
+/// The lookup table of film colours.
+#[derive(Clone, Debug)]
+pub struct TableKey {
+    /// Index of the film.
+    pub index: FilmIndex,
+    /// The light.
+    pub illuminant: Arc<Illuminant>,
+    /// Thickness at the last row, at normal incidence, in nm.
+    pub max_thickness_nm: f64,
+    /// Columns, along √cosθ.
+    pub columns: u32,
+    /// Rows, along thickness times the cosine inside the film.
+    pub rows: u32,
+}
+
+impl PartialEq for TableKey {
+    fn eq(&self, other: &Self) -> bool {
+        self.index == other.index
+            && (Arc::ptr_eq(&self.illuminant, &other.illuminant) || self.illuminant == other.illuminant)
+            && self.max_thickness_nm == other.max_thickness_nm
+            && (self.columns, self.rows) == (other.columns, other.rows)
+    }
+}
+
+impl TableKey {
+    /// Columns of a full table.
+    pub const COLUMNS: u32 = 64;
+    /// Thickness that the table spans at least, in nm.
+    pub const MIN_RANGE_NM: f64 = 1500.0;
+    /// Rows for [`TableKey::MIN_RANGE_NM`]: 0.73 nm a row.
+    pub const MIN_ROWS: u32 = 2048;
+    /// Rows at most: the smallest limit on textures that adapters have.
+    const MAX_ROWS: u32 = 8192;
+
+    /// A full table for films up to a thickness. The range grows in steps of 250 nm, so that small edits do not bake anew, and the rows
+    /// with it, so that their spacing stays.
+    #[must_use]
+    pub fn full(index: FilmIndex, illuminant: Arc<Illuminant>, thickest_nm: f64) -> Self {
+        let max_thickness_nm = ((thickest_nm / 250.0).ceil() * 250.0).max(Self::MIN_RANGE_NM);
+        let rows = (f64::from(Self::MIN_ROWS) * max_thickness_nm / Self::MIN_RANGE_NM).ceil() as u32;
+        Self { index, illuminant, max_thickness_nm, columns: Self::COLUMNS, rows: rows.min(Self::MAX_ROWS) }
+    }
+
+    /// The same range with fewer rows: what a window shows until the full table is there.
+    #[must_use]
+    pub fn coarser(&self, factor: u32) -> Self {
+        Self { rows: (self.rows / factor).max(2), ..self.clone() }
+    }
+}
+
+/// The light around the bubbles.
+#[derive(Clone, Debug)]
+pub struct EnvironmentKey(pub Arc<CubeMap>);
+
+impl EnvironmentKey {
+    /// Texels along a face's edge.
+    #[must_use]
+    pub fn size(&self) -> u32 {
+        self.0.size
+    }
+}
+
+impl PartialEq for EnvironmentKey {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.id == other.0.id
+    }
+}
+
+/// A moment of a film: a tick, and how far towards the next one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// Whole ticks.
+    pub tick: u64,
+    /// Part of the next tick, in [0, 1).
+    pub fraction: f64,
+}
+
+impl Moment {
+    /// The moment of a tick.
+    #[must_use]
+    pub fn tick(tick: u64) -> Self {
+        Self { tick, fraction: 0.0 }
+    }
+
+    /// The moment of a time, for a tick's length. A time within a billionth of a tick counts as the tick.
+    #[must_use]
+    pub fn of_time(time_s: f64, tick_s: f64) -> Self {
+        let ticks = (time_s / tick_s).max(0.0);
+        let nearest = ticks.round();
+        if (ticks - nearest).abs() < 1e-9 * nearest.max(1.0) {
+            return Self::tick(nearest as u64);
+        }
+        Self { tick: ticks.floor() as u64, fraction: ticks - ticks.floor() }
+    }
+}
+
+impl fmt::Display for Moment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "tick {}", self.tick)?;
+        if self.fraction > 0.0 {
+            write!(f, " + {:.3}", self.fraction)?;
+        }
+        Ok(())
+    }
+}
+
+/// How the film's liquid is driven.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FlowLaw {
+    /// Not at all.
+    Rest,
+    /// Low swings to and fro.
+    Sloshing {
+        /// Factor on all speeds.
+        strength: f64,
+        /// Which of all such flows.
+        seed: u64,
+    },
+    /// A slow large-scale breath of air that never quite rests.
+    Draught {
+        /// Factor on all speeds.
+        strength: f64,
+        /// Which of all such flows.
+        seed: u64,
+    },
+    /// The draught, and vortices that drift in it.
+    Stirred {
+        /// Factor on all speeds.
+        strength: f64,
+        /// Which of all such flows.
+        seed: u64,
+    },
+}
+
+/// A law, and the tick from which it holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlowSegment {
+    /// First tick.
+    pub from_tick: u64,
+    /// The law from there on.
+    pub law: FlowLaw,
+}
+
+/// A film whose thickness varies: how it began, what drove it, and the moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FieldKey {
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    /// Thickness at tick 0.
+    pub initial: InitialFilm,
+    /// Length of a tick in seconds.
+    pub tick_s: f64,
+    /// Ticks from one remap of the flow map to the next.
+    pub remap_ticks: u32,
+    /// Laws in the order of their ticks; the first holds from tick 0.
+    pub flows: Vec<FlowSegment>,
+    /// The moment.
+    pub moment: Moment,
+}
+
+impl FieldKey {
+    /// The same film at another moment.
+    #[must_use]
+    pub fn at(&self, moment: Moment) -> Self {
+        Self { moment, ..self.clone() }
+    }
+
+    /// Cells of the whole sphere.
+    #[must_use]
+    pub fn cell_count(&self) -> u64 {
+        6 * u64::from(self.cells) * u64::from(self.cells)
+    }
+
+    /// The law that holds during a tick.
+    #[must_use]
+    pub fn law(&self, tick: u64) -> FlowLaw {
+        self.flows.iter().rev().find(|segment| segment.from_tick <= tick).map_or(FlowLaw::Rest, |segment| segment.law)
+    }
+
+    /// Whether this film's past, up to the other's moment, is the other's: then it can go on from there.
+    #[must_use]
+    pub fn continues(&self, past: &Self) -> bool {
+        past.moment.tick <= self.moment.tick && !self.law_differs_until(past)
+    }
+
+    /// Whether anything that shaped the other film up to its moment is different in this one.
+    #[must_use]
+    pub fn law_differs_until(&self, other: &Self) -> bool {
+        let end = other.moment.tick + u64::from(other.moment.fraction > 0.0);
+        let past = |key: &Self| key.flows.iter().filter(|segment| segment.from_tick < end).copied().collect::<Vec<_>>();
+        (self.cells, self.initial, self.tick_s, self.remap_ticks) != (other.cells, other.initial, other.tick_s, other.remap_ticks)
+            || past(self) != past(other)
+    }
+}
+
+/// What a bubble's film is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FilmKey {
+    /// One thickness everywhere, in nm: no field at all.
+    Uniform(f64),
+    /// A field.
+    Field(FieldKey),
+}
+
+/// One bubble as the picture sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BubbleKey {
+    /// Index of the bubble in the scene, and of its film.
+    pub index: usize,
+    /// Centre in metres.
+    pub centre_m: DVec3,
+    /// Radius in metres.
+    pub radius_m: f64,
+    /// Bounding rectangle in clip coordinates, lower left and upper right.
+    pub bounds: [DVec2; 2],
+    /// Samples along each side of a pixel.
+    pub samples: u32,
+    /// The film.
+    pub film: FilmKey,
+}
+
+/// Where the picture is taken from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraKey {
+    /// The eye, in metres.
+    pub eye_m: DVec3,
+    /// Unit vector along the line of sight.
+    pub forward: DVec3,
+    /// Unit vector to the right of the picture.
+    pub right: DVec3,
+    /// Unit vector to its top.
+    pub up: DVec3,
+    /// Height of a pixel on the plane one metre before the eye, in metres.
+    pub pixel_height_m: f64,
+}
+
+/// What stands straight behind the bubbles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BackdropKey {
+    /// The environment.
+    Environment,
+    /// A radiance, linear BT.2020.
+    Colour(DVec3),
+}
+
+/// How the environment lights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightKey {
+    /// Factor on the environment's radiance, linear BT.2020: intensity and the illuminant's white.
+    pub gain: DVec3,
+    /// The illuminant's white, linear BT.2020.
+    pub white: DVec3,
+    /// Turn of the environment about the vertical, anticlockwise from above, in radians.
+    pub rotation_rad: f64,
+    /// The backdrop.
+    pub backdrop: BackdropKey,
+}
+
+/// The linear picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawKey {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Whether radiance is kept as f32, for measurements, or as f16, for looking at.
+    pub full_precision: bool,
+    /// Whether each film is replaced by a sphere with one environment lookup: the yardstick of the frame's cost.
+    pub yardstick: bool,
+    /// The camera.
+    pub camera: CameraKey,
+    /// The light.
+    pub light: LightKey,
+    /// The environment.
+    pub environment: EnvironmentKey,
+    /// The table.
+    pub table: TableKey,
+    /// The bubbles that can be seen, farthest first.
+    pub bubbles: Vec<BubbleKey>,
+}
+
+impl DrawKey {
+    /// Whether any light from the environment can reach the picture.
+    #[must_use]
+    pub fn needs_environment(&self) -> bool {
+        !self.bubbles.is_empty() || self.light.backdrop == BackdropKey::Environment
+    }
+
+    /// The first thing in which two pictures differ.
+    #[must_use]
+    pub fn difference(&self, other: &Self) -> &'static str {
+        if self.size != other.size {
+            "the picture's size"
+        } else if self.camera != other.camera {
+            "the camera"
+        } else if self.light != other.light || self.environment != other.environment {
+            "the light"
+        } else if self.table != other.table {
+            "the table"
+        } else if self.bubbles != other.bubbles {
+            "a bubble or its film"
+        } else {
+            "the way of drawing"
+        }
+    }
+}
+
+/// The finished picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TonemapKey {
+    /// The linear picture.
+    pub draw: DrawKey,
+    /// Exposure in stops.
+    pub exposure_ev: f64,
+    /// Seed of the dither, if there is any.
+    pub dither: Option<u32>,
+}
+
+impl TonemapKey {
+    /// The first thing in which two pictures differ.
+    #[must_use]
+    pub fn difference(&self, other: &Self) -> &'static str {
+        if self.draw != other.draw {
+            "the linear picture"
+        } else if self.exposure_ev != other.exposure_ev {
+            "the exposure"
+        } else {
+            "the dither"
+        }
+    }
+}

@@ -1,0 +1,333 @@
+//! When: what a picture needs, what is already there, and the passes in between.
+//!
+//! A *product* is what a pass leaves on the GPU, and its *key* is all that the pass reads. A product is stale exactly where the wanted key
+//! differs from the one that is there; there are no dirty flags. [`plan`] is pure, has no GPU types, and is the only place where work is
+//! skipped: a scene that did not change plans nothing, a new exposure plans a tonemap, a film at rest is never stepped.
+
+pub mod keys;
+mod want;
+
+use std::{fmt, ops::Range};
+
+pub use keys::{
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey, Moment, TableKey,
+    TonemapKey,
+};
+pub use want::{Resources, Shot, WantError, want};
+
+/// How much may be done before the next picture must be out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// All of it: a file is being made.
+    Whole,
+    /// A frame's worth, the rest later: a window is waiting. A new table starts coarse, and a film catches up in portions.
+    Frame,
+}
+
+/// What a picture needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Want {
+    /// The finished picture; the keys of everything before it are inside.
+    pub picture: TonemapKey,
+    /// How much may be done at once.
+    pub pace: Pace,
+}
+
+/// What is on the GPU. Nothing at first, and nothing after a lost device.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Have {
+    /// The table in use.
+    pub table: Option<TableKey>,
+    /// A table in the making, and how many of its rows are done.
+    pub baking: Option<(TableKey, u32)>,
+    /// The environment.
+    pub environment: Option<EnvironmentKey>,
+    /// The field of each film, by the film's index.
+    pub fields: Vec<Option<FieldHave>>,
+    /// The linear picture.
+    pub radiance: Option<DrawKey>,
+    /// The finished picture.
+    pub picture: Option<TonemapKey>,
+}
+
+/// A film's field: its state at a tick, and the moment that its shown thickness belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FieldHave {
+    /// Seed, law and the tick of the state.
+    pub state: FieldKey,
+    /// Moment shown, if any was.
+    pub shown: Option<Moment>,
+}
+
+/// One pass, with all that it reads.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pass {
+    /// Sends the environment's faces and levels.
+    UploadEnvironment(EnvironmentKey),
+    /// Bakes some rows of a lookup table.
+    BakeTable {
+        /// The table.
+        key: TableKey,
+        /// Rows to bake.
+        rows: Range<u32>,
+    },
+    /// Sets a film to its initial thickness.
+    SeedField {
+        /// Index of the film.
+        film: usize,
+        /// The field at tick 0.
+        key: FieldKey,
+    },
+    /// Moves a film through whole ticks.
+    StepField {
+        /// Index of the film.
+        film: usize,
+        /// The field's law; its moment is where the steps end.
+        key: FieldKey,
+        /// Ticks to take.
+        ticks: Range<u64>,
+    },
+    /// Makes a film's thickness at a moment, which may lie between two ticks, ready to be drawn.
+    ShowField {
+        /// Index of the film.
+        film: usize,
+        /// The field at the moment to show.
+        key: FieldKey,
+    },
+    /// Draws backdrop and bubbles into the linear picture.
+    Draw(DrawKey),
+    /// Makes the finished picture from the linear one.
+    Tonemap(TonemapKey),
+}
+
+impl Pass {
+    /// The pass's name, as reports print it.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::UploadEnvironment(_) => "upload_environment",
+            Self::BakeTable { .. } => "bake_table",
+            Self::SeedField { .. } => "seed_field",
+            Self::StepField { .. } => "step_field",
+            Self::ShowField { .. } => "show_field",
+            Self::Draw(_) => "draw",
+            Self::Tonemap(_) => "tonemap",
+        }
+    }
+}
+
+/// Why a pass runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// Its product is not there at all.
+    Missing,
+    /// What it reads has changed.
+    Changed(&'static str),
+    /// A part of its product was left for later.
+    Unfinished,
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing => f.write_str("nothing there yet"),
+            Self::Changed(what) => write!(f, "{what} changed"),
+            Self::Unfinished => f.write_str("continued from the last frame"),
+        }
+    }
+}
+
+/// The passes to run, in order, and what will be there afterwards.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Passes, each with its reason.
+    pub steps: Vec<(Pass, Reason)>,
+    /// What is on the GPU once they have run.
+    pub after: Have,
+    /// Whether the wanted picture will then be there; else plan again.
+    pub complete: bool,
+}
+
+impl Plan {
+    /// Whether there is nothing to do.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.steps.is_empty()
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_empty() {
+            return writeln!(f, "nothing to do");
+        }
+        for (pass, reason) in &self.steps {
+            let detail = match pass {
+                Pass::BakeTable { key, rows } => format!("rows {}..{} of {}, {} columns", rows.start, rows.end, key.rows, key.columns),
+                Pass::SeedField { film, key } => format!("film {film}, 6x{0}x{0} cells", key.cells),
+                Pass::StepField { film, ticks, .. } => format!("film {film}, ticks {}..{}", ticks.start, ticks.end),
+                Pass::ShowField { film, key } => format!("film {film} at {}", key.moment),
+                Pass::Draw(key) => format!("{}x{}, bubbles: {}", key.size[0], key.size[1], key.bubbles.len()),
+                Pass::Tonemap(key) => format!("exposure {} EV", key.exposure_ev),
+                Pass::UploadEnvironment(key) => format!("6x{0}x{0} texels", key.size()),
+            };
+            writeln!(f, "{:<18} {detail}: {reason}", pass.name())?;
+        }
+        Ok(())
+    }
+}
+
+/// Rows of a table baked a frame while a window waits: on a software rasteriser about 20 ms of 64 columns.
+const ROWS_A_FRAME: u32 = 256;
+/// Rows baked in one go otherwise, so that no single dispatch runs long enough for a driver to kill it.
+const ROWS_A_DISPATCH: u32 = 512;
+/// How much coarser than the wanted table the first one is that a waiting window gets.
+const COARSE: u32 = 16;
+/// Cells stepped a frame while a window waits for a film to catch up.
+const CELLS_A_FRAME: u64 = 1_600_000;
+
+/// The passes that lead from what is there to what is wanted.
+#[must_use]
+pub fn plan(want: &Want, have: &Have) -> Plan {
+    let mut planner = Planner { steps: Vec::new(), after: have.clone(), pace: want.pace, complete: true };
+    let mut picture = want.picture.clone();
+    let draw = &mut picture.draw;
+    if !draw.bubbles.is_empty() {
+        draw.table = planner.table(&want.picture.draw.table);
+    }
+    if draw.needs_environment() {
+        planner.environment(&draw.environment);
+    }
+    for index in 0..draw.bubbles.len() {
+        if let FilmKey::Field(field) = &mut draw.bubbles[index].film {
+            *field = planner.field(want.picture.draw.bubbles[index].index, field);
+        }
+    }
+    planner.picture(&picture);
+    Plan { steps: planner.steps, after: planner.after, complete: planner.complete }
+}
+
+struct Planner {
+    steps: Vec<(Pass, Reason)>,
+    after: Have,
+    pace: Pace,
+    complete: bool,
+}
+
+impl Planner {
+    fn push(&mut self, pass: Pass, reason: Reason) {
+        self.steps.push((pass, reason));
+    }
+
+    /// Plans the table and returns the one that will be there to draw with.
+    fn table(&mut self, wanted: &TableKey) -> TableKey {
+        if self.after.table.as_ref() == Some(wanted) {
+            self.after.baking = None;
+            return wanted.clone();
+        }
+        let coarse = wanted.coarser(COARSE);
+        let reason = if self.after.table.is_none() { Reason::Missing } else { Reason::Changed("film or light") };
+        if self.pace == Pace::Frame && self.after.table.as_ref() != Some(&coarse) {
+            self.push(Pass::BakeTable { key: coarse.clone(), rows: 0..coarse.rows }, reason);
+            self.after.table = Some(coarse.clone());
+            self.after.baking = None;
+            self.complete = false;
+            return coarse;
+        }
+        self.bake(wanted, reason);
+        self.after.table.clone().unwrap_or(coarse)
+    }
+
+    fn bake(&mut self, wanted: &TableKey, reason: Reason) {
+        let mut done = match &self.after.baking {
+            Some((key, rows)) if key == wanted => *rows,
+            _ => 0,
+        };
+        let (portion, portions) = match self.pace {
+            Pace::Frame => (ROWS_A_FRAME, 1),
+            Pace::Whole => (ROWS_A_DISPATCH, u32::MAX),
+        };
+        for _ in 0..portions {
+            let rows = done..(done + portion).min(wanted.rows);
+            done = rows.end;
+            let reason = if rows.start == 0 { reason } else { Reason::Unfinished };
+            self.push(Pass::BakeTable { key: wanted.clone(), rows }, reason);
+            if done == wanted.rows {
+                self.after.table = Some(wanted.clone());
+                self.after.baking = None;
+                return;
+            }
+        }
+        self.after.baking = Some((wanted.clone(), done));
+        self.complete = false;
+    }
+
+    fn environment(&mut self, wanted: &EnvironmentKey) {
+        if self.after.environment.as_ref() != Some(wanted) {
+            let reason = if self.after.environment.is_none() { Reason::Missing } else { Reason::Changed("environment") };
+            self.push(Pass::UploadEnvironment(wanted.clone()), reason);
+            self.after.environment = Some(wanted.clone());
+        }
+    }
+
+    /// Plans a film's field and returns the key of what will be shown.
+    fn field(&mut self, film: usize, wanted: &FieldKey) -> FieldKey {
+        if self.after.fields.len() <= film {
+            self.after.fields.resize(film + 1, None);
+        }
+        let before = self.after.fields[film].take();
+        let mut have = before.clone().filter(|have| wanted.continues(&have.state)).unwrap_or_else(|| {
+            let reason = if before.is_none() { Reason::Missing } else { Reason::Changed("the film's history") };
+            let start = wanted.at(Moment::default());
+            self.push(Pass::SeedField { film, key: start.clone() }, reason);
+            FieldHave { state: start, shown: None }
+        });
+        let end = self.step(film, wanted, &have.state);
+        let moment = if end == wanted.moment.tick { wanted.moment } else { Moment::tick(end) };
+        let shown = wanted.at(moment);
+        if have.shown != Some(moment) || before.is_none_or(|before| before.state.law_differs_until(&shown)) {
+            let reason = if have.shown.is_none() { Reason::Missing } else { Reason::Changed("the moment") };
+            self.push(Pass::ShowField { film, key: shown.clone() }, reason);
+            have.shown = Some(moment);
+        }
+        have.state = wanted.at(Moment::tick(end));
+        self.after.fields[film] = Some(have);
+        shown
+    }
+
+    /// Plans a film's ticks and returns where they end.
+    fn step(&mut self, film: usize, wanted: &FieldKey, state: &FieldKey) -> u64 {
+        let first = state.moment.tick;
+        let mut end = wanted.moment.tick;
+        if self.pace == Pace::Frame {
+            let most = (CELLS_A_FRAME / wanted.cell_count()).max(1);
+            end = end.min(first + most);
+            self.complete &= end == wanted.moment.tick;
+        }
+        if first < end {
+            let reason = Reason::Changed("the moment");
+            self.push(Pass::StepField { film, key: wanted.at(Moment::tick(end)), ticks: first..end }, reason);
+        }
+        end
+    }
+
+    fn picture(&mut self, wanted: &TonemapKey) {
+        if let Some(reason) = changed(self.after.radiance.as_ref(), &wanted.draw, DrawKey::difference) {
+            self.push(Pass::Draw(wanted.draw.clone()), reason);
+            self.after.radiance = Some(wanted.draw.clone());
+        }
+        if let Some(reason) = changed(self.after.picture.as_ref(), wanted, TonemapKey::difference) {
+            self.push(Pass::Tonemap(wanted.clone()), reason);
+            self.after.picture = Some(wanted.clone());
+        }
+    }
+}
+
+/// Why a product must be made anew, if it must.
+fn changed<K: PartialEq>(have: Option<&K>, want: &K, difference: impl Fn(&K, &K) -> &'static str) -> Option<Reason> {
+    match have {
+        None => Some(Reason::Missing),
+        Some(have) if have == want => None,
+        Some(have) => Some(Reason::Changed(difference(have, want))),
+    }
+}

@@ -1,0 +1,231 @@
+//! From a scene and a shot of it to what the picture needs.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::{
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey, Moment, Pace,
+    TableKey, TonemapKey, Want,
+};
+use crate::{
+    physics::{
+        colour::{BT2020, ColourWeights, Illuminant, bt709_to_bt2020},
+        environment::CubeMap,
+        film::InitialFilm,
+        optics::{FilmIndex, IndexOutOfRange},
+    },
+    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Scene},
+};
+
+/// What a scene names and somebody has loaded.
+#[derive(Clone, Debug)]
+pub struct Resources {
+    /// The environment, in linear BT.2020.
+    pub environment: Arc<CubeMap>,
+    /// The light's spectrum.
+    pub illuminant: Arc<Illuminant>,
+}
+
+/// One picture of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shot {
+    /// Width and height in pixels, both above zero.
+    pub size: [u32; 2],
+    /// When it is taken.
+    pub moment: Moment,
+    /// Whether radiance is kept as f32.
+    pub full_precision: bool,
+    /// Whether films are replaced by the yardstick of the frame's cost.
+    pub yardstick: bool,
+    /// How much may be done at once.
+    pub pace: Pace,
+}
+
+/// A scene that cannot be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum WantError {
+    /// Two visible films of different index.
+    #[error("bubbles of different film index cannot share one picture yet: set the same `index` in every [bubble.film]")]
+    MixedIndices,
+    /// An index that no film has.
+    #[error(transparent)]
+    Index(#[from] IndexOutOfRange),
+}
+
+/// What a shot of a scene needs.
+pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, WantError> {
+    let camera = camera(scene, shot.size);
+    let mut bubbles: Vec<BubbleKey> =
+        scene.bubbles.iter().enumerate().filter_map(|(index, bubble)| visible(scene, &camera, shot, index, bubble)).collect();
+    let distance = |bubble: &BubbleKey| bubble.centre_m.distance_squared(camera.eye_m);
+    bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
+    let draw = DrawKey {
+        size: shot.size,
+        full_precision: shot.full_precision,
+        yardstick: shot.yardstick,
+        camera,
+        light: light(scene, resources),
+        environment: EnvironmentKey(resources.environment.clone()),
+        table: table(scene, resources, &bubbles)?,
+        bubbles,
+    };
+    let dither = scene.view.dither.then_some(scene.view.dither_seed as u32);
+    Ok(Want { picture: TonemapKey { draw, exposure_ev: scene.view.exposure_ev, dither }, pace: shot.pace })
+}
+
+fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
+    let camera = &scene.camera;
+    CameraKey {
+        eye_m: camera.eye(),
+        forward: camera.forward(),
+        right: camera.right(),
+        up: camera.up(),
+        pixel_height_m: 2.0 * (0.5 * camera.fov_y_deg.to_radians()).tan() / f64::from(height),
+    }
+}
+
+fn light(scene: &Scene, resources: &Resources) -> LightKey {
+    let white_of = |illuminant: &Illuminant| BT2020.from_xyz() * ColourWeights::new(illuminant).white();
+    let white = white_of(&resources.illuminant);
+    // Relative to daylight, so that an environment's radiance is shown as it is where the light is the one its file assumes.
+    let tint = white / white_of(&Illuminant::d65());
+    // A constant environment is a white cube times this factor: exact, where half floats in the cube would round.
+    let constant = scene.light.constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
+    let backdrop = match scene.view.backdrop {
+        Backdrop::Environment => BackdropKey::Environment,
+        Backdrop::Radiance(rgb) => BackdropKey::Colour(bt709_to_bt2020() * DVec3::from(rgb)),
+    };
+    LightKey {
+        gain: scene.light.intensity * tint * constant,
+        white,
+        rotation_rad: scene.light.rotation_deg.to_radians(),
+        backdrop,
+    }
+}
+
+fn table(scene: &Scene, resources: &Resources, bubbles: &[BubbleKey]) -> Result<TableKey, WantError> {
+    let index_of = |bubble: &BubbleKey| film_index(&scene.bubbles[bubble.index].film);
+    let index = bubbles.first().map_or(Ok(FilmIndex::Water), index_of)?;
+    for bubble in bubbles {
+        if index_of(bubble)? != index {
+            return Err(WantError::MixedIndices);
+        }
+    }
+    let thickest = bubbles.iter().map(|bubble| match &bubble.film {
+        FilmKey::Uniform(thickness_nm) => *thickness_nm,
+        FilmKey::Field(field) => field.initial.range_nm().1,
+    });
+    Ok(TableKey::full(index, resources.illuminant.clone(), thickest.fold(0.0, f64::max)))
+}
+
+fn film_index(film: &Film) -> Result<FilmIndex, WantError> {
+    match film.index {
+        FilmIndexName::Water => Ok(FilmIndex::Water),
+        FilmIndexName::Constant(n) => Ok(FilmIndex::constant(n)?),
+    }
+}
+
+/// Radius in pixels below which a film's field cannot be seen: it is drawn with its mean thickness.
+const SMALLEST_FIELD_PIXELS: f64 = 0.75;
+
+/// A bubble as the picture sees it, if any pixel can.
+fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
+    let centre_m = DVec3::from(bubble.center_m);
+    let radius_m = bubble.radius_mm * 1e-3;
+    let bounds = bounds(camera, shot.size, centre_m, radius_m)?;
+    let distance = centre_m.distance(camera.eye_m).max(radius_m);
+    let radius_pixels = radius_m / distance / camera.pixel_height_m;
+    let film = match film(scene, bubble, shot.moment) {
+        FilmKey::Field(field) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(field.initial.mean_nm()),
+        film => film,
+    };
+    Some(BubbleKey { index, centre_m, radius_m, bounds, samples: samples(radius_pixels), film })
+}
+
+/// Samples along a pixel's side: bubbles of few pixels need more, for their film and their reflections are finer than a pixel.
+fn samples(radius_pixels: f64) -> u32 {
+    match radius_pixels {
+        r if r < 8.0 => 8,
+        r if r < 24.0 => 4,
+        r if r < 64.0 => 2,
+        _ => 1,
+    }
+}
+
+fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
+    let film = &bubble.film;
+    let thickness_nm = film.thickness_nm;
+    let initial = match film.state {
+        FilmStateName::Uniform => return FilmKey::Uniform(thickness_nm),
+        FilmStateName::Rest if film.stratification == 0.0 => return FilmKey::Uniform(thickness_nm),
+        FilmStateName::Rest => InitialFilm::Rest { thickness_nm, stratification: film.stratification },
+        FilmStateName::Blown => InitialFilm::Blown { thickness_nm, stratification: film.stratification, seed: film.seed },
+    };
+    let flows = flows(scene);
+    FilmKey::Field(FieldKey {
+        cells: film.cells,
+        initial,
+        tick_s: scene.motion.tick_s,
+        remap_ticks: scene.motion.remap_ticks,
+        moment: last_moved(&flows, moment),
+        flows,
+    })
+}
+
+/// The laws that drive a scene's films, in order, each where it differs from the one before.
+fn flows(scene: &Scene) -> Vec<FlowSegment> {
+    let ticks = std::iter::once(0).chain(scene.events.iter().map(|event| event.tick));
+    let mut flows: Vec<FlowSegment> = Vec::new();
+    for from_tick in ticks {
+        let motion = scene.motion_at(from_tick);
+        let (strength, seed) = (motion.strength, motion.seed);
+        let law = match motion.flow {
+            _ if strength == 0.0 => FlowLaw::Rest,
+            Flow::Rest => FlowLaw::Rest,
+            Flow::Sloshing => FlowLaw::Sloshing { strength, seed },
+            Flow::Draught => FlowLaw::Draught { strength, seed },
+            Flow::Stirred => FlowLaw::Stirred { strength, seed },
+        };
+        if flows.last().is_none_or(|last| last.law != law) {
+            flows.push(FlowSegment { from_tick, law });
+        }
+    }
+    flows
+}
+
+/// The last moment until `moment` at which the film moved: while it rests, time changes nothing.
+fn last_moved(flows: &[FlowSegment], moment: Moment) -> Moment {
+    let begun = flows.iter().rposition(|segment| segment.from_tick <= moment.tick);
+    match begun.map(|k| flows[k]) {
+        Some(segment) if segment.law == FlowLaw::Rest => Moment::tick(segment.from_tick),
+        _ => moment,
+    }
+}
+
+/// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; nothing if it is outside.
+fn bounds(camera: &CameraKey, size: [u32; 2], centre_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
+    let offset = centre_m - camera.eye_m;
+    let depth = offset.dot(camera.forward);
+    if depth < -radius_m {
+        return None;
+    }
+    let half = size.map(|pixels| 0.5 * f64::from(pixels) * camera.pixel_height_m);
+    let margin = DVec2::new(2.0 / f64::from(size[0]), 2.0 / f64::from(size[1]));
+    let x = span(offset.dot(camera.right), depth, radius_m).map(|x| x / half[0]);
+    let y = span(offset.dot(camera.up), depth, radius_m).map(|y| y / half[1]);
+    let low = (DVec2::new(x[0], y[0]) - margin).max(DVec2::NEG_ONE);
+    let high = (DVec2::new(x[1], y[1]) + margin).min(DVec2::ONE);
+    (low.x < high.x && low.y < high.y).then_some([low, high])
+}
+
+/// Where the two lines from the eye that touch a circle cross the line one metre before it: the circle's projection.
+/// Everything if the circle reaches behind the eye.
+fn span(across: f64, depth: f64, radius: f64) -> [f64; 2] {
+    if depth <= radius {
+        return [f64::NEG_INFINITY, f64::INFINITY];
+    }
+    let tangent = (across * across + depth * depth - radius * radius).sqrt();
+    let edge = |side: f64| (across * tangent + side * depth * radius) / (depth * tangent - side * across * radius);
+    [edge(-1.0), edge(1.0)]
+}
