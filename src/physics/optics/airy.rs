@@ -1,0 +1,241 @@
+//! Snell, Fresnel and Airy for air | film | air. The corrections to the printed formulas stand in the module above.
+//!
+//! Everywhere `n` is the film's index, 1 to 4, `cos_theta` the cosine of the angle of incidence in air, 0 (grazing) to 1 (normal), and
+//! `thickness_nm` the thickness along the normal.
+
+use std::f64::consts::TAU;
+
+/// A quantity for the two linear polarisations: `s` with its electric field across the plane of incidence, `p` with it inside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polarised {
+    /// Across the plane of incidence (⊥).
+    pub s: f64,
+    /// In the plane of incidence (∥).
+    pub p: f64,
+}
+
+impl Polarised {
+    /// The value for unpolarised light, which is half of each.
+    pub fn mean(self) -> f64 {
+        0.5 * (self.s + self.p)
+    }
+
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        Self {
+            s: f(self.s),
+            p: f(self.p),
+        }
+    }
+}
+
+/// Light of one wavelength that meets a film at one angle: all of the film's answer that its thickness has no part in.
+///
+/// A ray inside a sphere meets the film at the same angle every time, so its walls share one `Incidence`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Incidence {
+    /// Fresnel reflectance r² of one face.
+    face: Polarised,
+    /// n cos θ_t.
+    n_cos_refracted: f64,
+}
+
+impl Incidence {
+    /// The light that meets a film of index `n` at `cos_theta`.
+    pub fn new(n: f64, cos_theta: f64) -> Self {
+        let face = amplitudes(n, cos_theta).map(|r| r * r);
+        Self {
+            face,
+            n_cos_refracted: n_cos_refracted(n, cos_theta),
+        }
+    }
+
+    /// Reflectance of a film of this thickness, for each polarisation; the film absorbs nothing, so 1 − R goes through.
+    ///
+    /// Airy's R = 2r²(1 − cos δ) / (1 + r⁴ − 2r² cos δ), written with 1 − cos δ = 2 sin²(δ/2) so that nothing cancels in thin films.
+    /// It is even in the thickness, and exactly 0 for thickness 0 or n = 1.
+    /// Right at grazing, `cos_theta` = 0, it is 1 for every thickness but 0: the limit, save at the single wavelengths with sin(δ/2) = 0.
+    pub fn reflectance(&self, thickness_nm: f64, wavelength_nm: f64) -> Polarised {
+        let half_phase = TAU * self.n_cos_refracted * thickness_nm / wavelength_nm;
+        let sin2 = half_phase.sin().powi(2);
+        self.face.map(|r2| airy(r2, sin2, thickness_nm))
+    }
+}
+
+fn airy(r2: f64, sin2_half_phase: f64, thickness_nm: f64) -> f64 {
+    let reflected = 4.0 * r2 * sin2_half_phase;
+    let transmitted = (1.0 - r2).powi(2);
+    if reflected + transmitted > 0.0 {
+        reflected / (reflected + transmitted)
+    } else {
+        // Grazing (r² = 1) and sin(δ/2) = 0 at once: 0/0. See `Incidence::reflectance` for what is meant.
+        f64::from(thickness_nm != 0.0)
+    }
+}
+
+/// Cosine of the angle inside the film, by Snell's law: √(1 − (1 − cos²θ) / n²).
+pub fn cos_refracted(n: f64, cos_theta: f64) -> f64 {
+    n_cos_refracted(n, cos_theta) / n
+}
+
+/// n cos θ_t = √(n² − 1 + cos²θ): this form keeps its digits near grazing, and is exactly cos θ for n = 1.
+fn n_cos_refracted(n: f64, cos_theta: f64) -> f64 {
+    ((n - 1.0) * (n + 1.0) + cos_theta * cos_theta).sqrt()
+}
+
+/// Fresnel's amplitude coefficients of the film's outer face,
+/// r_s = (cosθ − n cosθ_t) / (cosθ + n cosθ_t) and r_p = (n cosθ − cosθ_t) / (n cosθ + cosθ_t).
+///
+/// r_p vanishes at Brewster's angle, tan θ = n. Both are −1 at grazing and 0 for n = 1.
+pub fn amplitudes(n: f64, cos_theta: f64) -> Polarised {
+    let inside = n_cos_refracted(n, cos_theta);
+    let outside = n * n * cos_theta;
+    Polarised {
+        s: contrast(cos_theta, inside),
+        p: contrast(outside, inside),
+    }
+}
+
+/// (a − b) / (a + b) for a, b ≥ 0. Both are 0 only at grazing on n = 1, which is no surface and reflects nothing.
+fn contrast(a: f64, b: f64) -> f64 {
+    if a == b { 0.0 } else { (a - b) / (a + b) }
+}
+
+/// Reflectance of the film for each polarisation; see [`Incidence::reflectance`] for formula and limits.
+pub fn reflectance(n: f64, cos_theta: f64, thickness_nm: f64, wavelength_nm: f64) -> Polarised {
+    Incidence::new(n, cos_theta).reflectance(thickness_nm, wavelength_nm)
+}
+
+/// The most that a film of any thickness can reflect at this angle, unpolarised: ½ Σ 4r² / (1 + r²)², which is R at cos δ = −1.
+/// 0.0784 for water at normal incidence, 1 at grazing, 0 for n = 1.
+pub fn max_reflectance(n: f64, cos_theta: f64) -> f64 {
+    amplitudes(n, cos_theta)
+        .map(|r| (2.0 * r / (1.0 + r * r)).powi(2))
+        .mean()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::optics::{FilmIndex, REFERENCE_NM};
+
+    const INDICES: [f64; 4] = [1.0, 1.33, 1.5, 4.0];
+    const COSINES: [f64; 7] = [1e-6, 0.05, 0.2, 0.5, 0.6, 0.9, 1.0];
+    const THICKNESSES_NM: [f64; 6] = [0.0, 1e-3, 7.0, 205.0, 1500.0, 3000.0];
+    const WAVELENGTHS_NM: [f64; 3] = [360.0, 589.0, 780.0];
+
+    fn for_all_cases(mut check: impl FnMut(f64, f64, f64, f64)) {
+        for n in INDICES {
+            for cos_theta in COSINES {
+                for thickness_nm in THICKNESSES_NM {
+                    WAVELENGTHS_NM
+                        .iter()
+                        .for_each(|&nm| check(n, cos_theta, thickness_nm, nm));
+                }
+            }
+        }
+    }
+
+    /// R and T of one polarisation by the characteristic matrix (Macleod, *Thin-Film Optical Filters*, ch. 2), η the tilted admittances:
+    /// another road to the same physics, with T not taken from R.
+    fn characteristic_matrix(eta_air: f64, eta_film: f64, phase: f64) -> (f64, f64) {
+        let (sin, cos) = phase.sin_cos();
+        let (b_re, b_im) = (cos, sin * eta_air / eta_film);
+        let (c_re, c_im) = (eta_air * cos, eta_film * sin);
+        let norm2 = |re: f64, im: f64| re * re + im * im;
+        let incoming = norm2(eta_air * b_re + c_re, eta_air * b_im + c_im);
+        (
+            norm2(eta_air * b_re - c_re, eta_air * b_im - c_im) / incoming,
+            4.0 * eta_air * eta_air / incoming,
+        )
+    }
+
+    #[test]
+    fn equals_the_characteristic_matrix_and_conserves_energy() {
+        for_all_cases(|n, cos_theta, thickness_nm, nm| {
+            let cos_t = cos_refracted(n, cos_theta);
+            let phase = TAU * n * thickness_nm * cos_t / nm;
+            let film = reflectance(n, cos_theta, thickness_nm, nm);
+            let matrices = [(film.s, cos_theta, n * cos_t), (film.p, 1.0 / cos_theta, n / cos_t)];
+            for (r, eta_air, eta_film) in matrices {
+                let (r_matrix, t_matrix) = characteristic_matrix(eta_air, eta_film, phase);
+                // Near resonance at grazing incidence rounding of the phase is magnified; elsewhere 1e-14 holds.
+                let tolerance = if cos_theta < 0.01 { 1e-8 } else { 1e-13 };
+                assert!(
+                    (r - r_matrix).abs() < tolerance,
+                    "R {r} {r_matrix} n={n} cos={cos_theta} d={thickness_nm}"
+                );
+                assert!(
+                    (r + t_matrix - 1.0).abs() < tolerance,
+                    "R+T {r} {t_matrix} n={n} cos={cos_theta}"
+                );
+                assert!((0.0..=1.0).contains(&r));
+            }
+        });
+    }
+
+    #[test]
+    fn equals_the_formula_as_printed_but_for_the_missing_half() {
+        let (n, cos_theta, d, nm) = (1.333, 0.7, 410.0, 550.0);
+        let r = amplitudes(n, cos_theta);
+        let cos_delta = (2.0 * TAU * n * d * cos_refracted(n, cos_theta) / nm).cos();
+        let term = |r: f64| 2.0 * r.powi(2) * (1.0 - cos_delta) / (1.0 + r.powi(4) - 2.0 * r.powi(2) * cos_delta);
+        let printed = term(r.s) + term(r.p);
+        // The printed form loses digits in 1 − cos δ; for this δ of order 10 that is a few parts in 1e15.
+        assert!((printed - 2.0 * reflectance(n, cos_theta, d, nm).mean()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn is_even_in_thickness_and_exactly_dark_without_a_film() {
+        for_all_cases(|n, cos_theta, thickness_nm, nm| {
+            let film = reflectance(n, cos_theta, thickness_nm, nm);
+            assert_eq!(film, reflectance(n, cos_theta, -thickness_nm, nm));
+            if thickness_nm == 0.0 || n == 1.0 {
+                assert_eq!(film, Polarised { s: 0.0, p: 0.0 }, "n={n} cos={cos_theta}");
+            }
+        });
+    }
+
+    #[test]
+    fn reflects_everything_right_at_grazing() {
+        // At n = √(5/4) and λ = 2 n d = 500 nm the phase is exactly 2π k: the 0/0 that the definition settles.
+        for thickness_nm in [1e-3, 250.0, 500.0, 3000.0] {
+            for n in [1.33, 1.25_f64.sqrt(), 4.0] {
+                assert_eq!(reflectance(n, 0.0, thickness_nm, 500.0), Polarised { s: 1.0, p: 1.0 });
+            }
+        }
+        assert_eq!(reflectance(1.33, 0.0, 0.0, 500.0).mean(), 0.0);
+        assert_eq!(reflectance(1.0, 0.0, 300.0, 500.0).mean(), 0.0);
+        assert_eq!(airy(1.0, 0.0, 500.0), 1.0);
+        assert_eq!((max_reflectance(1.33, 0.0), max_reflectance(1.0, 0.0)), (1.0, 0.0));
+    }
+
+    #[test]
+    fn p_light_is_not_reflected_at_brewsters_angle() {
+        let n = FilmIndex::Water.n(REFERENCE_NM);
+        let cos_brewster = 1.0 / (1.0 + n * n).sqrt();
+        assert!((cos_brewster - 0.600).abs() < 5e-4, "{cos_brewster}");
+        let film = reflectance(n, cos_brewster, 150.0, REFERENCE_NM);
+        assert!(film.p < 1e-30 && film.s > 0.1, "{film:?}");
+    }
+
+    #[test]
+    fn no_thickness_reflects_more_than_the_maximum() {
+        for n in INDICES {
+            for cos_theta in COSINES {
+                let quarter_wave_nm = 500.0 / 4.0 / n_cos_refracted(n, cos_theta);
+                let (max, quarter) = (
+                    max_reflectance(n, cos_theta),
+                    reflectance(n, cos_theta, quarter_wave_nm, 500.0),
+                );
+                assert!(
+                    (max - quarter.mean()).abs() < 1e-14,
+                    "n={n} cos={cos_theta}: {max} {quarter:?}"
+                );
+                for thickness_nm in THICKNESSES_NM {
+                    assert!(reflectance(n, cos_theta, thickness_nm, 500.0).mean() <= max + 1e-15);
+                }
+            }
+        }
+        assert!((max_reflectance(FilmIndex::Water.n(REFERENCE_NM), 1.0) - 0.0784).abs() < 5e-5);
+    }
+}
