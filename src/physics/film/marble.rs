@@ -9,11 +9,11 @@ use glam::{DMat3, DVec3};
 
 use super::random::{Random, pcg3d};
 
-const TWISTS: u32 = 56;
-/// Frequencies of the noise in lattice cells per radius, and their weights; the first patches are some 40° wide, the last 8°.
-const OCTAVES: [(f64, f64); 3] = [(1.9, 1.0), (3.7, 0.75), (7.1, 0.45)];
-/// Makes the sum of octaves vary by about ±1.
-const CONTRAST: f64 = 3.4;
+const TWISTS: u32 = 44;
+/// Frequencies of the noise in lattice cells per radius, and their weights; the first patches are some 45° wide, the last 10°.
+const OCTAVES: [(f64, f64); 3] = [(1.7, 1.0), (3.3, 0.5), (6.3, 0.2)];
+/// Spreads the sum of octaves over the range: a standard deviation near 0.55 of (−1, 1).
+const CONTRAST: f64 = 3.6;
 
 /// A marbled random pattern on the sphere.
 #[derive(Clone, Debug)]
@@ -77,7 +77,7 @@ impl Twist {
         Self {
             center: random.direction(),
             reach_squared: reach * reach,
-            half_turn: random.sign() * random.between(0.5, 2.2),
+            half_turn: random.sign() * random.between(0.4, 1.6),
         }
     }
 

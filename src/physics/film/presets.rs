@@ -95,7 +95,7 @@ fn stirring_vortex(random: &mut Random, strength: f64) -> Vortex {
         swing_phase: random.between(-1.0, 1.0),
     };
     // Larger vortices are faster, yet turn slower: speed goes as the square root of the radius.
-    let speed = random.between(0.5, 1.0) * radius.sqrt() * strength;
+    let speed = random.between(0.4, 0.8) * radius.sqrt() * strength;
     vortex.strength *= speed / vortex.peak_speed();
     vortex
 }

@@ -20,8 +20,11 @@ pub struct Measured {
 }
 
 /// Compares a field's cell values, in the grid's order, with the exact ones and with the mass of the initial ones.
-/// Cells that one of the three lacks are not compared; a value that is not finite makes the norms so too.
+/// Nothing is a number in the answer unless all three have a value for each cell; nor are norms with a value that is none.
 pub fn measure(grid: CubedSphere, values: &[f64], exact: &[f64], initial: &[f64]) -> Measured {
+    if [values, exact, initial].iter().any(|field| field.len() != grid.cells()) {
+        return INCOMPARABLE;
+    }
     let areas = grid.areas();
     let integral = |of: &dyn Fn(usize) -> f64| (0..values.len()).map(|cell| areas[cell] * of(cell)).sum::<f64>();
     let largest = |of: &dyn Fn(usize) -> f64| (0..values.len()).map(of).fold(0.0, nan_max);
@@ -36,6 +39,16 @@ pub fn measure(grid: CubedSphere, values: &[f64], exact: &[f64], initial: &[f64]
         max: values.iter().copied().fold(f64::NEG_INFINITY, nan_max),
     }
 }
+
+/// The answer for fields that are not on the grid.
+const INCOMPARABLE: Measured = Measured {
+    l1: f64::NAN,
+    l2: f64::NAN,
+    linf: f64::NAN,
+    mass_drift: f64::NAN,
+    min: f64::NAN,
+    max: f64::NAN,
+};
 
 /// The larger of two, or not a number if either is not: `f64::max` would hide it.
 fn nan_max(a: f64, b: f64) -> f64 {
