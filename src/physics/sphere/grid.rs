@@ -1,0 +1,239 @@
+//! The equiangular cubed sphere: where its cells are, how large they are, and how their values are ordered in memory.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+use glam::DVec3;
+use thiserror::Error;
+
+/// Cells of padding around each panel: what a 4×4 stencil reads beyond the edge, and no more.
+pub const HALO: usize = 2;
+
+/// The axes `[f, r, u]` of the six panels: a panel looks along `f`, its index i grows along `r` and j along `u`.
+pub const PANELS: [[DVec3; 3]; 6] = [
+    [DVec3::X, DVec3::Y, DVec3::Z],
+    [DVec3::Y, DVec3::NEG_X, DVec3::Z],
+    [DVec3::NEG_X, DVec3::NEG_Y, DVec3::Z],
+    [DVec3::NEG_Y, DVec3::X, DVec3::Z],
+    [DVec3::Z, DVec3::Y, DVec3::NEG_X],
+    [DVec3::NEG_Z, DVec3::Y, DVec3::X],
+];
+
+/// Why a grid could not be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error(
+    "{0} cells along a cube edge is out of range: use {min} to {max}",
+    min = CubedSphere::MIN_N,
+    max = CubedSphere::MAX_N
+)]
+pub struct GridError(pub usize);
+
+/// A place on the grid in fractional cell coordinates: the centre of cell (i, j) is at `x = i`, `y = j`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PanelPoint {
+    /// Panel, 0 to 5.
+    pub panel: usize,
+    /// Coordinate along `r`; −0.5 to N − 0.5 inside the panel.
+    pub x: f64,
+    /// Coordinate along `u`; −0.5 to N − 0.5 inside the panel.
+    pub y: f64,
+}
+
+/// An equiangular cubed sphere with N × N cells on each of its six panels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct CubedSphere {
+    n: usize,
+}
+
+impl CubedSphere {
+    /// The coarsest grid: below this the two halos of a panel are no longer thin beside it.
+    pub const MIN_N: usize = 8;
+    /// The finest grid: padded indices fit 32 bits with room to spare.
+    pub const MAX_N: usize = 8192;
+
+    /// The grid with `n` cells along a cube edge. Fails outside [`Self::MIN_N`]..=[`Self::MAX_N`].
+    pub fn new(n: usize) -> Result<Self, GridError> {
+        if (Self::MIN_N..=Self::MAX_N).contains(&n) {
+            Ok(Self { n })
+        } else {
+            Err(GridError(n))
+        }
+    }
+
+    /// Cells along a cube edge, N.
+    pub fn n(self) -> usize {
+        self.n
+    }
+
+    /// Cells in all, 6N².
+    pub fn cells(self) -> usize {
+        6 * self.n * self.n
+    }
+
+    /// The angle D = π/(2N) between neighbouring cell centres along a panel's axes, in radians.
+    pub fn cell_angle(self) -> f64 {
+        FRAC_PI_2 / self.n as f64
+    }
+
+    /// Panel, i and j of a cell, given its place in the order panel, j, i.
+    pub fn cell(self, index: usize) -> (usize, usize, usize) {
+        let row = index / self.n;
+        (row / self.n, index % self.n, row % self.n)
+    }
+
+    /// The unit vector at fractional cell coordinates, which may lie outside the panel (halo cells do).
+    pub fn direction(self, point: PanelPoint) -> DVec3 {
+        let [f, r, u] = PANELS[point.panel];
+        (f + self.tangent(point.x) * r + self.tangent(point.y) * u).normalize()
+    }
+
+    /// The unit vector at the centre of a cell, given its place in the order panel, j, i.
+    pub fn cell_direction(self, index: usize) -> DVec3 {
+        let (panel, i, j) = self.cell(index);
+        self.direction(PanelPoint {
+            panel,
+            x: i as f64,
+            y: j as f64,
+        })
+    }
+
+    /// The inverse of [`Self::direction`] for any non-zero vector: the panel it points through, coordinates within
+    /// [−0.5, N − 0.5]. A vector on an edge belongs to either panel.
+    pub fn locate(self, direction: DVec3) -> PanelPoint {
+        let panel = panel_of(direction);
+        let [f, r, u] = PANELS[panel];
+        let depth = direction.dot(f);
+        let coordinate = |axis: DVec3| {
+            let angle = (direction.dot(axis) / depth).atan() + FRAC_PI_4;
+            (angle / self.cell_angle() - 0.5).clamp(-0.5, self.n as f64 - 0.5)
+        };
+        PanelPoint {
+            panel,
+            x: coordinate(r),
+            y: coordinate(u),
+        }
+    }
+
+    /// The solid angle of cell (i, j) of any panel, in steradians; all cells together make 4π.
+    pub fn cell_area(self, i: usize, j: usize) -> f64 {
+        let [x0, x1] = [i as f64 - 0.5, i as f64 + 0.5].map(|x| self.tangent(x));
+        let [y0, y1] = [j as f64 - 0.5, j as f64 + 0.5].map(|y| self.tangent(y));
+        (pyramid(x1, y1) - pyramid(x0, y1)) - (pyramid(x1, y0) - pyramid(x0, y0))
+    }
+
+    /// The solid angles of all cells in the order panel, j, i.
+    pub fn areas(self) -> Vec<f64> {
+        let n = self.n;
+        let panel: Vec<f64> = (0..n * n).map(|cell| self.cell_area(cell % n, cell / n)).collect();
+        panel.repeat(6)
+    }
+
+    /// Values along a row of a padded panel, N + 2·[`HALO`].
+    pub fn padded_width(self) -> usize {
+        self.n + 2 * HALO
+    }
+
+    /// Values in padded storage, halos included.
+    pub fn padded_len(self) -> usize {
+        6 * self.padded_width().pow(2)
+    }
+
+    /// The place of cell (i, j) in padded storage; i and j run from −[`HALO`] to N + [`HALO`] − 1.
+    pub fn padded_index(self, panel: usize, i: isize, j: isize) -> usize {
+        let width = self.padded_width();
+        let [i, j] = [i, j].map(|k| (k + HALO as isize) as usize);
+        (panel * width + j) * width + i
+    }
+
+    /// Tangent of the angle from the panel's middle at a fractional cell coordinate.
+    fn tangent(self, coordinate: f64) -> f64 {
+        ((coordinate + 0.5) * self.cell_angle() - FRAC_PI_4).tan()
+    }
+}
+
+/// The panel that a vector points through: that of its largest component.
+fn panel_of(v: DVec3) -> usize {
+    let size = v.abs();
+    let (pair, component) = if size.x >= size.y && size.x >= size.z {
+        ([0, 2], v.x)
+    } else if size.y >= size.z {
+        ([1, 3], v.y)
+    } else {
+        ([4, 5], v.z)
+    };
+    pair[usize::from(component < 0.0)]
+}
+
+/// Solid angle of the rectangle [0, x] × [0, y] on the plane at distance 1, seen from the origin.
+fn pyramid(x: f64, y: f64) -> f64 {
+    (x * y / (1.0 + x * x + y * y).sqrt()).atan()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    #[test]
+    fn panels_are_right_handed_frames_that_cover_the_six_axes() {
+        for [f, r, u] in PANELS {
+            assert_eq!(f.cross(r), u);
+        }
+        assert_eq!(PANELS.iter().map(|axes| axes[0]).sum::<DVec3>(), DVec3::ZERO);
+    }
+
+    #[test]
+    fn areas_sum_to_the_sphere() {
+        for n in [8, 17, 60, 255] {
+            let areas = CubedSphere::new(n).unwrap().areas();
+            let sum: f64 = areas.iter().sum();
+            assert_eq!(areas.len(), 6 * n * n);
+            // Summing 4e5 terms loses a few digits on top of the closed form's 1e-16.
+            assert!((sum - 4.0 * PI).abs() < 1e-12, "N = {n}: {:e}", sum - 4.0 * PI);
+        }
+    }
+
+    #[test]
+    fn an_area_is_its_density_times_the_cell_at_fine_resolution() {
+        let grid = CubedSphere::new(400).unwrap();
+        let (i, j) = (17, 310);
+        let [a, b] = [i, j].map(|k| grid.tangent(k as f64));
+        // Metric of the equiangular projection: (1 + a²)(1 + b²) / (1 + a² + b²)^(3/2).
+        let density = (1.0 + a * a) * (1.0 + b * b) / (1.0 + a * a + b * b).powf(1.5);
+        let relative = grid.cell_area(i, j) / (density * grid.cell_angle().powi(2)) - 1.0;
+        assert!(relative.abs() < 1e-5, "midpoint rule, error O(D²): {relative:e}");
+    }
+
+    #[test]
+    fn locate_inverts_direction() {
+        for n in [8, 33] {
+            let grid = CubedSphere::new(n).unwrap();
+            for index in 0..grid.cells() {
+                let (panel, i, j) = grid.cell(index);
+                let found = grid.locate(3.0 * grid.cell_direction(index));
+                assert_eq!(found.panel, panel);
+                assert!((found.x - i as f64).abs() < 1e-12 && (found.y - j as f64).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn locate_accepts_the_corners_and_edges() {
+        let grid = CubedSphere::new(16).unwrap();
+        for v in [DVec3::ONE, -DVec3::ONE, DVec3::new(1.0, -1.0, 0.3), DVec3::NEG_Z] {
+            let back = grid.direction(grid.locate(v));
+            assert!(back.distance(v.normalize()) < 1e-14);
+        }
+    }
+
+    #[test]
+    fn sizes_out_of_range_are_refused() {
+        assert_eq!(CubedSphere::new(7), Err(GridError(7)));
+        assert!(
+            CubedSphere::new(8193)
+                .unwrap_err()
+                .to_string()
+                .contains("use 8 to 8192")
+        );
+    }
+}

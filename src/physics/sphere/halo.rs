@@ -1,0 +1,158 @@
+//! How halo cells get their values, as a table that the CPU and the GPU apply alike.
+//!
+//! A halo cell is a cell of its own panel's grid continued beyond the edge. On the neighbour's equiangular grid it lies exactly on
+//! a row of cells parallel to the edge and between two cells of that row, so a 1-D interpolation along the row is all it takes. The
+//! same holds for the cells beyond a corner, whose rows run on into the neighbour's halo: they come second.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{CubedSphere, HALO, PanelPoint, cubic_weights};
+
+/// One halo cell: `value[target] = Σ weights[k] · value[source[k]]`, all in padded indices.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct HaloEntry {
+    /// The halo cell.
+    pub target: u32,
+    /// Four cells in a row on the neighbour panel.
+    pub source: [u32; 4],
+    /// Lagrange weights. Their sum is exactly 1, so that constants stay constant in any precision.
+    pub weights: [f32; 4],
+}
+
+/// The halo cells of a grid in two passes: all of `edges`, then all of `corners`. Within a pass any order gives the same values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HaloTable {
+    /// The 48·N cells beyond one edge; they read inner cells only.
+    pub edges: Vec<HaloEntry>,
+    /// The 96 cells beyond two edges at once; they read inner and edge cells.
+    pub corners: Vec<HaloEntry>,
+}
+
+impl HaloTable {
+    /// The table of a grid.
+    pub fn new(grid: CubedSphere) -> Self {
+        let n = grid.n() as isize;
+        let span = -(HALO as isize)..n + HALO as isize;
+        let outside = |k: isize| usize::from(!(0..n).contains(&k));
+        let beyond = |edges: usize| {
+            let span = span.clone();
+            (0..6).flat_map(move |panel| {
+                let rows = span.clone();
+                let columns = span.clone();
+                rows.flat_map(move |j| columns.clone().map(move |i| (panel, i, j)))
+                    .filter(move |&(_, i, j)| outside(i) + outside(j) == edges)
+            })
+        };
+        let entries = |edges, reach| {
+            beyond(edges)
+                .map(|(panel, i, j)| entry(grid, panel, i, j, reach))
+                .collect()
+        };
+        Self {
+            edges: entries(1, 0),
+            corners: entries(2, HALO as isize),
+        }
+    }
+}
+
+/// The entry of halo cell (i, j) of a panel; its stencil may reach that many cells beyond the neighbour's ends.
+fn entry(grid: CubedSphere, panel: usize, i: isize, j: isize, reach: isize) -> HaloEntry {
+    let place = grid.locate(grid.direction(PanelPoint {
+        panel,
+        x: i as f64,
+        y: j as f64,
+    }));
+    // One coordinate is a whole number but for rounding; should both be, then either way is exact.
+    let along_x = off_centre(place.x) > off_centre(place.y);
+    let (along, across) = if along_x {
+        (place.x, place.y)
+    } else {
+        (place.y, place.x)
+    };
+    let row = across.round() as isize;
+    let first = (along.floor() as isize - 1).clamp(-reach, grid.n() as isize + reach - 4);
+    let source = [0, 1, 2, 3].map(|step| {
+        let (i, j) = if along_x {
+            (first + step, row)
+        } else {
+            (row, first + step)
+        };
+        grid.padded_index(place.panel, i, j) as u32
+    });
+    HaloEntry {
+        target: grid.padded_index(panel, i, j) as u32,
+        source,
+        weights: unit_sum(cubic_weights(along - (first + 1) as f64)),
+    }
+}
+
+/// Distance from the nearest cell centre.
+fn off_centre(coordinate: f64) -> f64 {
+    (coordinate - coordinate.round()).abs()
+}
+
+/// Rounds weights to multiples of 2⁻²³, which f32 holds exactly up to 2, and gives the largest what is missing to 1.
+fn unit_sum(weights: [f64; 4]) -> [f32; 4] {
+    const ONE: f64 = (1 << 23) as f64;
+    let mut steps = weights.map(|weight| (weight * ONE).round());
+    let missing = ONE - steps.iter().sum::<f64>();
+    let largest = (0..4).fold(0, |best, k| if steps[k] > steps[best] { k } else { best });
+    steps[largest] += missing;
+    steps.map(|step| (step / ONE) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn every_halo_cell_is_filled_once_and_reads_only_what_is_ready() {
+        for n in [8, 9, 32, 61] {
+            let grid = CubedSphere::new(n).unwrap();
+            let table = HaloTable::new(grid);
+            let mut ready: HashSet<u32> = (0..grid.cells())
+                .map(|index| grid.cell(index))
+                .map(|(panel, i, j)| grid.padded_index(panel, i as isize, j as isize) as u32)
+                .collect();
+            assert_eq!(
+                (table.edges.len(), table.corners.len()),
+                (6 * 4 * HALO * n, 6 * 4 * HALO * HALO)
+            );
+            for pass in [&table.edges, &table.corners] {
+                assert!(
+                    pass.iter()
+                        .all(|entry| entry.source.iter().all(|source| ready.contains(source)))
+                );
+                ready.extend(pass.iter().map(|entry| entry.target));
+            }
+            assert_eq!(ready.len(), grid.padded_len());
+        }
+    }
+
+    #[test]
+    fn the_index_across_the_edge_is_exact() {
+        let grid = CubedSphere::new(13).unwrap();
+        for index in 0..13 {
+            let beyond = PanelPoint {
+                panel: 0,
+                x: 14.0,
+                y: f64::from(index),
+            };
+            let place = grid.locate(grid.direction(beyond));
+            assert_eq!(place.panel, 1);
+            assert!((place.x - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn weights_sum_to_exactly_one() {
+        let table = HaloTable::new(CubedSphere::new(29).unwrap());
+        for entry in table.edges.iter().chain(&table.corners) {
+            assert_eq!(entry.weights.iter().map(|&w| f64::from(w)).sum::<f64>(), 1.0);
+            assert!(entry.weights.iter().all(|w| w.abs() <= 1.0));
+        }
+    }
+}
