@@ -198,3 +198,14 @@ fn events_change_something_in_order() {
         ),
     ]);
 }
+
+#[test]
+fn deep_nesting_is_refused_without_overflowing_the_stack() {
+    for text in [
+        format!("x = {}", "[".repeat(100_000)),
+        format!("x{} = 1", ".x".repeat(100_000)),
+        format!("x = {}", "{x=".repeat(100_000)),
+    ] {
+        assert!(refusal(&with_version(&text)).contains("recurs"));
+    }
+}
