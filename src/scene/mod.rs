@@ -1,1 +1,132 @@
-//! TODO
+//! WHAT is shown: a scene as plain data, its TOML, the presets, and the events that make its history.
+//!
+//! Nothing here knows how the scene is computed or drawn, and nothing here touches files: reading a path is the caller's business.
+//! Angles are in degrees and units stand in the names, as in the files; lengths are metres unless the name says otherwise.
+//!
+//! The file format, which a test holds to the code:
+#![doc = include_str!("../../assets/scenes/README.md")]
+
+mod bubble;
+mod camera;
+mod check;
+mod document;
+mod error;
+mod light;
+mod motion;
+mod preset;
+#[cfg(test)]
+mod tests;
+
+pub use bubble::{Bubble, Film, FilmIndexName, FilmStateName};
+pub use camera::Camera;
+pub use error::{Problem, SceneError};
+pub use light::{Backdrop, Environment, Light, View};
+pub use motion::{Change, Event, Flow, Motion, MotionChange};
+pub use preset::{preset, preset_names, preset_toml};
+
+use check::{Checked, Fault};
+use serde::{Deserialize, Serialize};
+
+/// The version of the scene format that this program reads and writes.
+pub const VERSION: u32 = 1;
+
+/// The largest number of bubbles in one scene: what the uniform buffers of every supported GPU hold.
+pub const MAX_BUBBLES: usize = 42;
+
+/// Everything that decides a picture, apart from its size, its quality and the moment it shows.
+///
+/// A value made in memory may break the ranges of its fields; [`Scene::validate`] tells. [`Scene::from_toml`] only returns valid ones.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Scene {
+    /// Version of the format: [`VERSION`].
+    pub version: u32,
+    /// The bubbles, at most [`MAX_BUBBLES`]. A file without any `[[bubble]]` has one default bubble; `bubble = []` has none.
+    #[serde(rename = "bubble")]
+    pub bubbles: Vec<Bubble>,
+    /// From where it is seen.
+    pub camera: Camera,
+    /// What lights it.
+    pub light: Light,
+    /// How the radiance becomes a picture.
+    pub view: View,
+    /// How the films move from tick 0 on.
+    pub motion: Motion,
+    /// What happens later, in the order of the ticks.
+    #[serde(rename = "event", skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<Event>,
+}
+
+impl Default for Scene {
+    /// The scene of the file `version = 1`, which is the preset `default`.
+    fn default() -> Self {
+        Self {
+            version: VERSION,
+            bubbles: vec![Bubble::default()],
+            camera: Camera::default(),
+            light: Light::default(),
+            view: View::default(),
+            motion: Motion::default(),
+            events: Vec::new(),
+        }
+    }
+}
+
+impl Scene {
+    /// Reads a scene from TOML. `name` stands for the text in error messages: a path, or a preset's name.
+    ///
+    /// # Errors
+    ///
+    /// The first of: text that is not TOML, a version that is missing or not [`VERSION`], an unknown key, a value of the wrong type,
+    /// a value out of its range; each with the line it stands on.
+    pub fn from_toml(text: &str, name: &str) -> Result<Self, SceneError> {
+        document::read(text).map_err(|located| located.in_text(text, name))
+    }
+
+    /// The scene as TOML, which [`Scene::from_toml`] reads back to an equal scene.
+    ///
+    /// Every key is written, the default ones too: the file then lists what can be changed, and shows the same picture after a
+    /// default changes in a later version. Only what is absent has no key (`constant`, `[[event]]`, what an event leaves alone).
+    pub fn to_toml(&self) -> String {
+        // Every field is a number, a word, a list or a struct with named fields, and TOML can write all of these.
+        toml::to_string(self).expect("plain data is always TOML")
+    }
+
+    /// Tells whether every value lies in its range.
+    ///
+    /// # Errors
+    ///
+    /// The first value that does not, by the path of its key.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        self.check().map_err(|fault| SceneError::InMemory(fault.into()))
+    }
+
+    /// The motion in force at a tick: `[motion]` as changed by every event up to and including that tick.
+    pub fn motion_at(&self, tick: u64) -> Motion {
+        let past = self.events.iter().take_while(|event| event.tick <= tick);
+        past.fold(self.motion.clone(), |motion, event| match &event.change {
+            Change::Motion(change) => change.applied_to(motion),
+        })
+    }
+
+    fn check(&self) -> Checked {
+        check::in_range("version", self.version, VERSION..=VERSION)?;
+        check::at_most("bubble", self.bubbles.len(), MAX_BUBBLES)?;
+        check::each("bubble", &self.bubbles, Bubble::check)?;
+        self.camera.check().map_err(|fault| fault.inside("camera"))?;
+        self.light.check().map_err(|fault| fault.inside("light"))?;
+        self.view.check().map_err(|fault| fault.inside("view"))?;
+        self.motion.check().map_err(|fault| fault.inside("motion"))?;
+        check::each("event", &self.events, Event::check)?;
+        self.check_order()
+    }
+
+    fn check_order(&self) -> Checked {
+        let late = self.events.windows(2).position(|pair| pair[1].tick < pair[0].tick);
+        late.map_or(Ok(()), |first| {
+            let (before, tick) = (self.events[first].tick, self.events[first + 1].tick);
+            let reason = format!("is {tick} after an event at tick {before}; sort the events by tick");
+            Err(Fault::new("tick", reason).inside_item("event", first + 1))
+        })
+    }
+}

@@ -1,0 +1,110 @@
+//! A bubble and its film.
+
+use super::check::{self, Checked, Fault};
+use serde::{Deserialize, Serialize};
+
+/// Thinnest mean film that can flow, nm: its logarithm drives the buoyancy, so it must not vanish.
+const MIN_FLOWING_NM: f64 = 1.0;
+
+/// A spherical bubble: one `[[bubble]]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Bubble {
+    /// Centre, m; each coordinate -1000 ..= 1000. Default: the origin.
+    pub center_m: [f64; 3],
+    /// Radius, mm; 0.1 ..= 5000. Default: 50.
+    pub radius_mm: f64,
+    /// The film at tick 0.
+    pub film: Film,
+}
+
+impl Default for Bubble {
+    fn default() -> Self {
+        Self {
+            center_m: [0.0; 3],
+            radius_mm: 50.0,
+            film: Film::default(),
+        }
+    }
+}
+
+impl Bubble {
+    pub(super) fn check(&self) -> Checked {
+        check::all_in_range("center_m", self.center_m, check::POSITION_M)?;
+        check::in_range("radius_mm", self.radius_mm, 0.1..=5000.0)?;
+        self.film.check().map_err(|fault| fault.inside("film"))
+    }
+}
+
+/// The film of a bubble at tick 0: `[bubble.film]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Film {
+    /// How the thickness is spread over the sphere. Default: `rest`.
+    pub state: FilmStateName,
+    /// Mean total thickness along the normal, nm; 0 ..= 10000, and at least 1 unless `state` is `uniform`. Default: 550.
+    pub thickness_nm: f64,
+    /// The `a` of the rest state `h = mean (a / sinh a) exp(-a cos colatitude)`, no unit; -5 ..= 5, negative is thick on top.
+    /// Only `rest` uses it. Default: 0.6, a drained film.
+    pub stratification: f64,
+    /// Refractive index. Default: `water`.
+    pub index: FilmIndexName,
+    /// Seed of the random patches of a `blown` film. Default: 1.
+    pub seed: u64,
+    /// Thickness cells along an edge of the cubed sphere, 6 `cells`² in all; 16 ..= 1024. Default: 256.
+    pub cells: u32,
+}
+
+impl Default for Film {
+    fn default() -> Self {
+        Self {
+            state: FilmStateName::Rest,
+            thickness_nm: 550.0,
+            stratification: 0.6,
+            index: FilmIndexName::Water,
+            seed: 1,
+            cells: 256,
+        }
+    }
+}
+
+impl Film {
+    fn check(&self) -> Checked {
+        check::in_range("thickness_nm", self.thickness_nm, 0.0..=10_000.0)?;
+        if self.state != FilmStateName::Uniform && self.thickness_nm < MIN_FLOWING_NM {
+            let reason = format!(
+                "is {}; only a film with `state = \"uniform\"` may be thinner than 1",
+                self.thickness_nm
+            );
+            return Err(Fault::new("thickness_nm", reason));
+        }
+        check::in_range("stratification", self.stratification, -5.0..=5.0)?;
+        if let FilmIndexName::Constant(index) = self.index {
+            check::in_range("index", index, 1.0..=4.0)?;
+        }
+        check::in_range("cells", self.cells, 16..=1024)
+    }
+}
+
+/// How the thickness of a film is spread over its sphere at tick 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FilmStateName {
+    /// The same thickness everywhere; nothing to simulate.
+    Uniform,
+    /// Sorted by gravity: thin above, thick below, as `stratification` says.
+    Rest,
+    /// Freshly blown: random patches around the mean, not yet sorted.
+    Blown,
+}
+
+/// The refractive index of a film.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase", expecting = "expected \"water\" or a number")]
+pub enum FilmIndexName {
+    /// Water at 20 °C, with its dispersion.
+    Water,
+    /// The same index at every wavelength; 1 ..= 4.
+    #[serde(untagged)]
+    Constant(f64),
+}

@@ -1,0 +1,128 @@
+//! The camera: an orbit around a target.
+
+use super::check::{self, Checked};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// A camera on an orbit around its target, +z up: `[camera]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Camera {
+    /// The point in the middle of the picture, m; each coordinate -1000 ..= 1000. Default: the origin.
+    pub target_m: [f64; 3],
+    /// Where the eye stands around the vertical, degrees from +x towards +y; any finite number. Default: 20.
+    pub azimuth_deg: f64,
+    /// How high the eye stands, degrees above the horizon; -90 ..= 90. Default: 8.
+    pub elevation_deg: f64,
+    /// From the target to the eye, m; 0 ..= 1000, and 0 is the target itself. Default: 0.24, where the default bubble fills 80 % of
+    /// the picture's height.
+    pub distance_m: f64,
+    /// Full vertical field of view, degrees; 1 ..= 170. Default: 30.
+    pub fov_y_deg: f64,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            target_m: [0.0; 3],
+            azimuth_deg: 20.0,
+            elevation_deg: 8.0,
+            distance_m: 0.24,
+            fov_y_deg: 30.0,
+        }
+    }
+}
+
+impl Camera {
+    /// Position of the eye, m.
+    pub fn eye(&self) -> DVec3 {
+        DVec3::from(self.target_m) - self.distance_m * self.forward()
+    }
+
+    /// Unit vector along the view, from the eye to the target; defined at distance 0 too.
+    pub fn forward(&self) -> DVec3 {
+        let (sin_az, cos_az) = self.azimuth_deg.to_radians().sin_cos();
+        let (sin_el, cos_el) = self.elevation_deg.to_radians().sin_cos();
+        -DVec3::new(cos_el * cos_az, cos_el * sin_az, sin_el)
+    }
+
+    /// Unit vector to the right in the picture: horizontal, and defined straight above the target too.
+    pub fn right(&self) -> DVec3 {
+        let (sin_az, cos_az) = self.azimuth_deg.to_radians().sin_cos();
+        DVec3::new(-sin_az, cos_az, 0.0)
+    }
+
+    /// Unit vector upwards in the picture.
+    pub fn up(&self) -> DVec3 {
+        self.right().cross(self.forward())
+    }
+
+    pub(super) fn check(&self) -> Checked {
+        check::all_in_range("target_m", self.target_m, check::POSITION_M)?;
+        check::finite("azimuth_deg", self.azimuth_deg)?;
+        check::in_range("elevation_deg", self.elevation_deg, -90.0..=90.0)?;
+        check::in_range("distance_m", self.distance_m, 0.0..=1000.0)?;
+        check::in_range("fov_y_deg", self.fov_y_deg, 1.0..=170.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Bubble;
+    use super::*;
+
+    #[test]
+    fn default_bubble_fills_80_percent_of_the_height() {
+        let (camera, bubble) = (Camera::default(), Bubble::default());
+        // The cone that touches a sphere of radius r from the distance d has the half angle asin(r / d).
+        let half_angle = (bubble.radius_mm * 1e-3 / camera.distance_m).asin();
+        let filled = half_angle.tan() / (camera.fov_y_deg / 2.0).to_radians().tan();
+        assert!((filled - 0.8).abs() < 0.01, "the bubble fills {filled} of the height");
+    }
+
+    #[test]
+    fn eye_stands_where_the_angles_say() {
+        let at = |azimuth_deg, elevation_deg| {
+            Camera {
+                target_m: [1.0, 2.0, 3.0],
+                azimuth_deg,
+                elevation_deg,
+                distance_m: 2.0,
+                ..Camera::default()
+            }
+            .eye()
+        };
+        let target = DVec3::new(1.0, 2.0, 3.0);
+        // Positions of order 1 computed in f64: a few ulp.
+        assert!(at(0.0, 0.0).abs_diff_eq(target + 2.0 * DVec3::X, 1e-14));
+        assert!(at(90.0, 0.0).abs_diff_eq(target + 2.0 * DVec3::Y, 1e-14));
+        assert!(at(123.0, 90.0).abs_diff_eq(target + 2.0 * DVec3::Z, 1e-14));
+        assert!(at(180.0, -30.0).abs_diff_eq(target + DVec3::new(-(3f64.sqrt()), 0.0, -1.0), 1e-14));
+    }
+
+    #[test]
+    fn axes_are_right_handed_and_unmirrored() {
+        for (azimuth_deg, elevation_deg) in [(0.0, 0.0), (20.0, 8.0), (200.0, -60.0), (77.0, 90.0), (77.0, -90.0)] {
+            let camera = Camera {
+                azimuth_deg,
+                elevation_deg,
+                distance_m: 0.0,
+                ..Camera::default()
+            };
+            let (forward, right, up) = (camera.forward(), camera.right(), camera.up());
+            assert!(
+                right.cross(up).abs_diff_eq(-forward, 1e-14),
+                "{azimuth_deg}, {elevation_deg}"
+            );
+            assert!(forward.dot(right).abs() < 1e-15 && (up.length() - 1.0).abs() < 1e-14);
+            assert!(up.z >= -1e-15, "+z must never point downwards in the picture");
+        }
+        // From +x one looks along -x, and +y is to the right.
+        let camera = Camera {
+            azimuth_deg: 0.0,
+            elevation_deg: 0.0,
+            ..Camera::default()
+        };
+        assert!(camera.right().abs_diff_eq(DVec3::Y, 1e-15) && camera.up().abs_diff_eq(DVec3::Z, 1e-15));
+    }
+}

@@ -1,0 +1,159 @@
+//! Checks of single values, and the path of the key that fails one.
+
+use std::fmt::{self, Display};
+use std::ops::RangeInclusive;
+
+/// Range of each coordinate of a position, m: what f32 resolves to a tenth of a millimetre.
+pub(super) const POSITION_M: RangeInclusive<f64> = -1000.0..=1000.0;
+
+/// Range of each component of a radiance: what a half float holds.
+pub(super) const RADIANCE: RangeInclusive<f64> = 0.0..=65504.0;
+
+/// The outcome of a check.
+pub(super) type Checked = Result<(), Fault>;
+
+/// A value that breaks a rule, with the way to its key.
+#[derive(Debug)]
+pub(super) struct Fault {
+    pub path: KeyPath,
+    pub reason: String,
+}
+
+impl Fault {
+    pub fn new(key: &str, reason: impl Into<String>) -> Self {
+        Self {
+            path: KeyPath::default().key(key),
+            reason: reason.into(),
+        }
+    }
+
+    /// The same fault seen from the table that holds `key`.
+    pub fn inside(self, key: &str) -> Self {
+        self.below(KeyPath::default().key(key))
+    }
+
+    /// The same fault seen from the table that holds the list `key`.
+    pub fn inside_item(self, key: &str, index: usize) -> Self {
+        self.below(KeyPath::default().key(key).item(index))
+    }
+
+    fn below(mut self, mut parent: KeyPath) -> Self {
+        parent.0.append(&mut self.path.0);
+        Self { path: parent, ..self }
+    }
+}
+
+pub(super) fn in_range<T: PartialOrd + Display>(key: &str, value: T, range: RangeInclusive<T>) -> Checked {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    Err(Fault::new(
+        key,
+        format!("is {value}; it must be within {} ..= {}", range.start(), range.end()),
+    ))
+}
+
+pub(super) fn all_in_range(key: &str, values: [f64; 3], range: RangeInclusive<f64>) -> Checked {
+    values.into_iter().try_for_each(|value| {
+        in_range(key, value, range.clone()).map_err(|fault| Fault {
+            reason: format!("holds a number that {}", fault.reason),
+            ..fault
+        })
+    })
+}
+
+pub(super) fn finite(key: &str, value: f64) -> Checked {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(Fault::new(key, format!("is {value}; it must be a finite number")))
+    }
+}
+
+pub(super) fn at_most(key: &str, count: usize, limit: usize) -> Checked {
+    if count <= limit {
+        Ok(())
+    } else {
+        Err(Fault::new(
+            key,
+            format!("is a list of {count}; at most {limit} are allowed"),
+        ))
+    }
+}
+
+pub(super) fn each<T>(key: &str, items: &[T], check: impl Fn(&T) -> Checked) -> Checked {
+    let mut numbered = items.iter().enumerate();
+    numbered.try_for_each(|(index, item)| check(item).map_err(|fault| fault.inside_item(key, index)))
+}
+
+/// The way from the top of a scene to one of its keys.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct KeyPath(Vec<Step>);
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Step {
+    Key(String),
+    Item(usize),
+}
+
+impl KeyPath {
+    pub fn key(&self, key: &str) -> Self {
+        self.then(Step::Key(key.to_owned()))
+    }
+
+    pub fn item(&self, index: usize) -> Self {
+        self.then(Step::Item(index))
+    }
+
+    pub fn steps(&self) -> &[Step] {
+        &self.0
+    }
+
+    fn then(&self, step: Step) -> Self {
+        Self(self.0.iter().cloned().chain([step]).collect())
+    }
+}
+
+/// `` `thickness_nm` in [bubble.film] `` or `` `radius_mm` in [[bubble]] number 2 ``, as the reader would look for it in a file.
+impl Display for KeyPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let table = match self.0.split_last() {
+            None => return write!(f, "the scene"),
+            Some((Step::Item(_), _)) => &self.0[..],
+            Some((Step::Key(key), table)) => {
+                let joint = if table.is_empty() { "" } else { " in " };
+                write!(f, "`{}`{joint}", key.escape_debug())?;
+                table
+            }
+        };
+        fmt_table(table, f)
+    }
+}
+
+/// `[camera]`, `[[bubble]]`, and `[[bubble]] number 2` where there are others before it.
+fn fmt_table(table: &[Step], f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let names = table.iter().filter_map(Step::name).collect::<Vec<_>>().join(".");
+    match table.last() {
+        None => return Ok(()),
+        Some(Step::Item(_)) => write!(f, "[[{names}]]")?,
+        Some(Step::Key(_)) => write!(f, "[{names}]")?,
+    }
+    let later = table.iter().find_map(Step::index).filter(|index| *index > 0);
+    later.map_or(Ok(()), |index| write!(f, " number {}", index + 1))
+}
+
+impl Step {
+    fn name(&self) -> Option<&str> {
+        match self {
+            Self::Key(key) => Some(key),
+            Self::Item(_) => None,
+        }
+    }
+
+    fn index(&self) -> Option<usize> {
+        match self {
+            Self::Key(_) => None,
+            Self::Item(index) => Some(*index),
+        }
+    }
+}

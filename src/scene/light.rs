@@ -1,0 +1,131 @@
+//! What lights the scene, and how its radiance becomes a picture.
+
+use super::check::{self, Checked, Fault};
+use serde::{Deserialize, Serialize};
+
+/// The light around the bubbles: `[light]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Light {
+    /// The environment map. Default: `tent`.
+    pub environment: Environment,
+    /// Name of the illuminant whose spectrum white light has (`D65`, `A`, `E`, ...). Default: `D65`.
+    pub illuminant: String,
+    /// The same radiance from everywhere in place of the environment, linear BT.709; each 0 ..= 65504. Default: absent.
+    pub constant: Option<[f64; 3]>,
+    /// Turns the environment about the vertical, degrees, counter-clockwise seen from above; any finite number. Default: 0.
+    pub rotation_deg: f64,
+    /// Factor on the radiance of the light; 0 ..= 10000. Default: 1.
+    pub intensity: f64,
+}
+
+impl Default for Light {
+    fn default() -> Self {
+        Self {
+            environment: Environment::Tent,
+            illuminant: "D65".to_owned(),
+            constant: None,
+            rotation_deg: 0.0,
+            intensity: 1.0,
+        }
+    }
+}
+
+impl Light {
+    pub(super) fn check(&self) -> Checked {
+        self.environment.check()?;
+        if self.illuminant.trim().is_empty() {
+            return Err(Fault::new(
+                "illuminant",
+                "is empty; name one, as in `illuminant = \"D65\"`",
+            ));
+        }
+        self.constant.map_or(Ok(()), |radiance| {
+            check::all_in_range("constant", radiance, check::RADIANCE)
+        })?;
+        check::finite("rotation_deg", self.rotation_deg)?;
+        check::in_range("intensity", self.intensity, 0.0..=10_000.0)
+    }
+}
+
+/// An equirectangular environment map: a built-in one by name, or a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(
+    rename_all = "lowercase",
+    expecting = "expected \"tent\", \"windows\" or the path of an .exr or .hdr file"
+)]
+pub enum Environment {
+    /// Built in: a photographer's light tent with soft lamps.
+    Tent,
+    /// Built in: a dark room with bright windows.
+    Windows,
+    /// Path of an `.exr` or `.hdr` file, as written in the scene.
+    #[serde(untagged)]
+    File(String),
+}
+
+impl Environment {
+    fn check(&self) -> Checked {
+        match self {
+            Self::File(path) if !is_picture(path) => {
+                let reason = format!("is {path:?}; use \"tent\", \"windows\" or the path of an .exr or .hdr file");
+                Err(Fault::new("environment", reason))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn is_picture(path: &str) -> bool {
+    let path = path.to_ascii_lowercase();
+    path.ends_with(".exr") || path.ends_with(".hdr")
+}
+
+/// How the radiance becomes a picture: `[view]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct View {
+    /// Exposure, stops: the radiance is multiplied by 2 to this power; -20 ..= 20. Default: 0.
+    pub exposure_ev: f64,
+    /// What stands straight behind the bubbles. Default: a very dark neutral, on which the film's colours show.
+    pub backdrop: Backdrop,
+    /// Whether 8-bit pictures are dithered. Default: true.
+    pub dither: bool,
+    /// Seed of the dither. Default: 0.
+    pub dither_seed: u64,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            exposure_ev: 0.0,
+            backdrop: Backdrop::Radiance([0.004, 0.004, 0.005]),
+            dither: true,
+            dither_seed: 0,
+        }
+    }
+}
+
+impl View {
+    pub(super) fn check(&self) -> Checked {
+        check::in_range("exposure_ev", self.exposure_ev, -20.0..=20.0)?;
+        match self.backdrop {
+            Backdrop::Environment => Ok(()),
+            Backdrop::Radiance(radiance) => check::all_in_range("backdrop", radiance, check::RADIANCE),
+        }
+    }
+}
+
+/// What stands straight behind the bubbles; it need not be what lights them, as a photographer's black card shows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    rename_all = "lowercase",
+    expecting = "expected \"environment\" or three numbers [r, g, b]"
+)]
+pub enum Backdrop {
+    /// The light's own environment (or constant).
+    Environment,
+    /// One radiance, linear BT.709; each 0 ..= 65504.
+    #[serde(untagged)]
+    Radiance([f64; 3]),
+}

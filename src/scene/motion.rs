@@ -1,0 +1,226 @@
+//! How the films move, and what changes on the way.
+
+use super::check::{self, Checked, Fault};
+use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+
+const STRENGTH: RangeInclusive<f64> = 0.0..=10.0;
+
+/// The clock and the flow of the films: `[motion]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Motion {
+    /// Length of a tick, s; 0.0001 ..= 0.1. Default: 1/60.
+    pub tick_s: f64,
+    /// What moves the film. Default: `draught`.
+    pub flow: Flow,
+    /// Factor on the speed of the flow; 0 ..= 10. Default: 1.
+    pub strength: f64,
+    /// Seed of the flow. Default: 1.
+    pub seed: u64,
+    /// Ticks between two remaps of the flow map; 1 ..= 1000. Default: 20.
+    pub remap_ticks: u32,
+    /// Film time that passes in a second of the window's clock, s; 0.01 ..= 100. Default: 1.
+    pub speed: f64,
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Self {
+            tick_s: 1.0 / 60.0,
+            flow: Flow::Draught,
+            strength: 1.0,
+            seed: 1,
+            remap_ticks: 20,
+            speed: 1.0,
+        }
+    }
+}
+
+impl Motion {
+    pub(super) fn check(&self) -> Checked {
+        check::in_range("tick_s", self.tick_s, 1e-4..=0.1)?;
+        check::in_range("strength", self.strength, STRENGTH)?;
+        check::in_range("remap_ticks", self.remap_ticks, 1..=1000)?;
+        check::in_range("speed", self.speed, 0.01..=100.0)
+    }
+}
+
+/// What moves a film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Flow {
+    /// Nothing.
+    Rest,
+    /// The film swings as a whole about its rest state.
+    Sloshing,
+    /// Slow, large gusts of the air around the bubble.
+    Draught,
+    /// Many turning vortices, as after a stir.
+    Stirred,
+}
+
+/// Something that happens at a tick and lasts from then on: one `[[event]]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Entry", into = "Entry")]
+pub struct Event {
+    /// The tick at which it happens. Default: 0.
+    pub tick: u64,
+    /// What happens: the key `kind` and the keys of that kind.
+    pub change: Change,
+}
+
+impl Event {
+    pub(super) fn check(&self) -> Checked {
+        match &self.change {
+            Change::Motion(change) => change.check(),
+        }
+    }
+}
+
+/// What an event changes; the key `kind` names the variant.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    /// `kind = "motion"`: another flow.
+    Motion(MotionChange),
+}
+
+/// Keys of `[motion]` that take a new value at an event; those absent stay as they are.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MotionChange {
+    /// New [`Motion::flow`].
+    pub flow: Option<Flow>,
+    /// New [`Motion::strength`]; 0 ..= 10.
+    pub strength: Option<f64>,
+    /// New [`Motion::seed`].
+    pub seed: Option<u64>,
+}
+
+impl MotionChange {
+    pub(super) fn applied_to(&self, motion: Motion) -> Motion {
+        Motion {
+            flow: self.flow.unwrap_or(motion.flow),
+            strength: self.strength.unwrap_or(motion.strength),
+            seed: self.seed.unwrap_or(motion.seed),
+            ..motion
+        }
+    }
+
+    fn check(&self) -> Checked {
+        if *self == Self::default() {
+            return Err(Fault::new(
+                "kind",
+                "is \"motion\" but nothing changes; set `flow`, `strength` or `seed`",
+            ));
+        }
+        self.strength
+            .map_or(Ok(()), |strength| check::in_range("strength", strength, STRENGTH))
+    }
+}
+
+/// An `[[event]]` as it stands in a file: flat, with the keys of every kind, because serde's tagged enums lose the line of an error.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    #[serde(default)]
+    tick: u64,
+    kind: Kind,
+    flow: Option<Flow>,
+    strength: Option<f64>,
+    seed: Option<u64>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Motion,
+}
+
+impl From<Entry> for Event {
+    fn from(
+        Entry {
+            tick,
+            kind,
+            flow,
+            strength,
+            seed,
+        }: Entry,
+    ) -> Self {
+        let change = match kind {
+            Kind::Motion => Change::Motion(MotionChange { flow, strength, seed }),
+        };
+        Self { tick, change }
+    }
+}
+
+impl From<Event> for Entry {
+    fn from(Event { tick, change }: Event) -> Self {
+        let Change::Motion(MotionChange { flow, strength, seed }) = change;
+        Self {
+            tick,
+            kind: Kind::Motion,
+            flow,
+            strength,
+            seed,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Scene;
+    use super::*;
+
+    fn at(tick: u64, change: MotionChange) -> Event {
+        Event {
+            tick,
+            change: Change::Motion(change),
+        }
+    }
+
+    #[test]
+    fn motion_changes_at_its_tick_and_stays_changed() {
+        let stir = MotionChange {
+            flow: Some(Flow::Stirred),
+            seed: Some(7),
+            ..MotionChange::default()
+        };
+        let calm = MotionChange {
+            strength: Some(0.5),
+            ..MotionChange::default()
+        };
+        let scene = Scene {
+            events: vec![at(10, stir), at(20, calm)],
+            ..Scene::default()
+        };
+        let stirred = Motion {
+            flow: Flow::Stirred,
+            seed: 7,
+            ..Motion::default()
+        };
+        assert_eq!(scene.motion_at(9), Motion::default());
+        assert_eq!(scene.motion_at(10), stirred);
+        assert_eq!(scene.motion_at(19), stirred);
+        assert_eq!(
+            scene.motion_at(u64::MAX),
+            Motion {
+                strength: 0.5,
+                ..stirred
+            }
+        );
+    }
+
+    #[test]
+    fn of_two_events_at_one_tick_the_later_entry_wins() {
+        let seed = |seed| MotionChange {
+            seed: Some(seed),
+            ..MotionChange::default()
+        };
+        let scene = Scene {
+            events: vec![at(5, seed(2)), at(5, seed(3))],
+            ..Scene::default()
+        };
+        assert_eq!(scene.validate(), Ok(()));
+        assert_eq!(scene.motion_at(5).seed, 3);
+    }
+}

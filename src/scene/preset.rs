@@ -1,0 +1,39 @@
+//! The built-in scenes of `assets/scenes/`.
+
+use super::Scene;
+
+macro_rules! presets {
+    ($($name:literal),* $(,)?) => {
+        [$(($name, include_str!(concat!("../../assets/scenes/", $name, ".toml")))),*]
+    };
+}
+
+const PRESETS: [(&str, &str); 11] = presets![
+    "default",
+    "fresh",
+    "bands",
+    "black",
+    "windows",
+    "bright",
+    "lamplight",
+    "family",
+    "inside",
+    "far",
+    "furnace",
+];
+
+/// The names of the presets, `default` first.
+pub fn preset_names() -> impl ExactSizeIterator<Item = &'static str> {
+    PRESETS.iter().map(|(name, _)| *name)
+}
+
+/// The TOML of a preset with its comments, or `None` if no preset has this name.
+pub fn preset_toml(name: &str) -> Option<&'static str> {
+    PRESETS.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
+
+/// A preset, or `None` if none has this name.
+pub fn preset(name: &str) -> Option<Scene> {
+    // A test reads every preset, so an error cannot hide here.
+    preset_toml(name).and_then(|text| Scene::from_toml(text, name).ok())
+}

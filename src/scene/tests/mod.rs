@@ -1,0 +1,243 @@
+//! The format's page against the code, and reading and writing whole scenes.
+
+use super::*;
+
+mod random;
+mod refusals;
+
+fn with_version(text: &str) -> String {
+    format!("version = 1\n{text}")
+}
+
+/// Reads the tables of the format's page: `(section, key, default, range)`.
+fn documented() -> Vec<[&'static str; 4]> {
+    let mut section = "";
+    let mut rows = Vec::new();
+    for line in include_str!("../../../assets/scenes/README.md").lines() {
+        if let Some(header) = line.strip_prefix("## ") {
+            section = header.trim_matches(['`', '[', ']']);
+        }
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        if let ["", key, default, range, _, ""] = cells[..]
+            && key.starts_with('`')
+        {
+            rows.push([section, key.trim_matches('`'), default.trim_matches('`'), range]);
+        }
+    }
+    rows
+}
+
+/// The table of a scene's TOML that a section names; the first item of a list.
+fn section<'a>(scene: &'a toml::Table, path: &str) -> &'a toml::Table {
+    path.split('.')
+        .filter(|name| !name.is_empty())
+        .fold(scene, |table, name| match &table[name] {
+            toml::Value::Array(items) => items[0].as_table().expect("a list of tables"),
+            value => value.as_table().expect("a table"),
+        })
+}
+
+/// A text that sets one key of one section.
+fn setting(section: &str, key: &str, value: &str) -> String {
+    match section {
+        "" => format!("{key} = {value}\n"),
+        "bubble" => with_version(&format!("[[bubble]]\n{key} = {value}\n")),
+        "bubble.film" => with_version(&format!("[[bubble]]\n[bubble.film]\n{key} = {value}\n")),
+        "event" => with_version(&format!("[[event]]\nkind = \"motion\"\nseed = 2\n{key} = {value}\n")),
+        _ => with_version(&format!("[{section}]\n{key} = {value}\n")),
+    }
+}
+
+#[test]
+fn documented_keys_are_the_coded_keys() {
+    let every_key = document::every_key();
+    let rows = documented();
+    for path in [
+        "",
+        "bubble",
+        "bubble.film",
+        "camera",
+        "light",
+        "view",
+        "motion",
+        "event",
+    ] {
+        let coded = section(&every_key, path).iter();
+        let mut coded: Vec<&str> = coded
+            .filter(|(_, value)| !is_section(value))
+            .map(|(key, _)| key.as_str())
+            .collect();
+        let mut listed: Vec<&str> = rows.iter().filter(|row| row[0] == path).map(|row| row[1]).collect();
+        coded.sort_unstable();
+        listed.sort_unstable();
+        assert_eq!(listed, coded, "[{path}]");
+    }
+}
+
+fn is_section(value: &toml::Value) -> bool {
+    value.is_table()
+        || value
+            .as_array()
+            .is_some_and(|items| items.iter().any(toml::Value::is_table))
+}
+
+#[test]
+fn documented_defaults_are_the_coded_defaults() {
+    let scene = Scene {
+        events: vec![Event {
+            tick: 0,
+            change: Change::Motion(MotionChange::default()),
+        }],
+        ..Scene::default()
+    };
+    let coded = toml::Table::try_from(scene).unwrap();
+    let rows = documented();
+    assert!(rows.len() > 30, "only {} keys found in the page", rows.len());
+    for [path, key, default, _] in rows {
+        let listed = (default != "absent")
+            .then(|| toml::from_str::<toml::Table>(&format!("x = {default}")).unwrap()["x"].clone());
+        assert_eq!(section(&coded, path).get(key), listed.as_ref(), "{key} in [{path}]");
+    }
+}
+
+/// A number as TOML, in the form that its key wants.
+fn written(key: &str, default: &str, value: f64) -> String {
+    // TOML writes `nan` where Rust writes `NaN`.
+    let number = format!("{value:?}").to_lowercase();
+    match key {
+        "cells" | "remap_ticks" | "version" => format!("{}", value.round()).to_lowercase(),
+        _ if default.starts_with('[') || key == "constant" => format!("[0, {number}, 0]"),
+        _ => number,
+    }
+}
+
+#[test]
+fn documented_ranges_are_the_enforced_ranges() {
+    let mut ranges = 0;
+    for [path, key, default, range] in documented() {
+        let accepts = |value| Scene::from_toml(&setting(path, key, &written(key, default, value)), key).is_ok();
+        let (low, high) = match range.split_once(" ..= ") {
+            Some((low, high)) => (low.parse().unwrap(), high.parse().unwrap()),
+            None if range == "finite" => (f64::MIN, f64::MAX),
+            None => continue,
+        };
+        // A millionth beyond the end of a range of numbers, one beyond the end of a range of whole numbers.
+        let whole = !written(key, default, 1.0).contains('.');
+        let step = |end: f64| if whole { 1.0 } else { 1e-6 * end.abs().max(1.0) };
+        assert!(
+            accepts(low) && accepts(high),
+            "{key} in [{path}] must allow {low} and {high}"
+        );
+        for outside in [
+            low - step(low),
+            high + step(high),
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+        ] {
+            assert!(
+                (low..=high).contains(&outside) || !accepts(outside),
+                "{key} = {outside} in [{path}]"
+            );
+        }
+        ranges += 1;
+    }
+    assert!(ranges > 20, "only {ranges} ranges found in the page");
+}
+
+#[test]
+fn scene_in_memory_is_refused_by_its_key() {
+    let mut scene = Scene {
+        bubbles: vec![Bubble::default(); 2],
+        ..Scene::default()
+    };
+    scene.bubbles[1].film.index = FilmIndexName::Constant(f64::NAN);
+    let message = scene.validate().unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "`index` in [bubble.film] number 2 is NaN; it must be within 1 ..= 4"
+    );
+    let newer = Scene {
+        version: 2,
+        ..Scene::default()
+    };
+    assert!(newer.validate().is_err(), "the version must be checked too");
+}
+
+#[test]
+fn default_is_the_preset_of_that_name() {
+    assert_eq!(preset("default"), Some(Scene::default()));
+    assert_eq!(preset_names().next(), Some("default"));
+    assert_eq!(preset("no such scene"), None);
+}
+
+#[test]
+fn presets_read_and_round_trip() {
+    assert!(preset_names().len() > 5);
+    for name in preset_names() {
+        let text = preset_toml(name).unwrap();
+        let scene = Scene::from_toml(text, name).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(Scene::from_toml(&scene.to_toml(), name).as_ref(), Ok(&scene));
+        assert!(text.starts_with("# "), "{name} must say what it shows");
+    }
+}
+
+#[test]
+fn presets_are_all_embedded() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let scenes = files.filter(|path| path.extension().is_some_and(|end| end == "toml"));
+    let mut found: Vec<String> = scenes
+        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+        .collect();
+    let mut embedded: Vec<&str> = preset_names().collect();
+    found.sort_unstable();
+    embedded.sort_unstable();
+    assert_eq!(found, embedded);
+}
+
+/// Two films that intersect would need a shared wall, which no preset may pretend to have.
+#[test]
+fn bubbles_of_presets_do_not_touch() {
+    let mut pairs = 0;
+    for scene in preset_names().filter_map(preset) {
+        for (index, a) in scene.bubbles.iter().enumerate() {
+            for b in &scene.bubbles[..index] {
+                let distance_m = glam::DVec3::from(a.center_m).distance(b.center_m.into());
+                assert!(distance_m > (a.radius_mm + b.radius_mm) * 1e-3, "{a:?} touches {b:?}");
+                pairs += 1;
+            }
+        }
+    }
+    assert!(pairs > 0, "no preset has two bubbles");
+}
+
+#[test]
+fn no_bubbles_is_not_the_default_bubble() {
+    let empty = Scene::from_toml("version = 1\nbubble = []", "s.toml").unwrap();
+    assert_eq!(empty.bubbles, []);
+    assert_eq!(Scene::from_toml(&empty.to_toml(), "s.toml"), Ok(empty));
+    assert_eq!(Scene::from_toml("version = 1", "s.toml"), Ok(Scene::default()));
+}
+
+#[test]
+fn words_and_values_share_a_key() {
+    let read = |text: &str| Scene::from_toml(&with_version(text), "s.toml").unwrap();
+    let index = |value: &str| read(&format!("[[bubble]]\nfilm.index = {value}")).bubbles[0].film.index;
+    assert_eq!(
+        (index("\"water\""), index("2")),
+        (FilmIndexName::Water, FilmIndexName::Constant(2.0))
+    );
+    let environment = |value: &str| read(&format!("light.environment = \"{value}\"")).light.environment;
+    assert_eq!(
+        (environment("tent"), environment("windows")),
+        (Environment::Tent, Environment::Windows)
+    );
+    assert_eq!(
+        environment("sky/Noon.EXR"),
+        Environment::File("sky/Noon.EXR".to_owned())
+    );
+    let backdrop = |value: &str| read(&format!("view.backdrop = {value}")).view.backdrop;
+    assert_eq!(backdrop("\"environment\""), Backdrop::Environment);
+    assert_eq!(backdrop("[0, 0.5, 1]"), Backdrop::Radiance([0.0, 0.5, 1.0]));
+}

@@ -1,0 +1,155 @@
+//! Random scenes and random texts.
+
+use super::super::*;
+use proptest::prelude::*;
+
+fn film() -> impl Strategy<Value = Film> {
+    let state = prop_oneof![
+        Just(FilmStateName::Uniform),
+        Just(FilmStateName::Rest),
+        Just(FilmStateName::Blown)
+    ];
+    let index = prop_oneof![Just(FilmIndexName::Water), (1.0..4.0).prop_map(FilmIndexName::Constant)];
+    (state, 1.0..10_000.0, -5.0..5.0, index, any::<u64>(), 16u32..=1024).prop_map(
+        |(state, thickness_nm, stratification, index, seed, cells)| Film {
+            state,
+            thickness_nm,
+            stratification,
+            index,
+            seed,
+            cells,
+        },
+    )
+}
+
+fn bubble() -> impl Strategy<Value = Bubble> {
+    (prop::array::uniform3(-1e3..1e3), 0.1..5e3, film()).prop_map(|(center_m, radius_mm, film)| Bubble {
+        center_m,
+        radius_mm,
+        film,
+    })
+}
+
+fn camera() -> impl Strategy<Value = Camera> {
+    (
+        prop::array::uniform3(-1e3..1e3),
+        -1e9..1e9,
+        -90.0..90.0,
+        0.0..1e3,
+        1.0..170.0,
+    )
+        .prop_map(|(target_m, azimuth_deg, elevation_deg, distance_m, fov_y_deg)| Camera {
+            target_m,
+            azimuth_deg,
+            elevation_deg,
+            distance_m,
+            fov_y_deg,
+        })
+}
+
+fn radiance() -> impl Strategy<Value = [f64; 3]> {
+    prop::array::uniform3(0.0..65504.0)
+}
+
+fn light() -> impl Strategy<Value = Light> {
+    let file = "[a-z \\\\\"'é/]{0,8}\\.(exr|hdr)".prop_map(Environment::File);
+    let environment = prop_oneof![Just(Environment::Tent), Just(Environment::Windows), file];
+    (
+        environment,
+        "[A-Z][A-Z0-9\"]{0,4}",
+        prop::option::of(radiance()),
+        -1e9..1e9,
+        0.0..1e4,
+    )
+        .prop_map(|(environment, illuminant, constant, rotation_deg, intensity)| Light {
+            environment,
+            illuminant,
+            constant,
+            rotation_deg,
+            intensity,
+        })
+}
+
+fn view() -> impl Strategy<Value = View> {
+    let backdrop = prop_oneof![Just(Backdrop::Environment), radiance().prop_map(Backdrop::Radiance)];
+    (-20.0..20.0, backdrop, any::<bool>(), any::<u64>()).prop_map(|(exposure_ev, backdrop, dither, dither_seed)| View {
+        exposure_ev,
+        backdrop,
+        dither,
+        dither_seed,
+    })
+}
+
+fn flow() -> impl Strategy<Value = Flow> {
+    prop_oneof![
+        Just(Flow::Rest),
+        Just(Flow::Sloshing),
+        Just(Flow::Draught),
+        Just(Flow::Stirred)
+    ]
+}
+
+fn motion() -> impl Strategy<Value = Motion> {
+    (1e-4..0.1, flow(), 0.0..10.0, any::<u64>(), 1u32..=1000, 0.01..100.0).prop_map(
+        |(tick_s, flow, strength, seed, remap_ticks, speed)| Motion {
+            tick_s,
+            flow,
+            strength,
+            seed,
+            remap_ticks,
+            speed,
+        },
+    )
+}
+
+fn event() -> impl Strategy<Value = Event> {
+    (
+        any::<u64>(),
+        prop::option::of(flow()),
+        prop::option::of(0.0..10.0),
+        any::<u64>(),
+    )
+        .prop_map(|(tick, flow, strength, seed)| Event {
+            tick,
+            change: Change::Motion(MotionChange {
+                flow,
+                strength,
+                seed: Some(seed),
+            }),
+        })
+}
+
+fn scene() -> impl Strategy<Value = Scene> {
+    let lists = (
+        prop::collection::vec(bubble(), 0..4),
+        prop::collection::vec(event(), 0..4),
+    );
+    (lists, camera(), light(), view(), motion()).prop_map(|((bubbles, mut events), camera, light, view, motion)| {
+        events.sort_by_key(|event| event.tick);
+        Scene {
+            version: VERSION,
+            bubbles,
+            camera,
+            light,
+            view,
+            motion,
+            events,
+        }
+    })
+}
+
+proptest! {
+    #[test]
+    fn random_scenes_round_trip(scene in scene()) {
+        prop_assert_eq!(scene.validate(), Ok(()));
+        prop_assert_eq!(Scene::from_toml(&scene.to_toml(), "random"), Ok(scene));
+    }
+
+    /// Whatever the text, reading ends in a scene or in one line.
+    #[test]
+    fn random_texts_never_panic(text in "(version = 1\n)?([\\[\\]a-z_.=\"0-9 \n{},é-]|bubble|film|event|\\[\\[){0,40}") {
+        if let Err(error) = Scene::from_toml(&text, "random") {
+            prop_assert_eq!(error.to_string().lines().count(), 1, "{}", error);
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! What is refused, and in which words.
+
+use super::with_version;
+use crate::scene::Scene;
+
+/// Text of a scene below its version, and the message after the scene's name.
+type Case = (&'static str, &'static str);
+
+fn refusal(text: &str) -> String {
+    Scene::from_toml(text, "s.toml")
+        .expect_err("this scene must be refused")
+        .to_string()
+}
+
+fn assert_refused(cases: &[Case]) {
+    for (text, message) in cases {
+        assert_eq!(refusal(&with_version(text)), format!("s.toml:{message}"), "{text}");
+    }
+}
+
+#[test]
+fn version_is_required_and_known() {
+    let unknown = |found: &str| format!("version {found} cannot be read here; this program reads `version = 1`");
+    assert_eq!(refusal(""), "s.toml:1: no version; add `version = 1` at the top");
+    assert_eq!(
+        refusal("\nversion = 2\nnew_in_2 = 1"),
+        format!("s.toml:2: {}", unknown("2"))
+    );
+    assert_eq!(refusal("version = \"1\""), format!("s.toml:1: {}", unknown("\"1\"")));
+}
+
+#[test]
+fn text_must_be_toml() {
+    assert_refused(&[
+        ("radius_mm 3", "2: key with no value, expected `=`"),
+        (
+            "[[bubble]]\nradius_mm = 1\nradius_mm = 2",
+            "4: duplicate key: `radius_mm`",
+        ),
+        ("[camera]\n[camera]", "3: duplicate key: `camera`"),
+    ]);
+}
+
+#[test]
+fn unknown_keys_name_the_nearest_known_one() {
+    assert_refused(&[
+        (
+            "[[bubble]]\n[bubble.film]\nthicknes_nm = 300",
+            "4: unknown key `thicknes_nm` in [bubble.film]; did you mean `thickness_nm`?",
+        ),
+        (
+            "[camera]\nfov = 3",
+            "3: unknown key `fov` in [camera]; did you mean `fov_y_deg`?",
+        ),
+        ("[lihgt]", "2: unknown key `lihgt`; did you mean `light`?"),
+        (
+            "[[bubble]]\n[[bubble]]\nradius = 3",
+            "4: unknown key `radius` in [[bubble]] number 2; did you mean `radius_mm`?",
+        ),
+        (
+            "[[bubble]]\nqqq = 3",
+            "3: unknown key `qqq` in [[bubble]]; known here: `center_m`, `film`, `radius_mm`",
+        ),
+        (
+            "[[event]]\nkind = \"motion\"\nspeed = 2",
+            "4: unknown key `speed` in [[event]]; did you mean `seed`?",
+        ),
+        (
+            "[light]\nx.y = 1\n[camera]\nfov = 3",
+            "3: unknown key `x` in [light]; known here: `constant`, `environment`, `illuminant`, `intensity`, `rotation_deg`",
+        ),
+        (
+            "\"a\\nb\" = 1",
+            "2: unknown key `a\\nb`; known here: `bubble`, `camera`, `event`, `light`, `motion`, `version`, `view`",
+        ),
+    ]);
+}
+
+#[test]
+fn tables_and_lists_are_told_apart() {
+    assert_refused(&[
+        (
+            "[bubble]\nradius_mm = 3",
+            "2: `bubble` has the wrong kind of table; write [[bubble]]",
+        ),
+        ("[[camera]]", "2: `camera` has the wrong kind of table; write [camera]"),
+        (
+            "camera = 3",
+            "2: `camera` is wrong: invalid type: integer `3`, expected the table Camera",
+        ),
+        (
+            "bubble = 3",
+            "2: `bubble` is wrong: invalid type: integer `3`, expected a list",
+        ),
+        (
+            "bubble = [{film = 3}]",
+            "2: `film` in [[bubble]] is wrong: invalid type: integer `3`, expected the table Film",
+        ),
+        (
+            "[camera.fov_y_deg]",
+            "2: `fov_y_deg` in [camera] is wrong: invalid type: table, expected a number",
+        ),
+    ]);
+}
+
+#[test]
+fn values_have_their_type() {
+    assert_refused(&[
+        (
+            "[[bubble]]\nradius_mm = \"big\"",
+            "3: `radius_mm` in [[bubble]] is wrong: invalid type: string \"big\", expected a number",
+        ),
+        (
+            "[motion]\nseed = -1",
+            "3: `seed` in [motion] is wrong: invalid value: integer `-1`, expected a whole number from 0 on",
+        ),
+        (
+            "[motion]\nflow = \"windy\"",
+            "3: `flow` in [motion] is wrong: unknown word `windy`, expected one of `rest`, `sloshing`, `draught`, `stirred`",
+        ),
+        (
+            "[motion]\nflow = 3",
+            "3: `flow` in [motion] is wrong: expected a word in quotes",
+        ),
+        (
+            "[camera]\ntarget_m = [\n0, 0]",
+            "3: `target_m` in [camera] is wrong: invalid length 2, expected three numbers",
+        ),
+        (
+            "[view]\nbackdrop = [1, 2]",
+            "3: `backdrop` in [view] is wrong: expected \"environment\" or three numbers [r, g, b]",
+        ),
+        (
+            "[[bubble]]\n[bubble.film]\nindex = \"watr\"",
+            "4: `index` in [bubble.film] is wrong: expected \"water\" or a number",
+        ),
+        (
+            "[[event]]\nkind = \"motion\"\ntick = 0.5",
+            "4: `tick` in [[event]] is wrong: invalid type: floating point `0.5`, expected a whole number from 0 on",
+        ),
+        (
+            "[[event]]\nkind = \"dance\"",
+            "3: `kind` in [[event]] is wrong: unknown word `dance`, expected `motion`",
+        ),
+        ("[[event]]\ntick = 3", "2: [[event]] is wrong: missing field `kind`"),
+    ]);
+}
+
+#[test]
+fn values_lie_in_their_range() {
+    assert_refused(&[
+        (
+            "[[bubble]]\n\nradius_mm = 9e3",
+            "4: `radius_mm` in [[bubble]] is 9000; it must be within 0.1 ..= 5000",
+        ),
+        (
+            "[camera]\nazimuth_deg = nan",
+            "3: `azimuth_deg` in [camera] is NaN; it must be a finite number",
+        ),
+        (
+            "[camera]\nazimuth_deg = -inf",
+            "3: `azimuth_deg` in [camera] is -inf; it must be a finite number",
+        ),
+        (
+            "[light]\nconstant = [1, nan, 1]",
+            "3: `constant` in [light] holds a number that is NaN; it must be within 0 ..= 65504",
+        ),
+        (
+            "[[bubble]]\n[bubble.film]\nthickness_nm = 0",
+            "4: `thickness_nm` in [bubble.film] is 0; only a film with `state = \"uniform\"` may be thinner than 1",
+        ),
+        (
+            "[light]\nenvironment = \"tnt\"",
+            "3: `environment` in [light] is \"tnt\"; use \"tent\", \"windows\" or the path of an .exr or .hdr file",
+        ),
+        (
+            "[light]\nilluminant = \"\"",
+            "3: `illuminant` in [light] is empty; name one, as in `illuminant = \"D65\"`",
+        ),
+    ]);
+    let crowd = with_version(&"[[bubble]]\n".repeat(43));
+    assert_eq!(
+        refusal(&crowd),
+        "s.toml:2: `bubble` is a list of 43; at most 42 are allowed"
+    );
+}
+
+#[test]
+fn events_change_something_in_order() {
+    assert_refused(&[
+        (
+            "[[event]]\nkind = \"motion\"",
+            "3: `kind` in [[event]] is \"motion\" but nothing changes; set `flow`, `strength` or `seed`",
+        ),
+        (
+            "[[event]]\ntick = 9\nkind = \"motion\"\nseed = 2\n[[event]]\ntick = 8\nkind = \"motion\"\nseed = 3",
+            "7: `tick` in [[event]] number 2 is 8 after an event at tick 9; sort the events by tick",
+        ),
+    ]);
+}
+
+#[test]
+fn deep_nesting_is_refused_without_overflowing_the_stack() {
+    for text in [
+        format!("x = {}", "[".repeat(100_000)),
+        format!("x{} = 1", ".x".repeat(100_000)),
+        format!("x = {}", "{x=".repeat(100_000)),
+    ] {
+        assert!(refusal(&with_version(&text)).contains("recurs"));
+    }
+}
