@@ -1,1 +1,18 @@
-//! TODO
+//! The light around the bubbles: radiance from every direction, as pictures, as formulas, and as the cube map that shaders
+//! sample.
+//!
+//! Radiance is linear BT.2020 relative to the scene's illuminant: (1, 1, 1) is a white surface in full light, whatever the
+//! illuminant. Directions are in the world: right-handed, +z up.
+
+mod cube_face;
+mod cube_map;
+mod equirect;
+mod mip;
+mod procedural;
+mod repair;
+
+pub use cube_face::CubeFace;
+pub use cube_map::{CubeLevel, CubeMap};
+pub use equirect::{Equirect, WrongPixelCount, direction_of_uv, uv_of_direction};
+pub use procedural::Procedural;
+pub use repair::{MAX_RADIANCE, Repairs};

@@ -1,0 +1,116 @@
+//! Environments from files, in whatever of the known formats.
+
+use std::fs::File;
+use std::io::{BufReader, Read, Seek};
+use std::path::Path;
+
+use glam::{DMat3, Vec3};
+use rayon::prelude::*;
+
+use super::chromaticities::RgbSpace;
+use super::panic_guard::catch_panic;
+use super::{InputError, exr, radiance, text};
+use crate::physics::environment::Equirect;
+
+/// The widest panorama that is read, pixels: finer than the largest cube map shows.
+pub const MAX_ENVIRONMENT_WIDTH: usize = 8192;
+
+/// The highest panorama that is read, pixels.
+pub const MAX_ENVIRONMENT_HEIGHT: usize = MAX_ENVIRONMENT_WIDTH / 2;
+
+/// A picture as its file has it.
+#[derive(Debug)]
+pub(super) struct DecodedPicture {
+    pub width: usize,
+    pub height: usize,
+    /// Linear RGB, row by row from the top left.
+    pub pixels: Vec<[f32; 3]>,
+    pub space: RgbSpace,
+}
+
+/// Reads an equirectangular panorama from an OpenEXR or Radiance .hdr file, told apart by content, not by name.
+///
+/// RGB is taken as linear BT.709 unless the file names other chromaticities, and converted to linear BT.2020. Values that no
+/// light can have are repaired and counted: [`Equirect::repairs`].
+///
+/// # Errors
+/// Every [`InputError`] but those about text: the file is missing, a folder, unreadable, empty, of another format, damaged,
+/// without colours, too large, too small, or not twice as wide as high.
+pub fn load_environment(path: &Path) -> Result<Equirect, InputError> {
+    let mut file = BufReader::new(text::open(path)?);
+    let format = recognise(&mut file, path)?;
+    let decode = || match format {
+        Format::OpenExr => exr::decode(path, file),
+        Format::Radiance => radiance::decode(path, file),
+    };
+    let damaged = || InputError::Damaged {
+        path: path.to_owned(),
+        reason: "its parts contradict each other".to_owned(),
+    };
+    let picture = catch_panic(decode).unwrap_or_else(|| Err(damaged()))?;
+    let unsupported = || InputError::Unsupported {
+        path: path.to_owned(),
+        reason: "its chromaticities span no colours".to_owned(),
+    };
+    let to_bt2020 = picture.space.to_bt2020().ok_or_else(unsupported)?;
+    let pixels = convert(picture.pixels, to_bt2020);
+    Equirect::new(picture.width, picture.height, pixels).map_err(|_| damaged())
+}
+
+/// Checks the size that a file's header claims, before memory is set aside for it.
+pub(super) fn check_size(path: &Path, width: usize, height: usize) -> Result<(), InputError> {
+    let path = || path.to_owned();
+    if width < 2 || height < 1 {
+        Err(InputError::TooSmall {
+            path: path(),
+            width,
+            height,
+        })
+    } else if Some(width) != height.checked_mul(2) {
+        Err(InputError::NotTwoToOne {
+            path: path(),
+            width,
+            height,
+        })
+    } else if width > MAX_ENVIRONMENT_WIDTH {
+        Err(InputError::TooLarge {
+            path: path(),
+            width,
+            height,
+        })
+    } else {
+        Ok(())
+    }
+}
+
+enum Format {
+    OpenExr,
+    Radiance,
+}
+
+/// Tells the format by the file's first bytes and goes back to its start.
+fn recognise(file: &mut BufReader<File>, path: &Path) -> Result<Format, InputError> {
+    let in_words = |reason| InputError::from_io(path, reason);
+    let mut magic = Vec::new();
+    file.take(4).read_to_end(&mut magic).map_err(in_words)?;
+    file.rewind().map_err(in_words)?;
+    match magic.as_slice() {
+        [] => Err(InputError::Empty { path: path.to_owned() }),
+        [0x76, 0x2f, 0x31, 0x01] => Ok(Format::OpenExr),
+        [b'#', b'?', ..] => Ok(Format::Radiance),
+        _ => Err(InputError::UnknownPicture { path: path.to_owned() }),
+    }
+}
+
+fn convert(mut pixels: Vec<[f32; 3]>, to_bt2020: DMat3) -> Vec<[f32; 3]> {
+    let matrix = to_bt2020.as_mat3();
+    pixels.par_iter_mut().for_each(|pixel| {
+        // Infinities of either sign would meet in the sum and become NaN: this keeps the too bright too bright.
+        let finite = pixel.map(|component| component.clamp(-1e30, 1e30));
+        *pixel = (matrix * Vec3::from(finite)).to_array();
+    });
+    pixels
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,133 @@
+//! What can be wrong with a file that is to be read.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::environment::{MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_WIDTH};
+
+/// A file could not be used; the message names it and says what to do.
+#[derive(Debug, Error)]
+pub enum InputError {
+    /// There is nothing of that name.
+    #[error("there is no file {}: check its name and folder", path.display())]
+    NotFound {
+        /// The file asked for.
+        path: PathBuf,
+    },
+    /// A folder was named.
+    #[error("{} is a folder: name a file", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The system would not let it be read.
+    #[error("cannot read {} ({reason}): check its permissions and the drive", path.display())]
+    Unreadable {
+        /// The file asked for.
+        path: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+    /// No bytes in it.
+    #[error("{} is empty: save or copy it again", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Neither OpenEXR nor Radiance.
+    #[error("{} is neither an OpenEXR nor a Radiance .hdr picture, whatever its name: convert it to one of them", path.display())]
+    UnknownPicture {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Cut short, or its parts contradict each other.
+    #[error("{} is damaged or cut short ({reason}): export or download it again", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder met.
+        reason: String,
+    },
+    /// Valid, but stored in a way that cannot be read here.
+    #[error("{} is stored in a way that is not supported ({reason}): save it as a plain RGB OpenEXR picture", path.display())]
+    Unsupported {
+        /// The file.
+        path: PathBuf,
+        /// What is not supported.
+        reason: String,
+    },
+    /// An OpenEXR file without colours.
+    #[error("{} has no layer with R, G and B channels (it has {found}): save it as RGB", path.display())]
+    NoColour {
+        /// The file.
+        path: PathBuf,
+        /// The channels that are there.
+        found: String,
+    },
+    /// More pixels than an environment may have.
+    #[error(
+        "{} has {width}x{height} pixels: scale it down to {MAX_ENVIRONMENT_WIDTH}x{MAX_ENVIRONMENT_HEIGHT} or less",
+        path.display()
+    )]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Pixels in a row.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// Too few pixels to be the whole sphere.
+    #[error("{} has only {width}x{height} pixels: an environment needs 2x1 at least", path.display())]
+    TooSmall {
+        /// The file.
+        path: PathBuf,
+        /// Pixels in a row.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// Not the shape of an equirectangular panorama.
+    #[error(
+        "{} has {width}x{height} pixels, but an environment is an equirectangular panorama, twice as wide as high: convert or crop it",
+        path.display()
+    )]
+    NotTwoToOne {
+        /// The file.
+        path: PathBuf,
+        /// Pixels in a row.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// More text than any scene or table has.
+    #[error("{} is longer than {limit_bytes} bytes: it is hardly the file you meant", path.display())]
+    TextTooLong {
+        /// The file.
+        path: PathBuf,
+        /// The most that is read.
+        limit_bytes: u64,
+    },
+    /// Not text.
+    #[error("{} is not UTF-8 text (byte {byte}): save it as UTF-8, or name another file", path.display())]
+    NotText {
+        /// The file.
+        path: PathBuf,
+        /// The first byte that is not UTF-8, counted from 0.
+        byte: usize,
+    },
+}
+
+impl InputError {
+    /// What the system said about opening or reading `path`, in our words.
+    pub(super) fn from_io(path: &Path, reason: io::Error) -> Self {
+        let path = path.to_owned();
+        match reason.kind() {
+            io::ErrorKind::NotFound => Self::NotFound { path },
+            io::ErrorKind::IsADirectory => Self::Folder { path },
+            _ => Self::Unreadable { path, reason },
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Files coming in: environments and texts, each read whole or refused with one line that says what to do.
+
+mod chromaticities;
+mod environment;
+mod error;
+mod exr;
+mod panic_guard;
+mod radiance;
+mod text;
+
+pub use environment::{MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_WIDTH, load_environment};
+pub use error::InputError;
+pub use text::{MAX_TEXT_BYTES, read_text};

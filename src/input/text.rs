@@ -1,0 +1,95 @@
+//! Texts: scenes and tables.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::InputError;
+
+/// The longest text that is read, bytes: far more than a scene or a table of points has, far less than memory.
+pub const MAX_TEXT_BYTES: u64 = 64 << 20;
+
+/// The whole text of a file, without a leading byte order mark. An empty file is an empty text.
+///
+/// # Errors
+/// The file is missing, a folder, unreadable, longer than [`MAX_TEXT_BYTES`] or not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, InputError> {
+    read_text_up_to(path, MAX_TEXT_BYTES)
+}
+
+fn read_text_up_to(path: &Path, limit_bytes: u64) -> Result<String, InputError> {
+    let mut bytes = Vec::new();
+    // One byte more than the limit tells a long file, and a pipe without end, from one that just fits.
+    let file = open(path)?;
+    file.take(limit_bytes + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|reason| InputError::from_io(path, reason))?;
+    if bytes.len() as u64 > limit_bytes {
+        return Err(InputError::TextTooLong {
+            path: path.to_owned(),
+            limit_bytes,
+        });
+    }
+    let text = String::from_utf8(bytes).map_err(|error| InputError::NotText {
+        path: path.to_owned(),
+        byte: error.utf8_error().valid_up_to(),
+    })?;
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+}
+
+/// Opens a file to read, and tells a folder from a file (not every system does so before the first read).
+pub(super) fn open(path: &Path) -> Result<File, InputError> {
+    let in_words = |reason| InputError::from_io(path, reason);
+    if std::fs::metadata(path).map_err(in_words)?.is_dir() {
+        return Err(InputError::Folder { path: path.to_owned() });
+    }
+    File::open(path).map_err(in_words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(bytes: &[u8], limit_bytes: u64) -> Result<String, InputError> {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), bytes).unwrap();
+        read_text_up_to(file.path(), limit_bytes)
+    }
+
+    #[test]
+    fn reads_text_with_and_without_byte_order_mark() {
+        assert_eq!(read("Seifenblase µ\n".as_bytes(), 100).unwrap(), "Seifenblase µ\n");
+        assert_eq!(read(b"\xef\xbb\xbfversion = 1", 100).unwrap(), "version = 1");
+        assert_eq!(read(b"", 100).unwrap(), "");
+    }
+
+    #[test]
+    fn reads_up_to_the_limit_and_no_further() {
+        assert_eq!(read(b"12345", 5).unwrap(), "12345");
+        let error = read(b"123456", 5).unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .ends_with("is longer than 5 bytes: it is hardly the file you meant"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn names_the_byte_that_is_not_text() {
+        let error = read(b"ok \xff\xfe", 100).unwrap_err();
+        assert!(matches!(error, InputError::NotText { byte: 3, .. }), "{error}");
+    }
+
+    #[test]
+    fn missing_files_and_folders_are_told_apart() {
+        let folder = tempfile::tempdir().unwrap();
+        let missing = folder.path().join("none.toml");
+        let error = read_text(&missing).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            format!("there is no file {}: check its name and folder", missing.display())
+        );
+        assert!(matches!(read_text(folder.path()), Err(InputError::Folder { .. })));
+    }
+}

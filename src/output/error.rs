@@ -1,0 +1,49 @@
+//! Why a file could not be written.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// A file could not be written; what stood there before, if anything, still does.
+#[derive(Debug, Error)]
+pub enum OutputError {
+    /// The path names a folder.
+    #[error("cannot write {}: it is a folder; name a file in it", path.display())]
+    Folder {
+        /// The file asked for.
+        path: PathBuf,
+    },
+    /// The path names a device, a pipe or the like, which cannot be replaced by a file.
+    #[error("cannot write {}: it is not an ordinary file; name another", path.display())]
+    NotAFile {
+        /// The file asked for.
+        path: PathBuf,
+    },
+    /// The folder for the file does not exist.
+    #[error("cannot write {}: there is no folder {}; make it first", path.display(), folder.display())]
+    NoFolder {
+        /// The file asked for.
+        path: PathBuf,
+        /// The folder that is missing.
+        folder: PathBuf,
+    },
+    /// The folder lets no file be made in it.
+    #[error("cannot write {}: no file can be made in {} ({reason}); choose another folder or allow it", path.display(), folder.display())]
+    FolderNotWritable {
+        /// The file asked for.
+        path: PathBuf,
+        /// The folder.
+        folder: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+    /// Writing began but failed: a full disk, or content that its format cannot hold.
+    #[error("cannot write {}: {reason}", path.display())]
+    Write {
+        /// The file asked for.
+        path: PathBuf,
+        /// What the system or the encoder said.
+        reason: io::Error,
+    },
+}

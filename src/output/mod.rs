@@ -1,0 +1,16 @@
+//! Files going out: pictures and tables, each written whole or not at all.
+
+mod atomic;
+mod error;
+mod exr;
+mod metadata;
+mod png;
+pub mod read_back;
+mod table;
+
+pub use atomic::write_atomically;
+pub use error::OutputError;
+pub use exr::{ExrPicture, ExrPrimaries};
+pub use metadata::Metadata;
+pub use png::PngPicture;
+pub use table::CsvWriter;

@@ -1,0 +1,231 @@
+//! The environment as the cube map that shaders sample.
+
+use glam::{DVec2, DVec3, Vec3};
+use half::f16;
+use rayon::prelude::*;
+
+use super::{CubeFace, Equirect, Procedural, Repairs, mip};
+
+/// One mip level of a [`CubeMap`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct CubeLevel {
+    /// Texels along the edge of each face.
+    pub size: usize,
+    /// The faces in the order of [`CubeFace::ALL`], each row by row from s = t = −1: linear BT.2020, alpha 1.
+    pub faces: [Vec<[f16; 4]>; 6],
+}
+
+/// Radiance from every direction, ready for `textureSampleLevel(cube, sampler, direction, lod)` with world directions as they
+/// are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CubeMap {
+    mips: Vec<CubeLevel>,
+    id: u64,
+    repairs: Repairs,
+}
+
+impl CubeMap {
+    /// A cube map of `radiance` (linear BT.2020, from a direction that is not normalised), `size` texels to an edge, each the
+    /// mean of `supersampling`² samples, with all mip levels down to one texel. A size or supersampling of 0 counts as 1.
+    pub fn from_fn(size: usize, supersampling: usize, radiance: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
+        let (size, supersampling) = (size.max(1), supersampling.max(1));
+        let mut mips = empty_mips(size);
+        let mut repairs = Repairs::default();
+        // One face at a time: only one then stands in memory in full precision.
+        for face in CubeFace::ALL {
+            let mut texels = vec![[0.0; 3]; size * size];
+            repairs = repairs + fill_face(&mut texels, face, size, supersampling, &radiance);
+            store_mips(&mut mips, face, texels);
+        }
+        let id = content_id(&mips[0]);
+        Self { mips, id, repairs }
+    }
+
+    /// The same radiance from every direction.
+    pub fn constant(radiance: DVec3) -> Self {
+        Self::from_fn(1, 1, |_| radiance)
+    }
+
+    /// A built-in environment.
+    pub fn from_procedural(environment: Procedural) -> Self {
+        Self::from_fn(environment.cube_size(), 2, |direction| environment.radiance(direction))
+    }
+
+    /// A panorama, with texels about as wide as its pixels; the repairs are the panorama's.
+    pub fn from_equirect(panorama: &Equirect) -> Self {
+        let map = Self::from_fn(size_for_panorama(panorama.width()), 2, |direction| {
+            panorama.radiance(direction)
+        });
+        Self {
+            repairs: panorama.repairs(),
+            ..map
+        }
+    }
+
+    /// Texels along the edge of a face of the largest level.
+    pub fn size(&self) -> usize {
+        self.mips[0].size
+    }
+
+    /// All levels, the largest first, the last of one texel a face.
+    pub fn mips(&self) -> &[CubeLevel] {
+        &self.mips
+    }
+
+    /// A hash of the content: equal maps have equal ids on every machine.
+    pub fn id(&self) -> u64 {
+        self.id
+    }
+
+    /// What had to be repaired: pixels of the panorama, or texels where the map was made from a formula.
+    pub fn repairs(&self) -> Repairs {
+        self.repairs
+    }
+
+    /// Radiance from `direction` (of any length but zero), interpolated in the largest level, across the faces' edges too.
+    pub fn sample(&self, direction: DVec3) -> DVec3 {
+        let (face, st) = CubeFace::of_direction(direction);
+        let position = (st + 1.0) * (self.size() as f64 / 2.0) - 0.5;
+        let corner = position.floor();
+        let weight = position - corner;
+        let tap = |x: f64, y: f64| self.texel(face, corner + DVec2::new(x, y));
+        let across = |y| tap(0.0, y).lerp(tap(1.0, y), weight.x);
+        across(0.0).lerp(across(1.0), weight.y)
+    }
+
+    /// The mean of the radiance over all directions: what a small diffuse sphere, lit on average, would show.
+    pub fn mean_radiance(&self) -> DVec3 {
+        let level = &self.mips[0];
+        let rows: Vec<_> = (0..6 * level.size)
+            .into_par_iter()
+            .map(|row| weighted_row(level, row))
+            .collect();
+        // Summed in order, so that equal maps have equal means to the last bit.
+        let (radiance, weight) = rows
+            .into_iter()
+            .fold((DVec3::ZERO, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
+        radiance / weight
+    }
+
+    /// The texel of the largest level at column and row `index` of `face`, or the neighbouring face's nearest if that lies
+    /// outside.
+    fn texel(&self, face: CubeFace, index: DVec2) -> DVec3 {
+        let last = self.size() as f64 - 1.0;
+        let centre = (index + 0.5) * (2.0 / self.size() as f64) - 1.0;
+        let inside = centre.abs().max_element() < 1.0;
+        let (face, st) = if inside {
+            (face, centre)
+        } else {
+            CubeFace::of_direction(face.direction(centre))
+        };
+        let nearest = ((st + 1.0) * (self.size() as f64 / 2.0))
+            .floor()
+            .clamp(DVec2::ZERO, DVec2::splat(last));
+        self.mips[0].radiance(face.layer(), nearest.y as usize * self.size() + nearest.x as usize)
+    }
+}
+
+impl CubeLevel {
+    fn radiance(&self, layer: usize, index: usize) -> DVec3 {
+        let [r, g, b, _] = self.faces[layer][index].map(f64::from);
+        DVec3::new(r, g, b)
+    }
+}
+
+/// Texels for a panorama: at a face's centre a texel of size s spans 2/s radians, a pixel of width w spans 2π/w.
+fn size_for_panorama(width: usize) -> usize {
+    let matching = (width as f64 / std::f64::consts::PI).ceil() as usize;
+    matching.next_multiple_of(16).clamp(16, 2048)
+}
+
+/// Levels of the sizes that the GPU expects: each half the last, rounded down.
+fn empty_mips(size: usize) -> Vec<CubeLevel> {
+    let sizes = std::iter::successors(Some(size), |&size| (size > 1).then_some(size / 2));
+    sizes
+        .map(|size| CubeLevel {
+            size,
+            faces: Default::default(),
+        })
+        .collect()
+}
+
+fn fill_face(
+    texels: &mut [[f32; 3]],
+    face: CubeFace,
+    size: usize,
+    supersampling: usize,
+    radiance: &(impl Fn(DVec3) -> DVec3 + Sync),
+) -> Repairs {
+    let fill_row = |(row, texels): (usize, &mut [[f32; 3]])| -> Repairs {
+        let columns = texels.iter_mut().enumerate();
+        columns
+            .map(|(column, texel)| fill_texel(texel, face, [column, row], size, supersampling, radiance))
+            .sum()
+    };
+    texels.par_chunks_exact_mut(size).enumerate().map(fill_row).sum()
+}
+
+fn fill_texel(
+    texel: &mut [f32; 3],
+    face: CubeFace,
+    index: [usize; 2],
+    size: usize,
+    supersampling: usize,
+    radiance: &impl Fn(DVec3) -> DVec3,
+) -> Repairs {
+    let samples = size * supersampling;
+    let position =
+        |index: usize, sample: usize| (2 * (index * supersampling + sample) + 1) as f64 / samples as f64 - 1.0;
+    let mut sum = DVec3::ZERO;
+    for row in 0..supersampling {
+        for column in 0..supersampling {
+            sum += radiance(face.direction(DVec2::new(position(index[0], column), position(index[1], row))));
+        }
+    }
+    *texel = (sum / (supersampling * supersampling) as f64).as_vec3().to_array();
+    Repairs::repair(texel)
+}
+
+/// Stores a face and its smaller versions, each made from the last in full precision.
+fn store_mips(mips: &mut [CubeLevel], face: CubeFace, mut texels: Vec<[f32; 3]>) {
+    for level in mips {
+        if level.size * level.size != texels.len() {
+            texels = mip::halve(&texels, texels.len().isqrt());
+        }
+        level.faces[face.layer()] = texels
+            .par_iter()
+            .map(|&texel| Vec3::from(texel).extend(1.0).to_array().map(f16::from_f32))
+            .collect();
+    }
+}
+
+/// Radiance times solid angle, and solid angle, summed over one row of one face; `row` counts through all faces.
+fn weighted_row(level: &CubeLevel, row: usize) -> (DVec3, f64) {
+    let (layer, row) = (row / level.size, row % level.size);
+    let coordinate = |index: usize| (2 * index + 1) as f64 / level.size as f64 - 1.0;
+    (0..level.size).fold((DVec3::ZERO, 0.0), |(radiance, weight), column| {
+        // A texel's solid angle falls with the cube of its distance from the cube's centre.
+        let solid_angle = (1.0 + coordinate(row).powi(2) + coordinate(column).powi(2)).powf(-1.5);
+        (
+            radiance + solid_angle * level.radiance(layer, row * level.size + column),
+            weight + solid_angle,
+        )
+    })
+}
+
+/// A 64-bit hash in the manner of FNV-1a, a texel at a time: std's hashers may change between releases of Rust.
+fn content_id(level: &CubeLevel) -> u64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325 ^ level.size as u64;
+    for texel in level.faces.iter().flatten() {
+        let bits = texel
+            .iter()
+            .fold(0, |bits, component| bits << 16 | u64::from(component.to_bits()));
+        hash = (hash ^ bits).wrapping_mul(0x0000_0100_0000_01b3);
+        // Multiplication carries bits only upwards.
+        hash ^= hash >> 32;
+    }
+    hash
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,110 @@
+//! Environments made from formulas: what photographers of bubbles build or look for.
+
+mod shape;
+mod tent;
+mod windows;
+
+use glam::DVec3;
+
+/// An environment that is built in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Procedural {
+    /// A photographer's light tent: bright cloth all round, softboxes, a grey floor. The whole film shows its colours.
+    Tent,
+    /// A dark room with bright mullioned windows: colours live inside the windows' reflections.
+    Windows,
+}
+
+impl Procedural {
+    /// Every built-in environment.
+    pub const ALL: [Self; 2] = [Self::Tent, Self::Windows];
+
+    /// The name that scene files and the command line use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tent => "tent",
+            Self::Windows => "windows",
+        }
+    }
+
+    /// The environment of that [`name`](Self::name).
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|environment| environment.name() == name)
+    }
+
+    /// Texels along the edge of a cube map's face that show its finest detail.
+    pub fn cube_size(self) -> usize {
+        match self {
+            Self::Tent => 256,
+            Self::Windows => 512,
+        }
+    }
+
+    /// Radiance from `direction` (of any length but zero): linear BT.2020 relative to the illuminant, smooth over about 0.4°.
+    pub fn radiance(self, direction: DVec3) -> DVec3 {
+        let direction = direction.normalize();
+        match self {
+            Self::Tent => tent::radiance(direction),
+            Self::Windows => windows::radiance(direction),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::CubeMap;
+    use super::*;
+
+    #[test]
+    fn names_are_found_again() {
+        for environment in Procedural::ALL {
+            assert_eq!(Procedural::from_name(environment.name()), Some(environment));
+        }
+        assert_eq!(Procedural::from_name("Tent"), None);
+    }
+
+    #[test]
+    fn radiance_needs_no_repair_and_ignores_length() {
+        for environment in Procedural::ALL {
+            let map = CubeMap::from_fn(64, 1, |direction| environment.radiance(direction));
+            assert_eq!(map.repairs().total(), 0, "{environment:?}");
+            let direction = DVec3::new(0.3, -0.4, 0.2);
+            // Rounding of one normalisation against another.
+            assert!(
+                environment
+                    .radiance(7.0 * direction)
+                    .distance(environment.radiance(direction))
+                    < 1e-12
+            );
+        }
+    }
+
+    #[test]
+    fn the_tent_is_as_bright_as_white_on_average() {
+        let map = CubeMap::from_fn(64, 2, |direction| Procedural::Tent.radiance(direction));
+        let mean = map.mean_radiance();
+        assert!((mean - 1.0).abs().max_element() < 0.05, "{mean}");
+    }
+
+    #[test]
+    fn the_room_is_dark_but_for_its_windows() {
+        let map = CubeMap::from_fn(128, 1, |direction| Procedural::Windows.radiance(direction));
+        let greens: Vec<_> = map.mips()[0]
+            .faces
+            .iter()
+            .flatten()
+            .map(|texel| texel[1].to_f64())
+            .collect();
+        let share = |test: &dyn Fn(f64) -> bool| {
+            greens.iter().filter(|&&green| test(green)).count() as f64 / greens.len() as f64
+        };
+        assert!(
+            share(&|green| green < 0.1) > 0.6,
+            "dark {}",
+            share(&|green| green < 0.1)
+        );
+        let bright = share(&|green| green > 5.0);
+        assert!((0.03..0.25).contains(&bright), "bright {bright}");
+        assert!(greens.iter().all(|&green| green < 16.0));
+    }
+}
