@@ -24,7 +24,9 @@ use crate::{
 
 /// Report the colour that a film reflects.
 #[derive(Args)]
-#[command(after_help = "Example:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), and linear BT.2020 r,g,b.")]
+#[command(
+    after_help = "Example:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), and linear BT.2020 r,g,b."
+)]
 pub struct Arguments {
     /// Thickness in nm
     #[arg(long, value_name = "NM", value_parser = parse::thickness_nm, requires = "cos", required_unless_present = "points")]
@@ -88,7 +90,8 @@ fn points(arguments: &Arguments) -> anyhow::Result<Points> {
     if let Some(path) = &arguments.points {
         return read_points(path);
     }
-    let (thickness_nm, cos_theta) = arguments.thickness.zip(arguments.cos).context("give --thickness and --cos, or --points")?;
+    let (thickness_nm, cos_theta) =
+        arguments.thickness.zip(arguments.cos).context("give --thickness and --cos, or --points")?;
     Ok(Points {
         header: vec!["thickness_nm".to_owned(), "cos_theta".to_owned()],
         rows: vec![vec![thickness_nm.to_string(), cos_theta.to_string()]],
@@ -99,11 +102,16 @@ fn points(arguments: &Arguments) -> anyhow::Result<Points> {
 fn read_points(path: &Path) -> anyhow::Result<Points> {
     let text = read_text(path)?;
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
-    let header: Vec<String> = reader.headers().with_context(|| path.display().to_string())?.iter().map(str::to_owned).collect();
+    let header: Vec<String> =
+        reader.headers().with_context(|| path.display().to_string())?.iter().map(str::to_owned).collect();
     let column = |name: &str| header.iter().position(|known| known == name);
     let needed = |name: &str| column(name).with_context(|| format!("{}:1: no column `{name}`", path.display()));
-    let columns =
-        [needed("thickness_nm")?, needed("cos_theta")?, column("back_nm").unwrap_or(usize::MAX), column("exit_nm").unwrap_or(usize::MAX)];
+    let columns = [
+        needed("thickness_nm")?,
+        needed("cos_theta")?,
+        column("back_nm").unwrap_or(usize::MAX),
+        column("exit_nm").unwrap_or(usize::MAX),
+    ];
     let (mut rows, mut films) = (Vec::new(), Vec::new());
     for record in reader.records() {
         let record = record.with_context(|| path.display().to_string())?;
@@ -164,7 +172,8 @@ fn table(points: &Points, colours: &[DVec3], spectrum: Option<&FilmOptics>) -> a
     let mut writer = csv::Writer::from_writer(Vec::new());
     let wavelengths = || (360..=780).step_by(5).map(|nm| format!("R{nm}"));
     let added = ["X", "Y", "Z", "r", "g", "b"].map(str::to_owned).into_iter();
-    writer.write_record(points.header.iter().cloned().chain(added).chain(wavelengths().filter(|_| spectrum.is_some())))?;
+    writer
+        .write_record(points.header.iter().cloned().chain(added).chain(wavelengths().filter(|_| spectrum.is_some())))?;
     for ((row, film), xyz) in points.rows.iter().zip(&points.films).zip(colours) {
         let rgb = BT2020.from_xyz() * *xyz;
         let numbers = xyz.to_array().into_iter().chain(rgb.to_array());

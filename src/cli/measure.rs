@@ -6,7 +6,10 @@ use cpu_time::ProcessTime;
 use serde_json::{Value, json};
 
 use crate::{
-    gpu::{Renderer, timing::{Counts, PassTime}},
+    gpu::{
+        Renderer,
+        timing::{Counts, PassTime},
+    },
     output::write_text,
     plan::Want,
 };

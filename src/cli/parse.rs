@@ -43,7 +43,11 @@ pub fn cosine(text: &str) -> Result<f64, String> {
 /// A thickness in nm.
 pub fn thickness_nm(text: &str) -> Result<f64, String> {
     let value = finite(text)?;
-    if (0.0..=10_000.0).contains(&value) { Ok(value) } else { Err("a thickness lies between 0 and 10000 nm".to_owned()) }
+    if (0.0..=10_000.0).contains(&value) {
+        Ok(value)
+    } else {
+        Err("a thickness lies between 0 and 10000 nm".to_owned())
+    }
 }
 
 /// How colours are found: see the crate's documentation.

@@ -101,7 +101,9 @@ fn scheme(text: &str) -> Result<Scheme, String> {
     match text {
         "bicubic" => Ok(Scheme::Bicubic),
         "map" => Ok(Scheme::Map),
-        "bilinear" | "bfecc" | "map-accurate" => Err(format!("scheme `{text}` is not built yet; use `map` or `bicubic`")),
+        "bilinear" | "bfecc" | "map-accurate" => {
+            Err(format!("scheme `{text}` is not built yet; use `map` or `bicubic`"))
+        }
         _ => Err("use `map` or `bicubic`".to_owned()),
     }
 }
@@ -122,7 +124,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let norms = case.measure(&moved.values);
     println!(
         "{} steps of {}, {} remaps: l1 {:.6}, l2 {:.6}, linf {:.6}, range {:.6} to {:.6}",
-        moved.steps, case.scheme.name(), moved.remaps, norms.l1, norms.l2, norms.linf, norms.min, norms.max
+        moved.steps,
+        case.scheme.name(),
+        moved.remaps,
+        norms.l1,
+        norms.l2,
+        norms.linf,
+        norms.min,
+        norms.max
     );
     if let Some(path) = &arguments.output {
         write_text(path, &case.cells_csv(&moved.values))?;
@@ -208,16 +217,21 @@ impl Case {
         recorder.submit(&Default::default());
         let padded: Vec<f32> = bytemuck::pod_collect_to_vec(&field.read_shown(gpu).wait(gpu)?);
         let values = field.inner(&padded).into_iter().map(f64::from).collect();
-        Ok(Moved { values, steps: self.steps, remaps: self.steps / interval, wall_ms: per_step(wall_ms), cpu_ms: per_step(cpu_ms) })
+        Ok(Moved {
+            values,
+            steps: self.steps,
+            remaps: self.steps / interval,
+            wall_ms: per_step(wall_ms),
+            cpu_ms: per_step(cpu_ms),
+        })
     }
 
     fn measure(&self, values: &[f64]) -> Measured {
         let time = self.time(self.steps);
         // Four times the steps of the run: the exact answer's own error is then far below the scheme's.
         let steps = (4 * self.steps).clamp(400, 100_000) as u32;
-        let answer = |cell: usize| {
-            exact(&self.wind, &self.tracer, Quantity::Ratio, self.grid.cell_direction(cell), time, steps)
-        };
+        let answer =
+            |cell: usize| exact(&self.wind, &self.tracer, Quantity::Ratio, self.grid.cell_direction(cell), time, steps);
         let answers: Vec<f64> = (0..self.grid.cells()).into_par_iter().map(answer).collect();
         measure(self.grid, values, &answers, &self.initial())
     }

@@ -126,7 +126,12 @@ pub struct MapBuffers<'a> {
 }
 
 /// Records one step.
-pub fn advance_map(recorder: &mut Recorder<'_>, name: &'static str, step: &Step, map: &MapBuffers<'_>) -> Result<(), GpuError> {
+pub fn advance_map(
+    recorder: &mut Recorder<'_>,
+    name: &'static str,
+    step: &Step,
+    map: &MapBuffers<'_>,
+) -> Result<(), GpuError> {
     let gpu: &Gpu = recorder.gpu;
     let constants = vec![("FLOW", step.kind as u32)];
     let pipeline = gpu.pipelines.compute(gpu, &ComputeKey { pass: "advance_map", entry: "advance_map", constants })?;

@@ -2,18 +2,15 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{
-    Gpu, GpuError,
-    pipelines::ComputeKey,
-    timing::Recorder,
-};
+use super::{Gpu, GpuError, pipelines::ComputeKey, timing::Recorder};
 use crate::{
-    physics::{colour::xyz_to_bt2020, film_optics::FilmOptics, spectra},
+    physics::{
+        colour::{BT2020, FilmOptics},
+        optics::REFERENCE_NM,
+        spectra,
+    },
     plan::TableKey,
 };
-
-/// Wavelength at which one index stands for the film in the table's axes, in nm.
-pub const AXES_WAVELENGTH_NM: f64 = 589.0;
 
 /// Format of the table: filterable and storable on every adapter.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -26,7 +23,7 @@ pub struct TableAxes {
     pub size: [f32; 2],
     /// Thickness at the last row for normal incidence, in nm.
     pub max_thickness_nm: f32,
-    /// Index of the film at [`AXES_WAVELENGTH_NM`].
+    /// Index of the film at [`REFERENCE_NM`].
     pub index: f32,
 }
 
@@ -37,7 +34,7 @@ impl TableAxes {
         Self {
             size: [key.columns as f32, key.rows as f32],
             max_thickness_nm: key.max_thickness_nm as f32,
-            index: key.index.n(AXES_WAVELENGTH_NM) as f32,
+            index: key.index.n(REFERENCE_NM) as f32,
         }
     }
 }
@@ -99,7 +96,12 @@ impl Table {
     }
 
     /// Records the bake of some rows.
-    pub fn bake(&self, recorder: &mut Recorder<'_>, key: &TableKey, rows: std::ops::Range<u32>) -> Result<(), GpuError> {
+    pub fn bake(
+        &self,
+        recorder: &mut Recorder<'_>,
+        key: &TableKey,
+        rows: std::ops::Range<u32>,
+    ) -> Result<(), GpuError> {
         let gpu = recorder.gpu;
         let pipeline_key = ComputeKey { pass: "bake_table", entry: "bake_table", constants: vec![] };
         let pipeline = gpu.pipelines.compute(gpu, &pipeline_key)?;
@@ -126,11 +128,14 @@ impl Table {
 
 fn spectral_samples(key: &TableKey) -> Vec<SpectralSample> {
     let optics = FilmOptics::new(key.index, &key.illuminant);
-    optics
-        .weights()
-        .iter()
+    let to_bt2020 = BT2020.from_xyz();
+    let weights = optics.weights().as_slice().iter();
+    weights
         .zip(optics.indices())
-        .map(|(weight, index)| SpectralSample { colour: xyz_to_bt2020(*weight).as_vec3().to_array(), index: *index as f32 })
+        .map(|(weight, index)| SpectralSample {
+            colour: (to_bt2020 * *weight).as_vec3().to_array(),
+            index: *index as f32,
+        })
         .collect()
 }
 

@@ -21,7 +21,10 @@ impl AdapterChoice {
     #[must_use]
     pub fn or_env(self) -> Self {
         let read = |key| std::env::var(key).ok().filter(|value: &String| !value.is_empty());
-        Self { name: self.name.or_else(|| read("WGPU_ADAPTER_NAME")), backend: self.backend.or_else(|| read("WGPU_BACKEND")) }
+        Self {
+            name: self.name.or_else(|| read("WGPU_ADAPTER_NAME")),
+            backend: self.backend.or_else(|| read("WGPU_BACKEND")),
+        }
     }
 
     fn backends(&self) -> Result<wgpu::Backends, GpuError> {
@@ -47,7 +50,9 @@ pub enum GpuError {
     #[error("unknown graphics backend `{0}`: use vulkan, metal, dx12 or gl")]
     UnknownBackend(String),
     /// No driver at all.
-    #[error("no graphics adapter found{0}: install a Vulkan, Metal, DX12 or OpenGL ES driver (on Linux without a GPU: Mesa's lavapipe)")]
+    #[error(
+        "no graphics adapter found{0}: install a Vulkan, Metal, DX12 or OpenGL ES driver (on Linux without a GPU: Mesa's lavapipe)"
+    )]
     NoAdapter(String),
     /// An adapter was named, and is not there.
     #[error("no graphics adapter is named `{name}`; found: {found}")]
@@ -113,7 +118,10 @@ impl Gpu {
     }
 
     /// The instance for a choice, for use with a window system's display.
-    pub fn instance_for(choice: &AdapterChoice, display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>) -> Result<wgpu::Instance, GpuError> {
+    pub fn instance_for(
+        choice: &AdapterChoice,
+        display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>,
+    ) -> Result<wgpu::Instance, GpuError> {
         let mut descriptor = wgpu::InstanceDescriptor::new_with_display_handle(display);
         descriptor.backends = choice.backends()?;
         Ok(wgpu::Instance::new(descriptor))
@@ -200,7 +208,12 @@ impl Gpu {
     /// A buffer of a given size and use, filled with zeros.
     #[must_use]
     pub fn buffer(&self, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
-        self.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage,
+            mapped_at_creation: false,
+        })
     }
 
     /// A uniform buffer that holds one value.
@@ -224,11 +237,9 @@ impl Gpu {
     /// A bind group of resources numbered from 0.
     #[must_use]
     pub fn bind(&self, layout: &wgpu::BindGroupLayout, resources: &[wgpu::BindingResource<'_>]) -> wgpu::BindGroup {
-        let entry = |(binding, resource): (usize, &wgpu::BindingResource<'_>)| wgpu::BindGroupEntry {
-            binding: binding as u32,
-            resource: resource.clone(),
-        };
-        let entries: Vec<_> = resources.iter().enumerate().map(entry).collect();
+        let resources = resources.iter().cloned().enumerate();
+        let entries: Vec<_> =
+            resources.map(|(binding, resource)| wgpu::BindGroupEntry { binding: binding as u32, resource }).collect();
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
     }
 

@@ -162,7 +162,8 @@ impl DrawPass {
 pub fn pixels_shaded(key: &DrawKey) -> u64 {
     let [width, height] = key.size.map(u64::from);
     let bubble = |bubble: &BubbleKey| {
-        let [x, y] = [0, 1].map(|axis| pixel_span(bubble, key.size[axis], axis)).map(|[low, high]| u64::from(high - low));
+        let [x, y] =
+            [0, 1].map(|axis| pixel_span(bubble, key.size[axis], axis)).map(|[low, high]| u64::from(high - low));
         x * y
     };
     width * height + key.bubbles.iter().map(bubble).sum::<u64>()

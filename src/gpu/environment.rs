@@ -15,20 +15,21 @@ impl Environment {
     /// Sends a cube map to the device.
     #[must_use]
     pub fn upload(gpu: &Gpu, map: &CubeMap) -> Self {
-        let size = wgpu::Extent3d { width: map.size, height: map.size, depth_or_array_layers: 6 };
+        let width = map.size() as u32;
+        let size = wgpu::Extent3d { width, height: width, depth_or_array_layers: 6 };
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("environment"),
             size,
-            mip_level_count: map.mips.len() as u32,
+            mip_level_count: map.mips().len() as u32,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: wgpu::TextureFormat::Rgba16Float,
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         });
-        for (level, faces) in map.mips.iter().enumerate() {
-            for (face, texels) in faces.iter().enumerate() {
-                write_face(gpu, &texture, level as u32, face as u32, bytemuck::cast_slice(texels));
+        for (number, level) in map.mips().iter().enumerate() {
+            for (face, texels) in level.faces.iter().enumerate() {
+                write_face(gpu, &texture, number as u32, face as u32, bytemuck::cast_slice(texels));
             }
         }
         let view = texture.create_view(&wgpu::TextureViewDescriptor {

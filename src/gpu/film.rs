@@ -14,7 +14,7 @@ use super::{
     readback::Readback,
     timing::Recorder,
 };
-use crate::physics::sphere::{CubedSphere, HALO, HaloEntry};
+use crate::physics::sphere::{CubedSphere, HALO, HaloEntry, HaloTable};
 
 /// The grid, as `sample_tracer` reads it.
 #[repr(C)]
@@ -27,7 +27,7 @@ pub struct GridUniform {
 
 /// A film's field.
 pub struct Field {
-    cells: u32,
+    sphere: CubedSphere,
     grid: wgpu::Buffer,
     tangents: wgpu::Buffer,
     /// Halo cells beyond an edge, then those beyond a corner, which read the edges.
@@ -49,14 +49,15 @@ struct HaloList {
 impl Field {
     /// An empty field.
     #[must_use]
-    pub fn new(gpu: &Gpu, grid: CubedSphere) -> Self {
-        let cells = grid.n() as u32;
+    pub fn new(gpu: &Gpu, sphere: CubedSphere) -> Self {
+        let cells = sphere.n() as u32;
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
-        let padded = grid.padded_len() as u64;
-        let table = HaloTable::new(grid);
-        let list = |entries: &[HaloEntry]| HaloList { entries: gpu.storage("halo", entries), count: entries.len() as u32 };
+        let padded = sphere.padded_len() as u64;
+        let table = HaloTable::new(sphere);
+        let list =
+            |entries: &[HaloEntry]| HaloList { entries: gpu.storage("halo", entries), count: entries.len() as u32 };
         Self {
-            cells,
+            sphere,
             grid: gpu.uniform("grid", &GridUniform { cells, pad: [0; 3] }),
             tangents: gpu.storage("tangents", &tangents(cells)),
             halo: [list(&table.edges), list(&table.corners)],
@@ -70,7 +71,7 @@ impl Field {
     /// Cells along a panel's edge.
     #[must_use]
     pub fn cells(&self) -> u32 {
-        self.cells
+        self.sphere.n() as u32
     }
 
     /// Thickness in nm in padded storage, halo included: what pictures read.
@@ -81,7 +82,7 @@ impl Field {
 
     /// Sets the tracer, in the grid's order of cells, and forgets all motion.
     pub fn seed(&mut self, recorder: &mut Recorder<'_>, values: &[f32]) -> Result<(), GpuError> {
-        recorder.gpu.upload(&self.tracer[0], &padded(self.cells, values));
+        recorder.gpu.upload(&self.tracer[0], &self.padded(values));
         self.map_is_identity = true;
         fill_halo(recorder, &self.halo, "seed_field", HaloOf::Tracer(&self.tracer[0]))
     }
@@ -99,7 +100,7 @@ impl Field {
 
     fn advance_into_spare(&self, recorder: &mut Recorder<'_>, name: &'static str, step: &Step) -> Result<(), GpuError> {
         let before = (!self.map_is_identity).then_some(&self.map[0]);
-        let map = MapBuffers { cells: self.cells, tangents: &self.tangents, before, after: &self.map[1] };
+        let map = MapBuffers { cells: self.cells(), tangents: &self.tangents, before, after: &self.map[1] };
         advance_map(recorder, name, step, &map)
     }
 
@@ -128,7 +129,13 @@ impl Field {
         fill_halo(recorder, &self.halo, name, HaloOf::Tracer(&self.shown))
     }
 
-    fn sample(&self, recorder: &mut Recorder<'_>, name: &'static str, map: &wgpu::Buffer, to: &wgpu::Buffer) -> Result<(), GpuError> {
+    fn sample(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &'static str,
+        map: &wgpu::Buffer,
+        to: &wgpu::Buffer,
+    ) -> Result<(), GpuError> {
         let gpu = recorder.gpu;
         let key = ComputeKey { pass: "sample_tracer", entry: "sample_tracer", constants: vec![] };
         let pipeline = gpu.pipelines.compute(gpu, &key)?;
@@ -136,7 +143,7 @@ impl Field {
             &pipeline.get_bind_group_layout(0),
             &[&self.grid, map, &self.tracer[0], to].map(wgpu::Buffer::as_entire_binding),
         );
-        recorder.dispatch(name, &pipeline, &bindings, [self.cells.div_ceil(64), self.cells, 6]);
+        recorder.dispatch(name, &pipeline, &bindings, [self.cells().div_ceil(64), self.cells(), 6]);
         Ok(())
     }
 
@@ -156,7 +163,22 @@ impl Field {
     /// The cells of padded storage, in the grid's order.
     #[must_use]
     pub fn inner(&self, padded: &[f32]) -> Vec<f32> {
-        CubedSphere::new(self.cells as usize).cells().map(|cell| padded[cell.padded]).collect()
+        (0..self.sphere.cells()).map(|cell| padded[self.place(cell)]).collect()
+    }
+
+    /// Values in the grid's order, in padded storage with an empty halo.
+    fn padded(&self, values: &[f32]) -> Vec<f32> {
+        let mut padded = vec![0.0; self.sphere.padded_len()];
+        for (cell, value) in values.iter().enumerate() {
+            padded[self.place(cell)] = *value;
+        }
+        padded
+    }
+
+    /// Place of a cell in padded storage.
+    fn place(&self, cell: usize) -> usize {
+        let (panel, i, j) = self.sphere.cell(cell);
+        self.sphere.padded_index(panel, i as isize, j as isize)
     }
 }
 
@@ -173,7 +195,12 @@ enum HaloOf<'a> {
     Tracer(&'a wgpu::Buffer),
 }
 
-fn fill_halo(recorder: &mut Recorder<'_>, lists: &[HaloList], name: &'static str, of: HaloOf<'_>) -> Result<(), GpuError> {
+fn fill_halo(
+    recorder: &mut Recorder<'_>,
+    lists: &[HaloList],
+    name: &'static str,
+    of: HaloOf<'_>,
+) -> Result<(), GpuError> {
     let gpu = recorder.gpu;
     let (entry, buffer) = match of {
         HaloOf::Map(buffer) => ("fill_map", buffer),
@@ -181,10 +208,8 @@ fn fill_halo(recorder: &mut Recorder<'_>, lists: &[HaloList], name: &'static str
     };
     let pipeline = gpu.pipelines.compute(gpu, &ComputeKey { pass: "fill_halo", entry, constants: vec![] })?;
     for list in lists {
-        let bindings = gpu.bind(
-            &pipeline.get_bind_group_layout(0),
-            &[&list.entries, buffer].map(wgpu::Buffer::as_entire_binding),
-        );
+        let bindings =
+            gpu.bind(&pipeline.get_bind_group_layout(0), &[&list.entries, buffer].map(wgpu::Buffer::as_entire_binding));
         recorder.dispatch(name, &pipeline, &bindings, [list.count.div_ceil(64), 1, 1]);
     }
     Ok(())

@@ -169,9 +169,10 @@ fn make<P>(
     });
     // Shared constants only where the text declares them: an unknown name would be refused.
     let shared = SHARED_CONSTANTS.iter().filter(|(name, _)| composed.declares(name));
-    let constants: Vec<(&str, f64)> = constants.iter().chain(shared).map(|(name, value)| (*name, f64::from(*value))).collect();
+    let constants: Vec<(&str, f64)> =
+        constants.iter().chain(shared).map(|(name, value)| (*name, f64::from(*value))).collect();
     let pipeline = build(&module, wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() });
-    match ready(scope.pop()) {
+    match ready(scope.pop()).flatten() {
         Some(error) => Err(shader_error(pass, &composed, &module, &error).into()),
         None => Ok(pipeline),
     }
@@ -179,7 +180,8 @@ fn make<P>(
 
 /// The first thing the compiler said, with the file and line it means.
 fn shader_error(pass: &str, composed: &Composed, module: &wgpu::ShaderModule, error: &wgpu::Error) -> ShaderError {
-    let told = ready(module.get_compilation_info()).messages.into_iter().find_map(|message| {
+    let messages = ready(module.get_compilation_info()).map(|info| info.messages).unwrap_or_default();
+    let told = messages.into_iter().find_map(|message| {
         let line = message.location?.line_number as usize;
         Some(ShaderError { place: composed.place(line), message: one_line(&message.message) })
     });
@@ -190,11 +192,11 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The value of a future that is ready at once, as error scopes and compilation messages are outside browsers; else its default.
-fn ready<T: Default>(future: impl Future<Output = T>) -> T {
+/// The value of a future that is ready at once, as error scopes and compilation messages are outside browsers.
+fn ready<T>(future: impl Future<Output = T>) -> Option<T> {
     let mut context = std::task::Context::from_waker(std::task::Waker::noop());
     match std::pin::pin!(future).poll(&mut context) {
-        std::task::Poll::Ready(value) => value,
-        std::task::Poll::Pending => T::default(),
+        std::task::Poll::Ready(value) => Some(value),
+        std::task::Poll::Pending => None,
     }
 }

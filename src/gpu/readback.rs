@@ -37,7 +37,8 @@ impl Readback {
         let rows = Rows { count: source.height() as usize, bytes, stride };
         let size = wgpu::Extent3d { depth_or_array_layers: 1, ..source.size() };
         Self::begin(gpu, rows, |encoder, buffer| {
-            let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride as u32), rows_per_image: None };
+            let layout =
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride as u32), rows_per_image: None };
             encoder.copy_texture_to_buffer(source.as_image_copy(), wgpu::TexelCopyBufferInfo { buffer, layout }, size);
         })
     }
@@ -45,7 +46,8 @@ impl Readback {
     fn begin(gpu: &Gpu, rows: Rows, copy: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer)) -> Self {
         let size = (rows.count * rows.stride) as u64;
         let buffer = gpu.buffer("readback", size, wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
-        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("readback") });
+        let mut encoder =
+            gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("readback") });
         copy(&mut encoder, &buffer);
         gpu.queue.submit([encoder.finish()]);
         let mapped = Arc::new(Mutex::new(None));

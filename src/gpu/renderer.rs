@@ -1,5 +1,7 @@
 //! Walks a plan: owns the products, records each pass from its key, and keeps the books of what is there.
 
+use glam::DVec3;
+
 use super::{
     Gpu, GpuError,
     advance_map::Step,
@@ -38,7 +40,9 @@ struct Target {
 
 impl Target {
     fn new(gpu: &Gpu, label: &str, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> Self {
-        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC;
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(label),
             size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -54,7 +58,13 @@ impl Target {
     }
 
     /// Keeps a target that fits, else makes a new one.
-    fn fit<'a>(slot: &'a mut Option<Self>, gpu: &Gpu, label: &str, size: [u32; 2], format: wgpu::TextureFormat) -> &'a Self {
+    fn fit<'a>(
+        slot: &'a mut Option<Self>,
+        gpu: &Gpu,
+        label: &str,
+        size: [u32; 2],
+        format: wgpu::TextureFormat,
+    ) -> &'a Self {
         let fits = |target: &Self| {
             [target.texture.width(), target.texture.height()] == size && target.texture.format() == format
         };
@@ -81,7 +91,13 @@ impl Renderer {
     /// A renderer with nothing on the device yet.
     #[must_use]
     pub fn new(gpu: Gpu) -> Self {
-        Self { gpu, times: TimeLog::default(), counts: Counts::default(), have: Have::default(), products: Products::default() }
+        Self {
+            gpu,
+            times: TimeLog::default(),
+            counts: Counts::default(),
+            have: Have::default(),
+            products: Products::default(),
+        }
     }
 
     /// What is on the device.
@@ -177,12 +193,13 @@ impl Renderer {
         if self.products.fields.len() <= film {
             self.products.fields.resize_with(film + 1, || None);
         }
+        let sphere = CubedSphere::new(key.cells as usize).map_err(|error| GpuError::Refused(error.to_string()))?;
         let slot = &mut self.products.fields[film];
         if slot.as_ref().is_none_or(|field| field.cells() != key.cells) {
-            *slot = Some(Field::new(&self.gpu, key.cells));
+            *slot = Some(Field::new(&self.gpu, sphere));
         }
         let Some(field) = slot else { return Ok(()) };
-        let values = key.initial.sample(CubedSphere::new(key.cells as usize));
+        let values = key.initial.sample(sphere);
         let mut recorder = Recorder::new(&self.gpu);
         field.seed(&mut recorder, &values)?;
         Self::submit(&self.times, &mut self.counts, recorder);
@@ -221,8 +238,10 @@ impl Renderer {
         let format = radiance_format(key.full_precision);
         let target = Target::fit(&mut self.products.radiance, &self.gpu, "radiance", key.size, format);
         // Without an environment key nothing of it is read; a black one fills the binding.
-        let environment =
-            self.products.environment.get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant([0.0; 3])));
+        let environment = self
+            .products
+            .environment
+            .get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant(DVec3::ZERO)));
         let fields = &self.products.fields;
         let thickness = |film: usize| fields.get(film).and_then(Option::as_ref).map(Field::shown);
         let inputs = DrawInputs { environment, table: self.products.table.as_ref(), thickness: &thickness };

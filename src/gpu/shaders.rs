@@ -123,7 +123,9 @@ impl Composed {
     #[must_use]
     pub fn declares(&self, constant: &str) -> bool {
         self.wgsl.lines().any(|line| {
-            line.strip_prefix("override ").and_then(|rest| rest.strip_prefix(constant)).is_some_and(|rest| rest.starts_with(':'))
+            line.strip_prefix("override ")
+                .and_then(|rest| rest.strip_prefix(constant))
+                .is_some_and(|rest| rest.starts_with(':'))
         })
     }
 }

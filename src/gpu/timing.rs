@@ -65,13 +65,20 @@ impl<'g> Recorder<'g> {
     }
 
     /// One dispatch of a compute pipeline.
-    pub fn dispatch(&mut self, name: &'static str, pipeline: &wgpu::ComputePipeline, bindings: &wgpu::BindGroup, groups: [u32; 3]) {
+    pub fn dispatch(
+        &mut self,
+        name: &'static str,
+        pipeline: &wgpu::ComputePipeline,
+        bindings: &wgpu::BindGroup,
+        groups: [u32; 3],
+    ) {
         let slot = self.slot(name);
-        let timestamp_writes = self.queries.as_ref().zip(slot).map(|(query_set, slot)| wgpu::ComputePassTimestampWrites {
-            query_set,
-            beginning_of_pass_write_index: Some(slot),
-            end_of_pass_write_index: Some(slot + 1),
-        });
+        let timestamp_writes =
+            self.queries.as_ref().zip(slot).map(|(query_set, slot)| wgpu::ComputePassTimestampWrites {
+                query_set,
+                beginning_of_pass_write_index: Some(slot),
+                end_of_pass_write_index: Some(slot + 1),
+            });
         let mut pass =
             self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes });
         pass.set_pipeline(pipeline);
@@ -81,13 +88,19 @@ impl<'g> Recorder<'g> {
     }
 
     /// A render pass into one target, which keeps what it holds.
-    pub fn render(&mut self, name: &'static str, target: &wgpu::TextureView, draw: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
+    pub fn render(
+        &mut self,
+        name: &'static str,
+        target: &wgpu::TextureView,
+        draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) {
         let slot = self.slot(name);
-        let timestamp_writes = self.queries.as_ref().zip(slot).map(|(query_set, slot)| wgpu::RenderPassTimestampWrites {
-            query_set,
-            beginning_of_pass_write_index: Some(slot),
-            end_of_pass_write_index: Some(slot + 1),
-        });
+        let timestamp_writes =
+            self.queries.as_ref().zip(slot).map(|(query_set, slot)| wgpu::RenderPassTimestampWrites {
+                query_set,
+                beginning_of_pass_write_index: Some(slot),
+                end_of_pass_write_index: Some(slot + 1),
+            });
         let attachment = wgpu::RenderPassColorAttachment {
             view: target,
             depth_slice: None,
@@ -115,7 +128,8 @@ impl<'g> Recorder<'g> {
             let size = u64::from(slots) * 8;
             let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
             let resolved = self.gpu.buffer("resolved pass times", size, usage);
-            let readable = self.gpu.buffer("pass times", size, wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
+            let readable =
+                self.gpu.buffer("pass times", size, wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
             self.encoder.resolve_query_set(queries, 0..slots, &resolved, 0);
             self.encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, size);
             readable

@@ -14,24 +14,12 @@ pub(super) struct RgbSpace {
 const D65: DVec2 = DVec2::new(0.3127, 0.3290);
 
 /// ITU-R BT.709, which OpenEXR and Radiance files mean when they do not say.
-pub(super) const BT709: RgbSpace = RgbSpace {
-    primaries: [
-        DVec2::new(0.640, 0.330),
-        DVec2::new(0.300, 0.600),
-        DVec2::new(0.150, 0.060),
-    ],
-    white: D65,
-};
+pub(super) const BT709: RgbSpace =
+    RgbSpace { primaries: [DVec2::new(0.640, 0.330), DVec2::new(0.300, 0.600), DVec2::new(0.150, 0.060)], white: D65 };
 
 /// ITU-R BT.2020, the program's own.
-pub(super) const BT2020: RgbSpace = RgbSpace {
-    primaries: [
-        DVec2::new(0.708, 0.292),
-        DVec2::new(0.170, 0.797),
-        DVec2::new(0.131, 0.046),
-    ],
-    white: D65,
-};
+pub(super) const BT2020: RgbSpace =
+    RgbSpace { primaries: [DVec2::new(0.708, 0.292), DVec2::new(0.170, 0.797), DVec2::new(0.131, 0.046)], white: D65 };
 
 /// Cone responses of the Bradford adaptation (ICC.1:2022, annex E.2).
 const BRADFORD: DMat3 = DMat3::from_cols(
@@ -95,11 +83,7 @@ mod tests {
     #[test]
     fn white_stays_white_whatever_the_space() {
         let aces = RgbSpace {
-            primaries: [
-                DVec2::new(0.7347, 0.2653),
-                DVec2::new(0.0, 1.0),
-                DVec2::new(0.0001, -0.077),
-            ],
+            primaries: [DVec2::new(0.7347, 0.2653), DVec2::new(0.0, 1.0), DVec2::new(0.0001, -0.077)],
             white: DVec2::new(0.32168, 0.33767),
         };
         for space in [BT709, BT2020, aces] {
@@ -111,14 +95,8 @@ mod tests {
 
     #[test]
     fn spaces_without_colours_are_refused() {
-        let grey = RgbSpace {
-            primaries: [D65; 3],
-            white: D65,
-        };
-        let zero = RgbSpace {
-            primaries: [DVec2::ZERO; 3],
-            white: DVec2::ZERO,
-        };
+        let grey = RgbSpace { primaries: [D65; 3], white: D65 };
+        let zero = RgbSpace { primaries: [DVec2::ZERO; 3], white: DVec2::ZERO };
         assert_eq!(grey.to_bt2020(), None);
         assert_eq!(zero.to_bt2020(), None);
     }

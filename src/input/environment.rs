@@ -36,22 +36,18 @@ pub(super) struct DecodedPicture {
 /// # Errors
 /// Every [`InputError`] but those about text: the file is missing, a folder, unreadable, empty, of another format, damaged,
 /// without colours, too large, too small, or not twice as wide as high.
-pub fn load_environment(path: &Path) -> Result<Equirect, InputError> {
+pub fn read_environment(path: &Path) -> Result<Equirect, InputError> {
     let mut file = BufReader::new(text::open(path)?);
     let format = recognise(&mut file, path)?;
     let decode = || match format {
         Format::OpenExr => exr::decode(path, file),
         Format::Radiance => radiance::decode(path, file),
     };
-    let damaged = || InputError::Damaged {
-        path: path.to_owned(),
-        reason: "its parts contradict each other".to_owned(),
-    };
+    let damaged =
+        || InputError::Damaged { path: path.to_owned(), reason: "its parts contradict each other".to_owned() };
     let picture = catch_panic(decode).unwrap_or_else(|| Err(damaged()))?;
-    let unsupported = || InputError::Unsupported {
-        path: path.to_owned(),
-        reason: "its chromaticities span no colours".to_owned(),
-    };
+    let unsupported =
+        || InputError::Unsupported { path: path.to_owned(), reason: "its chromaticities span no colours".to_owned() };
     let to_bt2020 = picture.space.to_bt2020().ok_or_else(unsupported)?;
     let pixels = convert(picture.pixels, to_bt2020);
     Equirect::new(picture.width, picture.height, pixels).map_err(|_| damaged())
@@ -61,23 +57,11 @@ pub fn load_environment(path: &Path) -> Result<Equirect, InputError> {
 pub(super) fn check_size(path: &Path, width: usize, height: usize) -> Result<(), InputError> {
     let path = || path.to_owned();
     if width < 2 || height < 1 {
-        Err(InputError::TooSmall {
-            path: path(),
-            width,
-            height,
-        })
+        Err(InputError::TooSmall { path: path(), width, height })
     } else if Some(width) != height.checked_mul(2) {
-        Err(InputError::NotTwoToOne {
-            path: path(),
-            width,
-            height,
-        })
+        Err(InputError::NotTwoToOne { path: path(), width, height })
     } else if width > MAX_ENVIRONMENT_WIDTH {
-        Err(InputError::TooLarge {
-            path: path(),
-            width,
-            height,
-        })
+        Err(InputError::TooLarge { path: path(), width, height })
     } else {
         Ok(())
     }

@@ -43,41 +43,21 @@ pub(super) fn decode(path: &Path, mut file: impl BufRead + Seek) -> Result<Decod
         .from_buffered(file)
         .map_err(in_words)?;
     let (_, pixels) = image.layer_data.channel_data.pixels;
-    Ok(DecodedPicture {
-        width,
-        height,
-        pixels,
-        space: rgb_space(header),
-    })
+    Ok(DecodedPicture { width, height, pixels, space: rgb_space(header) })
 }
 
 /// The first flat layer with colours, and what stands before the letters in its channels' names (as in `diffuse.R`).
 fn find_colours<'a>(path: &Path, headers: &'a [Header]) -> Result<(&'a Header, String), InputError> {
     let colours = |header: &'a Header| {
-        let names: Vec<String> = header
-            .channels
-            .list
-            .iter()
-            .map(|channel| channel.name.to_string())
-            .collect();
+        let names: Vec<String> = header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
         let complete = |prefix: &&str| {
-            ["R", "G", "B"]
-                .iter()
-                .all(|letter| names.iter().any(|name| *name == format!("{prefix}{letter}")))
+            ["R", "G", "B"].iter().all(|letter| names.iter().any(|name| *name == format!("{prefix}{letter}")))
         };
-        let mut prefixes: Vec<&str> = names
-            .iter()
-            .filter_map(|name| name.strip_suffix('R'))
-            .filter(complete)
-            .collect();
+        let mut prefixes: Vec<&str> = names.iter().filter_map(|name| name.strip_suffix('R')).filter(complete).collect();
         prefixes.sort_by_key(|prefix| prefix.len());
         prefixes.first().map(|prefix| (header, (*prefix).to_owned()))
     };
-    headers
-        .iter()
-        .filter(|header| !header.deep)
-        .find_map(colours)
-        .ok_or_else(|| no_colour(path, headers))
+    headers.iter().filter(|header| !header.deep).find_map(colours).ok_or_else(|| no_colour(path, headers))
 }
 
 fn no_colour(path: &Path, headers: &[Header]) -> InputError {
@@ -85,31 +65,18 @@ fn no_colour(path: &Path, headers: &[Header]) -> InputError {
     let names: Vec<String> = channels.take(8).map(|channel| channel.name.to_string()).collect();
     let deep = headers.iter().any(|header| header.deep);
     let found = if deep { "deep data".to_owned() } else { names.join(", ") };
-    InputError::NoColour {
-        path: path.to_owned(),
-        found,
-    }
+    InputError::NoColour { path: path.to_owned(), found }
 }
 
 /// Refuses what would be read wrongly: a size we do not take, a part of a picture, or channels of different sizes.
 fn check_layout(path: &Path, header: &Header) -> Result<(), InputError> {
     let openexr::Vec2(width, height) = header.layer_size;
     check_size(path, width, height)?;
-    let unsupported = |reason: &str| {
-        Err(InputError::Unsupported {
-            path: path.to_owned(),
-            reason: reason.to_owned(),
-        })
-    };
+    let unsupported = |reason: &str| Err(InputError::Unsupported { path: path.to_owned(), reason: reason.to_owned() });
     if header.shared_attributes.display_window.size != header.layer_size {
         return unsupported("its data window is not its display window");
     }
-    if header
-        .channels
-        .list
-        .iter()
-        .any(|channel| channel.sampling != openexr::Vec2(1, 1))
-    {
+    if header.channels.list.iter().any(|channel| channel.sampling != openexr::Vec2(1, 1)) {
         return unsupported("its channels are subsampled");
     }
     Ok(())
@@ -127,17 +94,8 @@ fn in_words(path: &Path, error: openexr::Error) -> InputError {
     let path = path.to_owned();
     match error {
         openexr::Error::Io(reason) => InputError::Unreadable { path, reason },
-        openexr::Error::NotSupported(reason) => InputError::Unsupported {
-            path,
-            reason: reason.into_owned(),
-        },
-        openexr::Error::Invalid(reason) => InputError::Damaged {
-            path,
-            reason: reason.into_owned(),
-        },
-        openexr::Error::Aborted => InputError::Damaged {
-            path,
-            reason: "reading stopped".to_owned(),
-        },
+        openexr::Error::NotSupported(reason) => InputError::Unsupported { path, reason: reason.into_owned() },
+        openexr::Error::Invalid(reason) => InputError::Damaged { path, reason: reason.into_owned() },
+        openexr::Error::Aborted => InputError::Damaged { path, reason: "reading stopped".to_owned() },
     }
 }

@@ -6,8 +6,10 @@ mod error;
 mod exr;
 mod panic_guard;
 mod radiance;
+mod scene;
 mod text;
 
-pub use environment::{MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_WIDTH, load_environment};
+pub use environment::{MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_WIDTH, read_environment};
 pub use error::InputError;
+pub use scene::{LoadError, LoadedScene, load_environment, load_scene};
 pub use text::{MAX_TEXT_BYTES, read_text};

@@ -22,19 +22,12 @@ pub(super) fn decode(path: &Path, file: impl BufRead) -> Result<DecodedPicture, 
     let (width, height) = (metadata.width as usize, metadata.height as usize);
     check_size(path, width, height)?;
     let mut pixels = vec![[0.0f32; 3]; width * height];
-    decoder
-        .read_image(bytemuck::cast_slice_mut(&mut pixels))
-        .map_err(in_words)?;
+    decoder.read_image(bytemuck::cast_slice_mut(&mut pixels)).map_err(in_words)?;
     let scale = radiance_scale(&metadata);
     for pixel in &mut pixels {
         *pixel = std::array::from_fn(|i| pixel[i] * scale[i]);
     }
-    Ok(DecodedPicture {
-        width,
-        height,
-        pixels,
-        space: rgb_space(&metadata),
-    })
+    Ok(DecodedPicture { width, height, pixels, space: rgb_space(&metadata) })
 }
 
 /// What takes the stored values back to radiance.
@@ -43,11 +36,7 @@ fn radiance_scale(metadata: &HdrMetadata) -> [f32; 3] {
     let (r, g, b) = metadata.color_correction.unwrap_or((1.0, 1.0, 1.0));
     let scale = [r, g, b].map(|correction| 1.0 / (exposure * correction));
     // Nonsense in the header (0, negative, not a number) is worth no refusal: the values as stored are the best guess.
-    if scale.iter().all(|scale| scale.is_finite() && *scale > 0.0) {
-        scale
-    } else {
-        [1.0; 3]
-    }
+    if scale.iter().all(|scale| scale.is_finite() && *scale > 0.0) { scale } else { [1.0; 3] }
 }
 
 /// The space named by `PRIMARIES= rx ry gx gy bx by wx wy`, else BT.709.
@@ -73,17 +62,8 @@ fn in_words(path: &Path, error: ImageError) -> InputError {
         ImageError::IoError(reason) if reason.kind() != std::io::ErrorKind::UnexpectedEof => {
             InputError::Unreadable { path, reason }
         }
-        ImageError::IoError(_) => InputError::Damaged {
-            path,
-            reason: "it ends too early".to_owned(),
-        },
-        ImageError::Unsupported(reason) => InputError::Unsupported {
-            path,
-            reason: reason.to_string(),
-        },
-        other => InputError::Damaged {
-            path,
-            reason: other.to_string(),
-        },
+        ImageError::IoError(_) => InputError::Damaged { path, reason: "it ends too early".to_owned() },
+        ImageError::Unsupported(reason) => InputError::Unsupported { path, reason: reason.to_string() },
+        other => InputError::Damaged { path, reason: other.to_string() },
     }
 }

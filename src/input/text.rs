@@ -21,19 +21,12 @@ fn read_text_up_to(path: &Path, limit_bytes: u64) -> Result<String, InputError> 
     let mut bytes = Vec::new();
     // One byte more than the limit tells a long file, and a pipe without end, from one that just fits.
     let file = open(path)?;
-    file.take(limit_bytes + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|reason| InputError::from_io(path, reason))?;
+    file.take(limit_bytes + 1).read_to_end(&mut bytes).map_err(|reason| InputError::from_io(path, reason))?;
     if bytes.len() as u64 > limit_bytes {
-        return Err(InputError::TextTooLong {
-            path: path.to_owned(),
-            limit_bytes,
-        });
+        return Err(InputError::TextTooLong { path: path.to_owned(), limit_bytes });
     }
-    let text = String::from_utf8(bytes).map_err(|error| InputError::NotText {
-        path: path.to_owned(),
-        byte: error.utf8_error().valid_up_to(),
-    })?;
+    let text = String::from_utf8(bytes)
+        .map_err(|error| InputError::NotText { path: path.to_owned(), byte: error.utf8_error().valid_up_to() })?;
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }
 
@@ -67,12 +60,7 @@ mod tests {
     fn reads_up_to_the_limit_and_no_further() {
         assert_eq!(read(b"12345", 5).unwrap(), "12345");
         let error = read(b"123456", 5).unwrap_err();
-        assert!(
-            error
-                .to_string()
-                .ends_with("is longer than 5 bytes: it is hardly the file you meant"),
-            "{error}"
-        );
+        assert!(error.to_string().ends_with("is longer than 5 bytes: it is hardly the file you meant"), "{error}");
     }
 
     #[test]
@@ -86,10 +74,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let missing = folder.path().join("none.toml");
         let error = read_text(&missing).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            format!("there is no file {}: check its name and folder", missing.display())
-        );
+        assert_eq!(error.to_string(), format!("there is no file {}: check its name and folder", missing.display()));
         assert!(matches!(read_text(folder.path()), Err(InputError::Folder { .. })));
     }
 }

@@ -20,10 +20,7 @@ pub fn write_atomically(
     write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
 ) -> Result<(), OutputError> {
     let target = target_of(path)?;
-    let failed = |reason| OutputError::Write {
-        path: path.to_owned(),
-        reason,
-    };
+    let failed = |reason| OutputError::Write { path: path.to_owned(), reason };
     let mut temporary = temporary_beside(path, &target)?;
     let mut writer = BufWriter::new(temporary.as_file_mut());
     write(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
@@ -59,9 +56,7 @@ fn temporary_beside(path: &Path, target: &Path) -> Result<NamedTempFile, OutputE
         // Temporary files are private by default; a picture gets the rights of any new file (the umask still takes its share).
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder
-        .tempfile_in(&folder)
-        .map_err(|reason| OutputError::FolderNotWritable { path, folder, reason })
+    builder.tempfile_in(&folder).map_err(|reason| OutputError::FolderNotWritable { path, folder, reason })
 }
 
 #[cfg(test)]
@@ -69,10 +64,7 @@ mod tests {
     use super::*;
 
     fn names_in(folder: &Path) -> Vec<String> {
-        fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect()
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
     }
 
     #[test]
@@ -95,10 +87,7 @@ mod tests {
             Err(io::Error::other("the disk is full"))
         };
         let error = write_atomically(&path, failing).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            format!("cannot write {}: the disk is full", path.display())
-        );
+        assert_eq!(error.to_string(), format!("cannot write {}: the disk is full", path.display()));
         assert!(names_in(folder.path()).is_empty());
 
         fs::write(&path, "kept").unwrap();
@@ -121,11 +110,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         for path in [folder.path(), Path::new("/"), Path::new("nowhere/..")] {
             let error = write_atomically(path, |_| Ok(())).unwrap_err();
-            assert!(
-                matches!(error, OutputError::Folder { .. }),
-                "{}: {error}",
-                path.display()
-            );
+            assert!(matches!(error, OutputError::Folder { .. }), "{}: {error}", path.display());
         }
     }
 
@@ -134,18 +119,13 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let missing = folder.path().join("no").join("such");
         let error = write_atomically(&missing.join("a.png"), |_| Ok(())).unwrap_err();
-        assert!(
-            matches!(&error, OutputError::NoFolder { folder, .. } if *folder == missing),
-            "{error}"
-        );
+        assert!(matches!(&error, OutputError::NoFolder { folder, .. } if *folder == missing), "{error}");
     }
 
     #[test]
     fn a_name_alone_goes_to_the_current_folder() {
-        let error = write_atomically(Path::new("soapfilm-test-never-written"), |_| {
-            Err(io::Error::other("stop"))
-        })
-        .unwrap_err();
+        let error =
+            write_atomically(Path::new("soapfilm-test-never-written"), |_| Err(io::Error::other("stop"))).unwrap_err();
         assert!(matches!(error, OutputError::Write { .. }), "{error}");
     }
 
@@ -187,11 +167,8 @@ mod tests {
             let folder = tempfile::tempdir().unwrap();
             fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).unwrap();
             // The superuser may write everywhere; /proc takes no files from anyone.
-            let refused = if File::create(folder.path().join("probe")).is_ok() {
-                Path::new("/proc")
-            } else {
-                folder.path()
-            };
+            let refused =
+                if File::create(folder.path().join("probe")).is_ok() { Path::new("/proc") } else { folder.path() };
             let error = write_atomically(&refused.join("a.png"), |_| Ok(())).unwrap_err();
             assert!(matches!(error, OutputError::FolderNotWritable { .. }), "{error}");
         }

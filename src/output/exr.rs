@@ -65,18 +65,9 @@ impl<const N: usize> ExrPicture<'_, N> {
 
     fn check(&self) -> io::Result<()> {
         let wrong = |reason: String| Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
-        let Self {
-            width,
-            height,
-            channels,
-            pixels,
-            ..
-        } = self;
+        let Self { width, height, channels, pixels, .. } = self;
         if pixels.is_empty() || width.checked_mul(*height) != Some(pixels.len()) {
-            return wrong(format!(
-                "{} pixels do not make a picture of {width}x{height}",
-                pixels.len()
-            ));
+            return wrong(format!("{} pixels do not make a picture of {width}x{height}", pixels.len()));
         }
         let bad = |i: usize| channels[i].is_empty() || !channels[i].is_ascii() || channels[..i].contains(&channels[i]);
         if N == 0 || (0..N).any(bad) {
@@ -112,12 +103,7 @@ fn chromaticities(primaries: ExrPrimaries) -> openexr::attribute::Chromaticities
         ExrPrimaries::Bt2020 => [(0.708, 0.292), (0.170, 0.797), (0.131, 0.046)],
     };
     let [red, green, blue, white] = [red, green, blue, (0.3127, 0.3290)].map(|(x, y)| openexr::Vec2(x, y));
-    openexr::attribute::Chromaticities {
-        red,
-        green,
-        blue,
-        white,
-    }
+    openexr::attribute::Chromaticities { red, green, blue, white }
 }
 
 fn in_io(error: openexr::Error) -> io::Error {
@@ -133,12 +119,8 @@ mod tests {
     use super::*;
 
     /// Values that only bit-exact storage keeps: a tiny one, a negative one, the largest, an infinity.
-    const ODD_PIXELS: [[f32; 3]; 4] = [
-        [1e-40, -0.0, -7.5],
-        [f32::MAX, f32::INFINITY, 0.1],
-        [1.0, 2.0, 3.0],
-        [65504.5, 1e-10, 0.333_333_34],
-    ];
+    const ODD_PIXELS: [[f32; 3]; 4] =
+        [[1e-40, -0.0, -7.5], [f32::MAX, f32::INFINITY, 0.1], [1.0, 2.0, 3.0], [65504.5, 1e-10, 0.333_333_34]];
 
     fn picture(metadata: &Metadata) -> ExrPicture<'_, 3> {
         ExrPicture {
@@ -166,10 +148,7 @@ mod tests {
         let read = read_exr(&path).unwrap();
         assert_eq!((read.width, read.height), (2, 2));
         assert_eq!(read.metadata, metadata);
-        assert_eq!(
-            read.chromaticities,
-            Some([[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.3127, 0.329]])
-        );
+        assert_eq!(read.chromaticities, Some([[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.3127, 0.329]]));
         for (i, name) in ["R", "G", "B"].into_iter().enumerate() {
             let bits = |samples: &mut dyn Iterator<Item = f32>| samples.map(f32::to_bits).collect::<Vec<_>>();
             let samples = read.channel(name).unwrap();
@@ -229,24 +208,10 @@ mod tests {
         let good = picture(&metadata);
         let wrong = [
             ExrPicture { width: 3, ..good },
-            ExrPicture {
-                width: 0,
-                height: 0,
-                pixels: &[],
-                ..good
-            },
-            ExrPicture {
-                channels: ["R", "G", "R"],
-                ..good
-            },
-            ExrPicture {
-                channels: ["R", "", "B"],
-                ..good
-            },
-            ExrPicture {
-                channels: ["R", "é", "B"],
-                ..good
-            },
+            ExrPicture { width: 0, height: 0, pixels: &[], ..good },
+            ExrPicture { channels: ["R", "G", "R"], ..good },
+            ExrPicture { channels: ["R", "", "B"], ..good },
+            ExrPicture { channels: ["R", "é", "B"], ..good },
         ];
         for picture in wrong {
             picture.save(&folder.path().join("a.exr")).unwrap_err();

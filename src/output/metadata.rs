@@ -25,8 +25,7 @@ impl Metadata {
 
     /// The first value of `key`.
     pub fn get(&self, key: &str) -> Option<&str> {
-        self.entries()
-            .find_map(|(known, value)| (known == key).then_some(value))
+        self.entries().find_map(|(known, value)| (known == key).then_some(value))
     }
 
     /// One line `key: value` for each entry.
@@ -44,27 +43,16 @@ impl Metadata {
 fn clean_key(key: &str) -> String {
     // A colon ends the key where entries are stored as lines; PNG allows no spaces at the ends and no two in a row.
     let readable = |character: char| {
-        if character.is_ascii_graphic() && character != ':' {
-            character
-        } else {
-            ' '
-        }
+        if character.is_ascii_graphic() && character != ':' { character } else { ' ' }
     };
     let spaced: String = key.chars().map(readable).collect();
     let mut cleaned = spaced.split_whitespace().collect::<Vec<_>>().join(" ");
     cleaned.truncate(79);
-    if cleaned.is_empty() {
-        "Comment".to_owned()
-    } else {
-        cleaned.trim_end().to_owned()
-    }
+    if cleaned.is_empty() { "Comment".to_owned() } else { cleaned.trim_end().to_owned() }
 }
 
 fn clean_value(value: &str) -> String {
-    value
-        .chars()
-        .map(|character| if character.is_control() { ' ' } else { character })
-        .collect()
+    value.chars().map(|character| if character.is_control() { ' ' } else { character }).collect()
 }
 
 #[cfg(test)]
@@ -73,14 +61,8 @@ mod tests {
 
     #[test]
     fn entries_keep_their_order_and_survive_as_lines() {
-        let metadata = Metadata::new()
-            .with("Scene", "seife: µ")
-            .with("Time", "0.5 s")
-            .with("Empty", "");
-        assert_eq!(
-            metadata.entries().map(|(key, _)| key).collect::<Vec<_>>(),
-            ["Scene", "Time", "Empty"]
-        );
+        let metadata = Metadata::new().with("Scene", "seife: µ").with("Time", "0.5 s").with("Empty", "");
+        assert_eq!(metadata.entries().map(|(key, _)| key).collect::<Vec<_>>(), ["Scene", "Time", "Empty"]);
         assert_eq!(metadata.get("Scene"), Some("seife: µ"));
         assert_eq!(metadata.get("Place"), None);
         assert_eq!(Metadata::from_lines(&metadata.to_lines()), metadata);
@@ -88,14 +70,8 @@ mod tests {
 
     #[test]
     fn what_would_break_an_entry_is_replaced() {
-        let metadata = Metadata::new()
-            .with(" a:\u{e9}\n b ", "two\nlines\0")
-            .with("", "x")
-            .with(&"k".repeat(200), "y");
-        let entries: Vec<_> = metadata
-            .entries()
-            .map(|(key, value)| (key.to_owned(), value.to_owned()))
-            .collect();
+        let metadata = Metadata::new().with(" a:\u{e9}\n b ", "two\nlines\0").with("", "x").with(&"k".repeat(200), "y");
+        let entries: Vec<_> = metadata.entries().map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
         let expected = [("a b", "two lines "), ("Comment", "x"), (&"k".repeat(79), "y")];
         assert_eq!(entries, expected.map(|(key, value)| (key.to_owned(), value.to_owned())));
     }

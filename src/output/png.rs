@@ -60,28 +60,16 @@ mod tests {
     use super::*;
 
     fn gradient(width: u32, height: u32) -> Vec<u8> {
-        (0..width * height)
-            .flat_map(|i| [i as u8, (i / 3) as u8, 255 - i as u8, 255])
-            .collect()
+        (0..width * height).flat_map(|i| [i as u8, (i / 3) as u8, 255 - i as u8, 255]).collect()
     }
 
     #[test]
     fn comes_back_as_it_was_written() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.png");
-        let metadata = Metadata::new()
-            .with("Scene", "tent")
-            .with("Author", "Jürgen µ")
-            .with("Time", "0.1");
+        let metadata = Metadata::new().with("Scene", "tent").with("Author", "Jürgen µ").with("Time", "0.1");
         let rgba = gradient(7, 5);
-        PngPicture {
-            width: 7,
-            height: 5,
-            rgba: &rgba,
-            metadata: &metadata,
-        }
-        .save(&path)
-        .unwrap();
+        PngPicture { width: 7, height: 5, rgba: &rgba, metadata: &metadata }.save(&path).unwrap();
         let read = read_png(&path).unwrap();
         assert_eq!((read.width, read.height, read.rgba), (7, 5, rgba));
         assert_eq!(read.metadata.get("Scene"), Some("tent"));
@@ -92,20 +80,11 @@ mod tests {
     #[test]
     fn says_that_it_is_srgb() {
         let mut bytes = Vec::new();
-        PngPicture {
-            width: 1,
-            height: 1,
-            rgba: &[1, 2, 3, 255],
-            metadata: &Metadata::new(),
-        }
-        .encode(&mut bytes)
-        .unwrap();
+        PngPicture { width: 1, height: 1, rgba: &[1, 2, 3, 255], metadata: &Metadata::new() }
+            .encode(&mut bytes)
+            .unwrap();
         for chunk in [b"sRGB", b"gAMA"] {
-            assert!(
-                bytes.windows(4).any(|window| window == chunk),
-                "{}",
-                String::from_utf8_lossy(chunk)
-            );
+            assert!(bytes.windows(4).any(|window| window == chunk), "{}", String::from_utf8_lossy(chunk));
         }
     }
 
@@ -115,12 +94,7 @@ mod tests {
         let metadata = Metadata::new();
         for (width, height, bytes) in [(2, 2, 15), (2, 2, 17), (0, 2, 0), (2, 0, 0)] {
             let rgba = vec![0; bytes];
-            let picture = PngPicture {
-                width,
-                height,
-                rgba: &rgba,
-                metadata: &metadata,
-            };
+            let picture = PngPicture { width, height, rgba: &rgba, metadata: &metadata };
             picture.save(&folder.path().join("a.png")).unwrap_err();
             assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "{width}x{height}");
         }

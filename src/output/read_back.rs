@@ -41,12 +41,7 @@ pub fn read_png(path: &Path) -> io::Result<PngContents> {
     for chunk in &info.utf8_text {
         metadata = metadata.with(&chunk.keyword, &chunk.get_text()?);
     }
-    Ok(PngContents {
-        width: info.width,
-        height: info.height,
-        rgba,
-        metadata,
-    })
+    Ok(PngContents { width: info.width, height: info.height, rgba, metadata })
 }
 
 /// A picture of 32-bit channels from an OpenEXR file.
@@ -67,9 +62,7 @@ pub struct ExrContents {
 impl ExrContents {
     /// The samples of the channel of that name.
     pub fn channel(&self, name: &str) -> Option<&[f32]> {
-        self.channels
-            .iter()
-            .find_map(|(known, samples)| (known == name).then_some(samples.as_slice()))
+        self.channels.iter().find_map(|(known, samples)| (known == name).then_some(samples.as_slice()))
     }
 }
 
@@ -79,20 +72,13 @@ impl ExrContents {
 /// # Errors
 /// The file cannot be read or is damaged.
 pub fn read_exr(path: &Path) -> io::Result<ExrContents> {
-    let read = openexr::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .first_valid_layer()
-        .all_attributes();
+    let read =
+        openexr::read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes();
     let image = read
         .from_file(path)
         .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, format!("{}: {error}", path.display())))?;
     let layer = image.layer_data;
-    let comments = layer
-        .attributes
-        .comments
-        .map(|text| String::from_utf8_lossy(text.as_slice()).into_owned());
+    let comments = layer.attributes.comments.map(|text| String::from_utf8_lossy(text.as_slice()).into_owned());
     let channels = layer.channel_data.list.iter();
     Ok(ExrContents {
         width: layer.size.width(),

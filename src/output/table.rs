@@ -18,10 +18,7 @@ impl<W: Write> CsvWriter<W> {
     pub fn new(mut writer: W, columns: &[impl AsRef<str>]) -> io::Result<Self> {
         let names: Vec<_> = columns.iter().map(|name| quoted(name.as_ref())).collect();
         writeln!(writer, "{}", names.join(","))?;
-        Ok(Self {
-            writer,
-            columns: columns.len(),
-        })
+        Ok(Self { writer, columns: columns.len() })
     }
 
     /// Writes one row. NaN and infinities are written `NaN`, `inf` and `-inf`.
@@ -30,11 +27,7 @@ impl<W: Write> CsvWriter<W> {
     /// The writer's, and a row that has not as many values as the table has columns.
     pub fn row(&mut self, values: &[f64]) -> io::Result<()> {
         if values.len() != self.columns {
-            let reason = format!(
-                "a row of {} values for a table of {} columns",
-                values.len(),
-                self.columns
-            );
+            let reason = format!("a row of {} values for a table of {} columns", values.len(), self.columns);
             return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
         }
         for (i, value) in values.iter().enumerate() {
@@ -47,11 +40,7 @@ impl<W: Write> CsvWriter<W> {
 
 fn quoted(name: &str) -> String {
     let special = name.contains([',', '"', '\n', '\r']);
-    if special {
-        format!("\"{}\"", name.replace('"', "\"\""))
-    } else {
-        name.to_owned()
-    }
+    if special { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_owned() }
 }
 
 #[cfg(test)]
@@ -73,38 +62,16 @@ mod tests {
 
     #[test]
     fn numbers_read_back_to_the_same_bits() {
-        let values = [
-            0.1,
-            1.0 / 3.0,
-            f64::MIN_POSITIVE,
-            5e-324,
-            f64::MAX,
-            -0.0,
-            123_456_789.123_456_78,
-        ];
+        let values = [0.1, 1.0 / 3.0, f64::MIN_POSITIVE, 5e-324, f64::MAX, -0.0, 123_456_789.123_456_78];
         let text = table(&["a"; 7], &[&values]).unwrap();
-        let read: Vec<f64> = text
-            .lines()
-            .nth(1)
-            .unwrap()
-            .split(',')
-            .map(|number| number.parse().unwrap())
-            .collect();
+        let read: Vec<f64> = text.lines().nth(1).unwrap().split(',').map(|number| number.parse().unwrap()).collect();
         assert_eq!(read.len(), values.len());
-        assert!(
-            read.iter()
-                .zip(&values)
-                .all(|(read, value)| read.to_bits() == value.to_bits()),
-            "{text}"
-        );
+        assert!(read.iter().zip(&values).all(|(read, value)| read.to_bits() == value.to_bits()), "{text}");
     }
 
     #[test]
     fn odd_names_are_quoted() {
-        assert_eq!(
-            table(&["a,b", "say \"c\""], &[]).unwrap(),
-            "\"a,b\",\"say \"\"c\"\"\"\n"
-        );
+        assert_eq!(table(&["a,b", "say \"c\""], &[]).unwrap(), "\"a,b\",\"say \"\"c\"\"\"\n");
     }
 
     #[test]

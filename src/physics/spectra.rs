@@ -110,9 +110,7 @@ pub struct Spectrum {
 impl Spectrum {
     /// The spectrum whose sample at each wavelength (nm) is `value(wavelength_nm)`.
     pub fn from_fn(value: impl Fn(f64) -> f64) -> Self {
-        Self {
-            samples: Box::new(array::from_fn(|i| value(wavelength_nm(i)))),
-        }
+        Self { samples: Box::new(array::from_fn(|i| value(wavelength_nm(i)))) }
     }
 
     /// The same value at every wavelength.
@@ -162,14 +160,7 @@ impl Spectrum {
     /// Refuses a spectrum that has no power to divide by; `name` is for the message.
     pub(crate) fn check_power(&self, name: &str) -> Result<(), SpectrumError> {
         let total: f64 = self.iter().sum();
-        if POWER_RANGE.contains(&total) {
-            Ok(())
-        } else {
-            Err(SpectrumError::Power {
-                file: name.into(),
-                total,
-            })
-        }
+        if POWER_RANGE.contains(&total) { Ok(()) } else { Err(SpectrumError::Power { file: name.into(), total }) }
     }
 }
 
@@ -192,17 +183,9 @@ fn parse_rows<const N: usize>(file: &str, text: &str) -> Result<Vec<Row<N>>, Spe
     let mut rows: Vec<Row<N>> = Vec::new();
     for (line, content) in data_lines(text) {
         let row = parse_row(file, line, content)?;
-        if let Some(previous) = rows
-            .last()
-            .filter(|previous| previous.wavelength_nm >= row.wavelength_nm)
-        {
+        if let Some(previous) = rows.last().filter(|previous| previous.wavelength_nm >= row.wavelength_nm) {
             let (wavelength_nm, previous_nm) = (row.wavelength_nm, previous.wavelength_nm);
-            return Err(SpectrumError::Unordered {
-                file: file.into(),
-                line,
-                wavelength_nm,
-                previous_nm,
-            });
+            return Err(SpectrumError::Unordered { file: file.into(), line, wavelength_nm, previous_nm });
         }
         rows.push(row);
     }
@@ -212,10 +195,7 @@ fn parse_rows<const N: usize>(file: &str, text: &str) -> Result<Vec<Row<N>>, Spe
 /// The lines that hold data, with their numbers from 1.
 fn data_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
-    let mut lines = (1..)
-        .zip(lines)
-        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
-        .peekable();
+    let mut lines = (1..).zip(lines).filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).peekable();
     lines.next_if(|(_, line)| is_heading(line));
     lines
 }
@@ -228,31 +208,18 @@ fn is_heading(line: &str) -> bool {
 fn parse_row<const N: usize>(file: &str, line: usize, content: &str) -> Result<Row<N>, SpectrumError> {
     let fields = content.split(',').map(|field| parse_field(file, line, field.trim()));
     let fields: Vec<f64> = fields.collect::<Result<_, _>>()?;
-    let columns = || SpectrumError::Columns {
-        file: file.into(),
-        line,
-        found: fields.len(),
-        expected: N + 1,
-    };
+    let columns = || SpectrumError::Columns { file: file.into(), line, found: fields.len(), expected: N + 1 };
     let (&wavelength_nm, values) = fields.split_first().ok_or_else(columns)?;
     let values = <[f64; N]>::try_from(values).map_err(|_| columns())?;
     match values.iter().find(|value| **value < 0.0) {
-        Some(&value) => Err(SpectrumError::Negative {
-            file: file.into(),
-            line,
-            value,
-        }),
+        Some(&value) => Err(SpectrumError::Negative { file: file.into(), line, value }),
         None => Ok(Row { wavelength_nm, values }),
     }
 }
 
 fn parse_field(file: &str, line: usize, text: &str) -> Result<f64, SpectrumError> {
     let finite = text.parse().ok().filter(|value: &f64| value.is_finite());
-    finite.ok_or_else(|| SpectrumError::NotFinite {
-        file: file.into(),
-        line,
-        text: text.into(),
-    })
+    finite.ok_or_else(|| SpectrumError::NotFinite { file: file.into(), line, text: text.into() })
 }
 
 fn check_coverage<const N: usize>(file: &str, rows: &[Row<N>]) -> Result<(), SpectrumError> {
@@ -263,11 +230,7 @@ fn check_coverage<const N: usize>(file: &str, rows: &[Row<N>]) -> Result<(), Spe
     if first_nm <= FIRST_NM && LAST_NM <= last_nm {
         Ok(())
     } else {
-        Err(SpectrumError::TooShort {
-            file: file.into(),
-            first_nm,
-            last_nm,
-        })
+        Err(SpectrumError::TooShort { file: file.into(), first_nm, last_nm })
     }
 }
 
@@ -281,10 +244,7 @@ mod tests {
 
     #[test]
     fn grid_ends_at_780_nm() {
-        assert_eq!(
-            (wavelength_nm(0), wavelength_nm(SAMPLES - 1), LAST_NM),
-            (360.0, 780.0, 780.0)
-        );
+        assert_eq!((wavelength_nm(0), wavelength_nm(SAMPLES - 1), LAST_NM), (360.0, 780.0, 780.0));
     }
 
     #[test]
@@ -292,11 +252,7 @@ mod tests {
         let text = "# made up\nwavelength_nm,power\n350,0\n360,1\n570,3\n\n790,25\n";
         let spectrum = Spectrum::from_csv("lamp.csv", text).expect("valid");
         for (i, expected) in [(0, 1.0), (105, 2.0), (210, 3.0), (320, 14.0), (420, 24.0)] {
-            assert!(
-                (spectrum.at(i) - expected).abs() < 1e-14,
-                "sample {i}: {} instead of {expected}",
-                spectrum.at(i)
-            );
+            assert!((spectrum.at(i) - expected).abs() < 1e-14, "sample {i}: {} instead of {expected}", spectrum.at(i));
         }
         assert_eq!(spectrum.iter().len(), SAMPLES);
     }
@@ -317,29 +273,17 @@ mod tests {
     #[test]
     fn each_mistake_is_named_with_its_file_and_line() {
         let cases = [
-            (
-                "360,1\n400,NaN\n780,1",
-                "lamp.csv, line 2: `NaN` is not a finite number",
-            ),
+            ("360,1\n400,NaN\n780,1", "lamp.csv, line 2: `NaN` is not a finite number"),
             ("nan,1\n780,1", "lamp.csv, line 1: `nan` is not a finite number"),
-            (
-                "nm,power\n360,1\n400,inf\n780,1",
-                "lamp.csv, line 3: `inf` is not a finite number",
-            ),
+            ("nm,power\n360,1\n400,inf\n780,1", "lamp.csv, line 3: `inf` is not a finite number"),
             ("360,1\nfoo,1\n780,1", "lamp.csv, line 2: `foo` is not a finite number"),
             ("# c\n360,1\n400,-0.5\n780,1", "lamp.csv, line 3: -0.5 is negative"),
             ("360,1\n500,1\n400,1\n780,1", "lamp.csv, line 3: 400 nm follows 500 nm"),
             ("360,1\n360,1\n780,1", "lamp.csv, line 2: 360 nm follows 360 nm"),
             ("360,1\n780,1,1", "lamp.csv, line 2: 3 column(s) instead of 2"),
             ("360\n780", "lamp.csv, line 1: 1 column(s) instead of 2"),
-            (
-                "380,1\n780,1",
-                "lamp.csv: covers 380 to 780 nm, needed are 360 to 780 nm",
-            ),
-            (
-                "360,1\n730,1",
-                "lamp.csv: covers 360 to 730 nm, needed are 360 to 780 nm",
-            ),
+            ("380,1\n780,1", "lamp.csv: covers 380 to 780 nm, needed are 360 to 780 nm"),
+            ("360,1\n730,1", "lamp.csv: covers 360 to 730 nm, needed are 360 to 780 nm"),
             ("nm,power\n", "lamp.csv: holds no data"),
             ("360,0\n780,0", "lamp.csv: has no usable power"),
             ("360,1e300\n780,1e300", "lamp.csv: has no usable power"),

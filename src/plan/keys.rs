@@ -4,12 +4,7 @@ use std::{fmt, sync::Arc};
 
 use glam::{DVec2, DVec3};
 
-use crate::physics::{
-    colour::Illuminant,
-    environment::CubeMap,
-    film::InitialFilm,
-    optics::FilmIndex,
-};
+use crate::physics::{colour::Illuminant, environment::CubeMap, film::InitialFilm, optics::FilmIndex};
 
 /// The lookup table of film colours.
 #[derive(Clone, Debug)]
@@ -69,13 +64,13 @@ impl EnvironmentKey {
     /// Texels along a face's edge.
     #[must_use]
     pub fn size(&self) -> u32 {
-        self.0.size
+        self.0.size() as u32
     }
 }
 
 impl PartialEq for EnvironmentKey {
     fn eq(&self, other: &Self) -> bool {
-        self.0.id == other.0.id
+        self.0.id() == other.0.id()
     }
 }
 
@@ -127,21 +122,21 @@ pub enum FlowLaw {
         /// Factor on all speeds.
         strength: f64,
         /// Which of all such flows.
-        seed: u64,
+        seed: u32,
     },
     /// A slow large-scale breath of air that never quite rests.
     Draught {
         /// Factor on all speeds.
         strength: f64,
         /// Which of all such flows.
-        seed: u64,
+        seed: u32,
     },
     /// The draught, and vortices that drift in it.
     Stirred {
         /// Factor on all speeds.
         strength: f64,
         /// Which of all such flows.
-        seed: u64,
+        seed: u32,
     },
 }
 
@@ -201,7 +196,8 @@ impl FieldKey {
     pub fn law_differs_until(&self, other: &Self) -> bool {
         let end = other.moment.tick + u64::from(other.moment.fraction > 0.0);
         let past = |key: &Self| key.flows.iter().filter(|segment| segment.from_tick < end).copied().collect::<Vec<_>>();
-        (self.cells, self.initial, self.tick_s, self.remap_ticks) != (other.cells, other.initial, other.tick_s, other.remap_ticks)
+        (self.cells, self.initial, self.tick_s, self.remap_ticks)
+            != (other.cells, other.initial, other.tick_s, other.remap_ticks)
             || past(self) != past(other)
     }
 }

@@ -10,8 +10,8 @@ mod want;
 use std::{fmt, ops::Range};
 
 pub use keys::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey, Moment, TableKey,
-    TonemapKey,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey,
+    Moment, TableKey, TonemapKey,
 };
 pub use want::{Resources, Shot, WantError, want};
 
@@ -163,7 +163,9 @@ impl fmt::Display for Plan {
         }
         for (pass, reason) in &self.steps {
             let detail = match pass {
-                Pass::BakeTable { key, rows } => format!("rows {}..{} of {}, {} columns", rows.start, rows.end, key.rows, key.columns),
+                Pass::BakeTable { key, rows } => {
+                    format!("rows {}..{} of {}, {} columns", rows.start, rows.end, key.rows, key.columns)
+                }
                 Pass::SeedField { film, key } => format!("film {film}, 6x{0}x{0} cells", key.cells),
                 Pass::StepField { film, ticks, .. } => format!("film {film}, ticks {}..{}", ticks.start, ticks.end),
                 Pass::ShowField { film, key } => format!("film {film} at {}", key.moment),
@@ -264,7 +266,8 @@ impl Planner {
 
     fn environment(&mut self, wanted: &EnvironmentKey) {
         if self.after.environment.as_ref() != Some(wanted) {
-            let reason = if self.after.environment.is_none() { Reason::Missing } else { Reason::Changed("environment") };
+            let reason =
+                if self.after.environment.is_none() { Reason::Missing } else { Reason::Changed("environment") };
             self.push(Pass::UploadEnvironment(wanted.clone()), reason);
             self.after.environment = Some(wanted.clone());
         }

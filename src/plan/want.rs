@@ -5,15 +5,15 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey, Moment, Pace,
-    TableKey, TonemapKey, Want,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey,
+    Moment, Pace, TableKey, TonemapKey, Want,
 };
 use crate::{
     physics::{
         colour::{BT2020, ColourWeights, Illuminant, bt709_to_bt2020},
         environment::CubeMap,
         film::InitialFilm,
-        optics::{FilmIndex, IndexOutOfRange},
+        optics::{FilmIndex, FilmIndexError},
     },
     scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Scene},
 };
@@ -43,21 +43,27 @@ pub struct Shot {
 }
 
 /// A scene that cannot be drawn.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WantError {
     /// Two visible films of different index.
-    #[error("bubbles of different film index cannot share one picture yet: set the same `index` in every [bubble.film]")]
+    #[error(
+        "bubbles of different film index cannot share one picture yet: set the same `index` in every [bubble.film]"
+    )]
     MixedIndices,
     /// An index that no film has.
     #[error(transparent)]
-    Index(#[from] IndexOutOfRange),
+    Index(#[from] FilmIndexError),
 }
 
 /// What a shot of a scene needs.
 pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, WantError> {
     let camera = camera(scene, shot.size);
-    let mut bubbles: Vec<BubbleKey> =
-        scene.bubbles.iter().enumerate().filter_map(|(index, bubble)| visible(scene, &camera, shot, index, bubble)).collect();
+    let mut bubbles: Vec<BubbleKey> = scene
+        .bubbles
+        .iter()
+        .enumerate()
+        .filter_map(|(index, bubble)| visible(scene, &camera, shot, index, bubble))
+        .collect();
     let distance = |bubble: &BubbleKey| bubble.centre_m.distance_squared(camera.eye_m);
     bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
     let draw = DrawKey {
@@ -70,7 +76,7 @@ pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, W
         table: table(scene, resources, &bubbles)?,
         bubbles,
     };
-    let dither = scene.view.dither.then_some(scene.view.dither_seed as u32);
+    let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
     Ok(Want { picture: TonemapKey { draw, exposure_ev: scene.view.exposure_ev, dither }, pace: shot.pace })
 }
 
@@ -89,7 +95,7 @@ fn light(scene: &Scene, resources: &Resources) -> LightKey {
     let white_of = |illuminant: &Illuminant| BT2020.from_xyz() * ColourWeights::new(illuminant).white();
     let white = white_of(&resources.illuminant);
     // Relative to daylight, so that an environment's radiance is shown as it is where the light is the one its file assumes.
-    let tint = white / white_of(&Illuminant::d65());
+    let tint = white / white_of(&Illuminant::default());
     // A constant environment is a white cube times this factor: exact, where half floats in the cube would round.
     let constant = scene.light.constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
     let backdrop = match scene.view.backdrop {
@@ -137,7 +143,7 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     let distance = centre_m.distance(camera.eye_m).max(radius_m);
     let radius_pixels = radius_m / distance / camera.pixel_height_m;
     let film = match film(scene, bubble, shot.moment) {
-        FilmKey::Field(field) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(field.initial.mean_nm()),
+        FilmKey::Field(_) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(bubble.film.thickness_nm),
         film => film,
     };
     Some(BubbleKey { index, centre_m, radius_m, bounds, samples: samples(radius_pixels), film })
@@ -160,7 +166,9 @@ fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
         FilmStateName::Uniform => return FilmKey::Uniform(thickness_nm),
         FilmStateName::Rest if film.stratification == 0.0 => return FilmKey::Uniform(thickness_nm),
         FilmStateName::Rest => InitialFilm::Rest { thickness_nm, stratification: film.stratification },
-        FilmStateName::Blown => InitialFilm::Blown { thickness_nm, stratification: film.stratification, seed: film.seed },
+        FilmStateName::Blown => {
+            InitialFilm::Blown { thickness_nm, stratification: film.stratification, seed: fold_seed(film.seed) }
+        }
     };
     let flows = flows(scene);
     FilmKey::Field(FieldKey {
@@ -173,13 +181,18 @@ fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
     })
 }
 
+/// A scene's seed as the generators take it: seeds below 2³² are themselves.
+fn fold_seed(seed: u64) -> u32 {
+    (seed ^ (seed >> 32)) as u32
+}
+
 /// The laws that drive a scene's films, in order, each where it differs from the one before.
 fn flows(scene: &Scene) -> Vec<FlowSegment> {
     let ticks = std::iter::once(0).chain(scene.events.iter().map(|event| event.tick));
     let mut flows: Vec<FlowSegment> = Vec::new();
     for from_tick in ticks {
         let motion = scene.motion_at(from_tick);
-        let (strength, seed) = (motion.strength, motion.seed);
+        let (strength, seed) = (motion.strength, fold_seed(motion.seed));
         let law = match motion.flow {
             _ if strength == 0.0 => FlowLaw::Rest,
             Flow::Rest => FlowLaw::Rest,

@@ -20,11 +20,7 @@ pub struct Bubble {
 
 impl Default for Bubble {
     fn default() -> Self {
-        Self {
-            center_m: [0.0; 3],
-            radius_mm: 50.0,
-            film: Film::default(),
-        }
+        Self { center_m: [0.0; 3], radius_mm: 50.0, film: Film::default() }
     }
 }
 
@@ -72,10 +68,8 @@ impl Film {
     fn check(&self) -> Checked {
         check::in_range("thickness_nm", self.thickness_nm, 0.0..=10_000.0)?;
         if self.state != FilmStateName::Uniform && self.thickness_nm < MIN_FLOWING_NM {
-            let reason = format!(
-                "is {}; only a film with `state = \"uniform\"` may be thinner than 1",
-                self.thickness_nm
-            );
+            let reason =
+                format!("is {}; only a film with `state = \"uniform\"` may be thinner than 1", self.thickness_nm);
             return Err(Fault::new("thickness_nm", reason));
         }
         check::in_range("stratification", self.stratification, -5.0..=5.0)?;

@@ -23,13 +23,7 @@ pub struct Camera {
 
 impl Default for Camera {
     fn default() -> Self {
-        Self {
-            target_m: [0.0; 3],
-            azimuth_deg: 20.0,
-            elevation_deg: 8.0,
-            distance_m: 0.24,
-            fov_y_deg: 30.0,
-        }
+        Self { target_m: [0.0; 3], azimuth_deg: 20.0, elevation_deg: 8.0, distance_m: 0.24, fov_y_deg: 30.0 }
     }
 }
 
@@ -83,14 +77,7 @@ mod tests {
     #[test]
     fn eye_stands_where_the_angles_say() {
         let at = |azimuth_deg, elevation_deg| {
-            Camera {
-                target_m: [1.0, 2.0, 3.0],
-                azimuth_deg,
-                elevation_deg,
-                distance_m: 2.0,
-                ..Camera::default()
-            }
-            .eye()
+            Camera { target_m: [1.0, 2.0, 3.0], azimuth_deg, elevation_deg, distance_m: 2.0, ..Camera::default() }.eye()
         };
         let target = DVec3::new(1.0, 2.0, 3.0);
         // Positions of order 1 computed in f64: a few ulp.
@@ -103,26 +90,14 @@ mod tests {
     #[test]
     fn axes_are_right_handed_and_unmirrored() {
         for (azimuth_deg, elevation_deg) in [(0.0, 0.0), (20.0, 8.0), (200.0, -60.0), (77.0, 90.0), (77.0, -90.0)] {
-            let camera = Camera {
-                azimuth_deg,
-                elevation_deg,
-                distance_m: 0.0,
-                ..Camera::default()
-            };
+            let camera = Camera { azimuth_deg, elevation_deg, distance_m: 0.0, ..Camera::default() };
             let (forward, right, up) = (camera.forward(), camera.right(), camera.up());
-            assert!(
-                right.cross(up).abs_diff_eq(-forward, 1e-14),
-                "{azimuth_deg}, {elevation_deg}"
-            );
+            assert!(right.cross(up).abs_diff_eq(-forward, 1e-14), "{azimuth_deg}, {elevation_deg}");
             assert!(forward.dot(right).abs() < 1e-15 && (up.length() - 1.0).abs() < 1e-14);
             assert!(up.z >= -1e-15, "+z must never point downwards in the picture");
         }
         // From +x one looks along -x, and +y is to the right.
-        let camera = Camera {
-            azimuth_deg: 0.0,
-            elevation_deg: 0.0,
-            ..Camera::default()
-        };
+        let camera = Camera { azimuth_deg: 0.0, elevation_deg: 0.0, ..Camera::default() };
         assert!(camera.right().abs_diff_eq(DVec3::Y, 1e-15) && camera.up().abs_diff_eq(DVec3::Z, 1e-15));
     }
 }

@@ -21,10 +21,7 @@ pub(super) struct Fault {
 
 impl Fault {
     pub fn new(key: &str, reason: impl Into<String>) -> Self {
-        Self {
-            path: KeyPath::default().key(key),
-            reason: reason.into(),
-        }
+        Self { path: KeyPath::default().key(key), reason: reason.into() }
     }
 
     /// The same fault seen from the table that holds `key`.
@@ -47,37 +44,25 @@ pub(super) fn in_range<T: PartialOrd + Display>(key: &str, value: T, range: Rang
     if range.contains(&value) {
         return Ok(());
     }
-    Err(Fault::new(
-        key,
-        format!("is {value}; it must be within {} ..= {}", range.start(), range.end()),
-    ))
+    Err(Fault::new(key, format!("is {value}; it must be within {} ..= {}", range.start(), range.end())))
 }
 
 pub(super) fn all_in_range(key: &str, values: [f64; 3], range: RangeInclusive<f64>) -> Checked {
     values.into_iter().try_for_each(|value| {
-        in_range(key, value, range.clone()).map_err(|fault| Fault {
-            reason: format!("holds a number that {}", fault.reason),
-            ..fault
-        })
+        in_range(key, value, range.clone())
+            .map_err(|fault| Fault { reason: format!("holds a number that {}", fault.reason), ..fault })
     })
 }
 
 pub(super) fn finite(key: &str, value: f64) -> Checked {
-    if value.is_finite() {
-        Ok(())
-    } else {
-        Err(Fault::new(key, format!("is {value}; it must be a finite number")))
-    }
+    if value.is_finite() { Ok(()) } else { Err(Fault::new(key, format!("is {value}; it must be a finite number"))) }
 }
 
 pub(super) fn at_most(key: &str, count: usize, limit: usize) -> Checked {
     if count <= limit {
         Ok(())
     } else {
-        Err(Fault::new(
-            key,
-            format!("is a list of {count}; at most {limit} are allowed"),
-        ))
+        Err(Fault::new(key, format!("is a list of {count}; at most {limit} are allowed")))
     }
 }
 

@@ -22,52 +22,30 @@ pub(super) fn read(text: &str) -> Result<Scene, Located> {
 
 fn syntax_error(text: &str, error: &toml::de::Error) -> Located {
     let span = error.span().unwrap_or_default();
-    let found = text
-        .get(span.clone())
-        .and_then(|found| found.lines().next())
-        .filter(|found| !found.is_empty());
+    let found = text.get(span.clone()).and_then(|found| found.lines().next()).filter(|found| !found.is_empty());
     let found = found.map_or(String::new(), |found| format!(": `{found}`"));
-    Located {
-        offset: span.start,
-        problem: Problem::Syntax(format!("{}{found}", one_line(error.message()))),
-    }
+    Located { offset: span.start, problem: Problem::Syntax(format!("{}{found}", one_line(error.message()))) }
 }
 
 /// Comes before all other checks: a later version may have other keys.
 fn check_version(document: &DeTable, text: &str) -> Result<(), Located> {
     let Some(version) = document.get("version") else {
-        return Err(Located {
-            offset: 0,
-            problem: Problem::MissingVersion,
-        });
+        return Err(Located { offset: 0, problem: Problem::MissingVersion });
     };
     let found = text.get(version.span()).unwrap_or_default();
     if found == VERSION.to_string() {
         return Ok(());
     }
-    Err(Located {
-        offset: version.span().start,
-        problem: Problem::UnknownVersion(one_line(found)),
-    })
+    Err(Located { offset: version.span().start, problem: Problem::UnknownVersion(one_line(found)) })
 }
 
 /// Every key a scene can have, as the TOML of a scene where nothing is absent. A key forgotten here fails the round trip of random scenes.
 pub(super) fn every_key() -> Table {
-    let everything = MotionChange {
-        flow: Some(Flow::Rest),
-        strength: Some(1.0),
-        seed: Some(1),
-    };
+    let everything = MotionChange { flow: Some(Flow::Rest), strength: Some(1.0), seed: Some(1) };
     let scene = Scene {
         bubbles: vec![Bubble::default()],
-        light: Light {
-            constant: Some([0.0; 3]),
-            ..Light::default()
-        },
-        events: vec![Event {
-            tick: 0,
-            change: Change::Motion(everything),
-        }],
+        light: Light { constant: Some([0.0; 3]), ..Light::default() },
+        events: vec![Event { tick: 0, change: Change::Motion(everything) }],
         ..Scene::default()
     };
     // Structs with named fields always make a table.
@@ -111,26 +89,14 @@ fn find_strays_in_items(items: &[Spanned<DeValue>], known: &[Value], path: &KeyP
 
 fn shape_error(offset: usize, path: &KeyPath, header: String) -> Located {
     let reason = format!("has the wrong kind of table; write {header}");
-    Located {
-        offset,
-        problem: Problem::BadValue {
-            key: path.to_string(),
-            reason,
-        },
-    }
+    Located { offset, problem: Problem::BadValue { key: path.to_string(), reason } }
 }
 
 fn type_error(document: &DeTable, error: &toml::de::Error) -> Located {
     let offset = error.span().unwrap_or_default().start;
     let path = key_at(document, offset, &KeyPath::default()).unwrap_or_default();
     let reason = format!("is wrong: {}", plain_words(error.message()));
-    Located {
-        offset,
-        problem: Problem::BadValue {
-            key: path.to_string(),
-            reason,
-        },
-    }
+    Located { offset, problem: Problem::BadValue { key: path.to_string(), reason } }
 }
 
 /// Says in the words of a scene's author what serde says in Rust's.
@@ -146,9 +112,7 @@ fn plain_words(message: &str) -> String {
         ("unknown variant", "unknown word"),
         ("type: map", "type: table"),
     ];
-    WORDS
-        .iter()
-        .fold(one_line(message), |message, (rust, plain)| message.replace(rust, plain))
+    WORDS.iter().fold(one_line(message), |message, (rust, plain)| message.replace(rust, plain))
 }
 
 fn one_line(message: &str) -> String {
@@ -177,22 +141,15 @@ fn offset_below(value: &Spanned<DeValue>, path: &[Step]) -> Option<usize> {
 
 /// The key whose value covers a byte of the text. Spans of tables end with their headers, so the search goes through all of them.
 fn key_at(table: &DeTable, offset: usize, path: &KeyPath) -> Option<KeyPath> {
-    table
-        .iter()
-        .find_map(|(key, value)| value_at(value, offset, &path.key(key.get_ref())))
+    table.iter().find_map(|(key, value)| value_at(value, offset, &path.key(key.get_ref())))
 }
 
 fn value_at(value: &Spanned<DeValue>, offset: usize, path: &KeyPath) -> Option<KeyPath> {
     let inner = match value.get_ref() {
         DeValue::Table(table) => key_at(table, offset, path),
         DeValue::Array(items) => {
-            let tables = items
-                .iter()
-                .enumerate()
-                .filter(|(_, item)| matches!(item.get_ref(), DeValue::Table(_)));
-            tables
-                .into_iter()
-                .find_map(|(index, item)| value_at(item, offset, &path.item(index)))
+            let tables = items.iter().enumerate().filter(|(_, item)| matches!(item.get_ref(), DeValue::Table(_)));
+            tables.into_iter().find_map(|(index, item)| value_at(item, offset, &path.item(index)))
         }
         _ => None,
     };

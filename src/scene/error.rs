@@ -53,10 +53,7 @@ pub enum Problem {
 
 impl From<Fault> for Problem {
     fn from(fault: Fault) -> Self {
-        Self::BadValue {
-            key: fault.path.to_string(),
-            reason: fault.reason,
-        }
+        Self::BadValue { key: fault.path.to_string(), reason: fault.reason }
     }
 }
 
@@ -70,21 +67,11 @@ impl Located {
     pub fn in_text(self, text: &str, name: &str) -> SceneError {
         let before = text.as_bytes().iter().take(self.offset);
         let line = 1 + before.filter(|byte| **byte == b'\n').count();
-        SceneError::InText {
-            name: name.to_owned(),
-            line,
-            problem: self.problem,
-        }
+        SceneError::InText { name: name.to_owned(), line, problem: self.problem }
     }
 
     pub fn unknown_key<'a>(offset: usize, path: &KeyPath, key: &str, known: impl Iterator<Item = &'a String>) -> Self {
-        Self {
-            offset,
-            problem: Problem::UnknownKey {
-                key: path.to_string(),
-                hint: hint(key, known),
-            },
-        }
+        Self { offset, problem: Problem::UnknownKey { key: path.to_string(), hint: hint(key, known) } }
     }
 }
 
@@ -95,13 +82,6 @@ fn hint<'a>(key: &str, known: impl Iterator<Item = &'a String>) -> String {
     let similarity = |name: &&&String| strsim::jaro_winkler(key, name);
     match known.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b))) {
         Some(nearest) if similarity(&nearest) >= NEAR => format!("did you mean `{nearest}`?"),
-        _ => format!(
-            "known here: {}",
-            known
-                .iter()
-                .map(|name| format!("`{name}`"))
-                .collect::<Vec<_>>()
-                .join(", ")
-        ),
+        _ => format!("known here: {}", known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")),
     }
 }

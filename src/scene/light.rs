@@ -35,14 +35,9 @@ impl Light {
     pub(super) fn check(&self) -> Checked {
         self.environment.check()?;
         if self.illuminant.trim().is_empty() {
-            return Err(Fault::new(
-                "illuminant",
-                "is empty; name one, as in `illuminant = \"D65\"`",
-            ));
+            return Err(Fault::new("illuminant", "is empty; name one, as in `illuminant = \"D65\"`"));
         }
-        self.constant.map_or(Ok(()), |radiance| {
-            check::all_in_range("constant", radiance, check::RADIANCE)
-        })?;
+        self.constant.map_or(Ok(()), |radiance| check::all_in_range("constant", radiance, check::RADIANCE))?;
         check::finite("rotation_deg", self.rotation_deg)?;
         check::in_range("intensity", self.intensity, 0.0..=10_000.0)
     }
@@ -50,10 +45,7 @@ impl Light {
 
 /// An equirectangular environment map: a built-in one by name, or a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(
-    rename_all = "lowercase",
-    expecting = "expected \"tent\", \"windows\" or the path of an .exr or .hdr file"
-)]
+#[serde(rename_all = "lowercase", expecting = "expected \"tent\", \"windows\" or the path of an .exr or .hdr file")]
 pub enum Environment {
     /// Built in: a photographer's light tent with soft lamps.
     Tent,
@@ -97,12 +89,7 @@ pub struct View {
 
 impl Default for View {
     fn default() -> Self {
-        Self {
-            exposure_ev: 0.0,
-            backdrop: Backdrop::Radiance([0.004, 0.004, 0.005]),
-            dither: true,
-            dither_seed: 0,
-        }
+        Self { exposure_ev: 0.0, backdrop: Backdrop::Radiance([0.004, 0.004, 0.005]), dither: true, dither_seed: 0 }
     }
 }
 
@@ -118,10 +105,7 @@ impl View {
 
 /// What stands straight behind the bubbles; it need not be what lights them, as a photographer's black card shows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(
-    rename_all = "lowercase",
-    expecting = "expected \"environment\" or three numbers [r, g, b]"
-)]
+#[serde(rename_all = "lowercase", expecting = "expected \"environment\" or three numbers [r, g, b]")]
 pub enum Backdrop {
     /// The light's own environment (or constant).
     Environment,

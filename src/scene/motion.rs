@@ -26,14 +26,7 @@ pub struct Motion {
 
 impl Default for Motion {
     fn default() -> Self {
-        Self {
-            tick_s: 1.0 / 60.0,
-            flow: Flow::Draught,
-            strength: 1.0,
-            seed: 1,
-            remap_ticks: 20,
-            speed: 1.0,
-        }
+        Self { tick_s: 1.0 / 60.0, flow: Flow::Draught, strength: 1.0, seed: 1, remap_ticks: 20, speed: 1.0 }
     }
 }
 
@@ -108,13 +101,9 @@ impl MotionChange {
 
     fn check(&self) -> Checked {
         if *self == Self::default() {
-            return Err(Fault::new(
-                "kind",
-                "is \"motion\" but nothing changes; set `flow`, `strength` or `seed`",
-            ));
+            return Err(Fault::new("kind", "is \"motion\" but nothing changes; set `flow`, `strength` or `seed`"));
         }
-        self.strength
-            .map_or(Ok(()), |strength| check::in_range("strength", strength, STRENGTH))
+        self.strength.map_or(Ok(()), |strength| check::in_range("strength", strength, STRENGTH))
     }
 }
 
@@ -137,15 +126,7 @@ enum Kind {
 }
 
 impl From<Entry> for Event {
-    fn from(
-        Entry {
-            tick,
-            kind,
-            flow,
-            strength,
-            seed,
-        }: Entry,
-    ) -> Self {
+    fn from(Entry { tick, kind, flow, strength, seed }: Entry) -> Self {
         let change = match kind {
             Kind::Motion => Change::Motion(MotionChange { flow, strength, seed }),
         };
@@ -156,13 +137,7 @@ impl From<Entry> for Event {
 impl From<Event> for Entry {
     fn from(Event { tick, change }: Event) -> Self {
         let Change::Motion(MotionChange { flow, strength, seed }) = change;
-        Self {
-            tick,
-            kind: Kind::Motion,
-            flow,
-            strength,
-            seed,
-        }
+        Self { tick, kind: Kind::Motion, flow, strength, seed }
     }
 }
 
@@ -172,54 +147,25 @@ mod tests {
     use super::*;
 
     fn at(tick: u64, change: MotionChange) -> Event {
-        Event {
-            tick,
-            change: Change::Motion(change),
-        }
+        Event { tick, change: Change::Motion(change) }
     }
 
     #[test]
     fn motion_changes_at_its_tick_and_stays_changed() {
-        let stir = MotionChange {
-            flow: Some(Flow::Stirred),
-            seed: Some(7),
-            ..MotionChange::default()
-        };
-        let calm = MotionChange {
-            strength: Some(0.5),
-            ..MotionChange::default()
-        };
-        let scene = Scene {
-            events: vec![at(10, stir), at(20, calm)],
-            ..Scene::default()
-        };
-        let stirred = Motion {
-            flow: Flow::Stirred,
-            seed: 7,
-            ..Motion::default()
-        };
+        let stir = MotionChange { flow: Some(Flow::Stirred), seed: Some(7), ..MotionChange::default() };
+        let calm = MotionChange { strength: Some(0.5), ..MotionChange::default() };
+        let scene = Scene { events: vec![at(10, stir), at(20, calm)], ..Scene::default() };
+        let stirred = Motion { flow: Flow::Stirred, seed: 7, ..Motion::default() };
         assert_eq!(scene.motion_at(9), Motion::default());
         assert_eq!(scene.motion_at(10), stirred);
         assert_eq!(scene.motion_at(19), stirred);
-        assert_eq!(
-            scene.motion_at(u64::MAX),
-            Motion {
-                strength: 0.5,
-                ..stirred
-            }
-        );
+        assert_eq!(scene.motion_at(u64::MAX), Motion { strength: 0.5, ..stirred });
     }
 
     #[test]
     fn of_two_events_at_one_tick_the_later_entry_wins() {
-        let seed = |seed| MotionChange {
-            seed: Some(seed),
-            ..MotionChange::default()
-        };
-        let scene = Scene {
-            events: vec![at(5, seed(2)), at(5, seed(3))],
-            ..Scene::default()
-        };
+        let seed = |seed| MotionChange { seed: Some(seed), ..MotionChange::default() };
+        let scene = Scene { events: vec![at(5, seed(2)), at(5, seed(3))], ..Scene::default() };
         assert_eq!(scene.validate(), Ok(()));
         assert_eq!(scene.motion_at(5).seed, 3);
     }

@@ -45,9 +45,7 @@ impl ColourWeights {
         let observer = Observer::cie_1931_2deg();
         let power = illuminant.spectrum();
         let luminance: f64 = (0..SAMPLES).map(|i| power.at(i) * observer.at(i).y).sum();
-        Self {
-            weights: Box::new(array::from_fn(|i| power.at(i) / luminance * observer.at(i))),
-        }
+        Self { weights: Box::new(array::from_fn(|i| power.at(i) / luminance * observer.at(i))) }
     }
 
     /// XYZ of a perfect mirror; Y = 1 but for rounding.
@@ -57,11 +55,7 @@ impl ColourWeights {
 
     /// XYZ of what reflects the fraction `reflectance(i)` at sample `i` (360 + i nm).
     pub fn integrate(&self, mut reflectance: impl FnMut(usize) -> f64) -> DVec3 {
-        self.weights
-            .iter()
-            .enumerate()
-            .map(|(i, &weight)| weight * reflectance(i))
-            .sum()
+        self.weights.iter().enumerate().map(|(i, &weight)| weight * reflectance(i)).sum()
     }
 
     /// The weights by rising wavelength, for upload to a GPU.
@@ -103,12 +97,7 @@ mod tests {
     fn a_grey_furnace_stays_grey() {
         let weights = ColourWeights::new(&Illuminant::default());
         // Sums of 421 terms of the same sign round by at most 421 half-ulps.
-        assert!(
-            (weights.integrate(|_| 0.25) - 0.25 * weights.white())
-                .abs()
-                .max_element()
-                < 1e-13
-        );
+        assert!((weights.integrate(|_| 0.25) - 0.25 * weights.white()).abs().max_element() < 1e-13);
     }
 
     #[test]

@@ -18,20 +18,12 @@ pub struct Lab {
 /// CIELAB of `xyz`, relative to `white`. Nothing is clamped: the linear piece near black goes on below 0.
 pub fn xyz_to_lab(xyz: DVec3, white: DVec3) -> Lab {
     let [fx, fy, fz] = (xyz / white).to_array().map(lab_curve);
-    Lab {
-        l: 116.0 * fy - 16.0,
-        a: 500.0 * (fx - fy),
-        b: 200.0 * (fy - fz),
-    }
+    Lab { l: 116.0 * fy - 16.0, a: 500.0 * (fx - fy), b: 200.0 * (fy - fz) }
 }
 
 fn lab_curve(t: f64) -> f64 {
     const KNEE: f64 = 6.0 / 29.0;
-    if t > KNEE.powi(3) {
-        t.cbrt()
-    } else {
-        t / (3.0 * KNEE * KNEE) + 4.0 / 29.0
-    }
+    if t > KNEE.powi(3) { t.cbrt() } else { t / (3.0 * KNEE * KNEE) + 4.0 / 29.0 }
 }
 
 /// Colour difference CIEDE2000 with k_L = k_C = k_H = 1; about 1 is just visible side by side.
@@ -42,26 +34,16 @@ pub fn ciede2000(first: Lab, second: Lab) -> f64 {
     let stretch = 1.0 + 0.5 * (1.0 - saturation(0.5 * (chroma(first) + chroma(second))));
     let (first, second) = (LCh::new(first, stretch), LCh::new(second, stretch));
     let grey = first.chroma * second.chroma == 0.0;
-    let turn = if grey {
-        0.0
-    } else {
-        hue_difference(first.hue, second.hue)
-    };
+    let turn = if grey { 0.0 } else { hue_difference(first.hue, second.hue) };
     let lightness = 0.5 * (first.lightness + second.lightness);
     let chroma = 0.5 * (first.chroma + second.chroma);
-    let hue = if grey {
-        first.hue + second.hue
-    } else {
-        mean_hue(first.hue, second.hue)
-    };
+    let hue = if grey { first.hue + second.hue } else { mean_hue(first.hue, second.hue) };
 
     let delta_l = (second.lightness - first.lightness) / lightness_scale(lightness);
     let delta_c = (second.chroma - first.chroma) / (1.0 + 0.045 * chroma);
     let delta_h = 2.0 * (first.chroma * second.chroma).sqrt() * (0.5 * turn).sin() / hue_scale(chroma, hue);
     let rotated = blue_rotation(chroma, hue) * delta_c * delta_h;
-    (delta_l * delta_l + delta_c * delta_c + delta_h * delta_h + rotated)
-        .max(0.0)
-        .sqrt()
+    (delta_l * delta_l + delta_c * delta_c + delta_h * delta_h + rotated).max(0.0).sqrt()
 }
 
 /// Lightness, and chroma and hue angle (0 to 2π) with a* stretched as CIEDE2000 does near grey.
@@ -74,16 +56,8 @@ struct LCh {
 impl LCh {
     fn new(lab: Lab, stretch: f64) -> Self {
         let a = lab.a * stretch;
-        let hue = if a == 0.0 && lab.b == 0.0 {
-            0.0
-        } else {
-            lab.b.atan2(a).rem_euclid(TAU)
-        };
-        Self {
-            lightness: lab.l,
-            chroma: a.hypot(lab.b),
-            hue,
-        }
+        let hue = if a == 0.0 && lab.b == 0.0 { 0.0 } else { lab.b.atan2(a).rem_euclid(TAU) };
+        Self { lightness: lab.l, chroma: a.hypot(lab.b), hue }
     }
 }
 
@@ -104,11 +78,7 @@ fn wraps(first: f64, second: f64) -> bool {
 
 fn hue_difference(first: f64, second: f64) -> f64 {
     let turn = second - first;
-    if wraps(first, second) {
-        turn - TAU.copysign(turn)
-    } else {
-        turn
-    }
+    if wraps(first, second) { turn - TAU.copysign(turn) } else { turn }
 }
 
 fn mean_hue(first: f64, second: f64) -> f64 {
@@ -191,11 +161,7 @@ mod tests {
             let (first, second) = (Lab { l: l1, a: a1, b: b1 }, Lab { l: l2, a: a2, b: b2 });
             for found in [ciede2000(first, second), ciede2000(second, first)] {
                 // The table has four digits after the point.
-                assert!(
-                    (found - expected).abs() < 5.1e-5,
-                    "pair {}: {found} instead of {expected}",
-                    i + 1
-                );
+                assert!((found - expected).abs() < 5.1e-5, "pair {}: {found} instead of {expected}", i + 1);
             }
         }
     }
@@ -221,10 +187,7 @@ mod tests {
         assert!((xyz_to_lab(0.18418651851244416 * d65, d65).l - 50.0).abs() < 1e-9);
         // The sRGB red primary, from its XYZ to four digits: Lab (53.24, 80.09, 67.20).
         let red = xyz_to_lab(DVec3::new(0.4124, 0.2126, 0.0193), d65);
-        assert!(
-            (red.l - 53.24).abs() < 0.02 && (red.a - 80.09).abs() < 0.05 && (red.b - 67.20).abs() < 0.1,
-            "{red:?}"
-        );
+        assert!((red.l - 53.24).abs() < 0.02 && (red.a - 80.09).abs() < 0.05 && (red.b - 67.20).abs() < 0.1, "{red:?}");
     }
 
     #[test]

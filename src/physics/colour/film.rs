@@ -43,11 +43,7 @@ impl Walls {
         let wall = |thickness_nm| incidence.reflectance(thickness_nm, wavelength_nm);
         match *self {
             Self::One { thickness_nm } => wall(thickness_nm),
-            Self::Two {
-                front_nm,
-                back_nm,
-                exit_nm,
-            } => front_and_back(wall(front_nm), wall(back_nm), wall(exit_nm)),
+            Self::Two { front_nm, back_nm, exit_nm } => front_and_back(wall(front_nm), wall(back_nm), wall(exit_nm)),
         }
         .mean()
     }
@@ -55,10 +51,7 @@ impl Walls {
 
 fn front_and_back(front: Polarised, back: Polarised, exit: Polarised) -> Polarised {
     let joined = |r0: f64, r1: f64, r2: f64| r0 + (1.0 - r0) * r1 * (1.0 - r2);
-    Polarised {
-        s: joined(front.s, back.s, exit.s),
-        p: joined(front.p, back.p, exit.p),
-    }
+    Polarised { s: joined(front.s, back.s, exit.s), p: joined(front.p, back.p, exit.p) }
 }
 
 /// One film under one illuminant, with all that does not change from point to point: what a table of colours is baked from.
@@ -73,11 +66,7 @@ impl FilmOptics {
     /// Tabulates the film's index and the illuminant's colour weights.
     pub fn new(film: FilmIndex, illuminant: &Illuminant) -> Self {
         let indices = Box::new(array::from_fn(|i| film.n(wavelength_nm(i))));
-        Self {
-            film,
-            indices,
-            weights: ColourWeights::new(illuminant),
-        }
+        Self { film, indices, weights: ColourWeights::new(illuminant) }
     }
 
     /// What the film is made of.
@@ -109,9 +98,7 @@ impl FilmOptics {
     /// Points (wavelength in nm, reflectance of unpolarised light) every 5 nm from 360 to 780 nm.
     pub fn spectrum(&self, cos_theta: f64, walls: Walls) -> Vec<(f64, f64)> {
         let samples = (0..SAMPLES).step_by(5);
-        samples
-            .map(|i| (wavelength_nm(i), self.reflectance(i, cos_theta, walls)))
-            .collect()
+        samples.map(|i| (wavelength_nm(i), self.reflectance(i, cos_theta, walls))).collect()
     }
 
     fn reflectance(&self, i: usize, cos_theta: f64, walls: Walls) -> f64 {
@@ -179,14 +166,9 @@ mod tests {
         ];
         for (thickness_nm, expected) in table {
             let linear = BT709.from_xyz() * water().xyz(1.0, one(thickness_nm)) / 0.0783;
-            let shown = linear
-                .to_array()
-                .map(|c| (255.0 * srgb_encode(c.clamp(0.0, 1.0))).round() as u8);
+            let shown = linear.to_array().map(|c| (255.0 * srgb_encode(c.clamp(0.0, 1.0))).round() as u8);
             // The exposure has three digits, which is half a code value.
-            let close = shown
-                .iter()
-                .zip(expected)
-                .all(|(&shown, expected)| shown.abs_diff(expected) <= 1);
+            let close = shown.iter().zip(expected).all(|(&shown, expected)| shown.abs_diff(expected) <= 1);
             assert!(close, "{thickness_nm} nm: {shown:02x?} instead of {expected:02x?}");
         }
     }
@@ -195,21 +177,13 @@ mod tests {
     fn black_film_comes_out_of_the_formula() {
         assert_eq!(water().xyz(0.7, one(0.0)), DVec3::ZERO);
         assert!(water().xyz(1.0, one(5.0)).y < 5e-4);
-        assert_eq!(
-            FilmOptics::new(FilmIndex::Constant(1.0), &Illuminant::default()).xyz(0.3, one(500.0)),
-            DVec3::ZERO
-        );
+        assert_eq!(FilmOptics::new(FilmIndex::Constant(1.0), &Illuminant::default()).xyz(0.3, one(500.0)), DVec3::ZERO);
     }
 
     #[test]
     fn grazing_light_sees_a_perfect_mirror() {
         let optics = water();
-        assert!(
-            (optics.xyz(0.0, one(400.0)) - optics.weights().white())
-                .abs()
-                .max_element()
-                < 1e-14
-        );
+        assert!((optics.xyz(0.0, one(400.0)) - optics.weights().white()).abs().max_element() < 1e-14);
     }
 
     #[test]
@@ -217,16 +191,8 @@ mod tests {
         let optics = water();
         let (c, d) = (0.4, 420.0);
         let single = optics.xyz(c, one(d));
-        let front_only = Walls::Two {
-            front_nm: d,
-            back_nm: 0.0,
-            exit_nm: 77.0,
-        };
-        let back_only = Walls::Two {
-            front_nm: 0.0,
-            back_nm: d,
-            exit_nm: 0.0,
-        };
+        let front_only = Walls::Two { front_nm: d, back_nm: 0.0, exit_nm: 77.0 };
+        let back_only = Walls::Two { front_nm: 0.0, back_nm: d, exit_nm: 0.0 };
         for walls in [front_only, back_only] {
             assert!((optics.xyz(c, walls) - single).abs().max_element() < 1e-15);
         }
@@ -238,22 +204,14 @@ mod tests {
         let n = 4.0 / 3.0;
         let (cos_theta, nm) = (0.6, 550.0);
         let s = Incidence::new(n, cos_theta).reflectance(300.0, nm).s;
-        let walls = Walls::Two {
-            front_nm: 300.0,
-            back_nm: 300.0,
-            exit_nm: 300.0,
-        };
+        let walls = Walls::Two { front_nm: 300.0, back_nm: 300.0, exit_nm: 300.0 };
         assert!((walls.reflectance(n, cos_theta, nm) - 0.5 * (s + (1.0 - s).powi(2) * s)).abs() < 1e-15);
     }
 
     #[test]
     fn white_light_through_the_matrix_is_the_films_colour() {
         let optics = water();
-        let walls = Walls::Two {
-            front_nm: 320.0,
-            back_nm: 610.0,
-            exit_nm: 290.0,
-        };
+        let walls = Walls::Two { front_nm: 320.0, back_nm: 610.0, exit_nm: 290.0 };
         let through_matrix = optics.light_matrix(0.6, walls) * DVec3::ONE;
         assert!((through_matrix - optics.xyz(0.6, walls)).abs().max_element() < 1e-14);
     }
@@ -262,18 +220,13 @@ mod tests {
     fn spectrum_runs_from_360_to_780_every_5_nm() {
         let spectrum = water().spectrum(0.8, one(333.0));
         assert_eq!((spectrum.len(), spectrum[0].0, spectrum[84].0), (85, 360.0, 780.0));
-        assert_eq!(
-            spectrum[38].1,
-            one(333.0).reflectance(FilmIndex::Water.n(550.0), 0.8, 550.0)
-        );
+        assert_eq!(spectrum[38].1, one(333.0).reflectance(FilmIndex::Water.n(550.0), 0.8, 550.0));
     }
 
     #[test]
     fn film_colours_stay_inside_bt2020() {
         let (optics, to_bt2020) = (water(), BT2020.from_xyz());
-        let lowest = points(4000)
-            .map(|(c, d)| (to_bt2020 * optics.xyz(c, one(d))).min_element())
-            .fold(1.0, f64::min);
+        let lowest = points(4000).map(|(c, d)| (to_bt2020 * optics.xyz(c, one(d))).min_element()).fold(1.0, f64::min);
         assert!(lowest >= 0.0, "{lowest}");
     }
 
@@ -285,10 +238,7 @@ mod tests {
         let index = mean_delta_e(2000, |c, d| denser.xyz(c, one(d)));
         let optics = water();
         let thickness = mean_delta_e(2000, |c, d| optics.xyz(c, one(d + 1.0)));
-        assert!(
-            (index - 0.44).abs() < 0.03 && (thickness - 0.64).abs() < 0.03,
-            "{index} {thickness}"
-        );
+        assert!((index - 0.44).abs() < 0.03 && (thickness - 0.64).abs() < 0.03, "{index} {thickness}");
     }
 
     #[test]

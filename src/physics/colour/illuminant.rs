@@ -73,10 +73,7 @@ impl FromStr for Illuminant {
             "D65" => Ok(Self::default()),
             "D50" => Ok(Self::built_in("D50", D50)),
             "A" => Ok(Self::built_in("A", A)),
-            "E" => Ok(Self {
-                name: "E".into(),
-                spectrum: Spectrum::constant(1.0),
-            }),
+            "E" => Ok(Self { name: "E".into(), spectrum: Spectrum::constant(1.0) }),
             _ => Err(UnknownIlluminant { name: name.into() }),
         }
     }
@@ -89,10 +86,7 @@ mod tests {
     #[test]
     fn every_name_is_known_in_any_case() {
         for name in Illuminant::NAMES {
-            assert_eq!(
-                name.to_lowercase().parse::<Illuminant>().expect("built in").name(),
-                name
-            );
+            assert_eq!(name.to_lowercase().parse::<Illuminant>().expect("built in").name(), name);
         }
     }
 

@@ -21,18 +21,14 @@ struct Row {
 fn rows() -> Vec<Row> {
     let mut lines = TABLE.lines().filter(|line| !line.starts_with('#'));
     let heading: Vec<&str> = lines.next().expect("heading").split(',').collect();
-    lines
-        .map(|line| parse(&heading, &line.split(',').collect::<Vec<_>>()))
-        .collect()
+    lines.map(|line| parse(&heading, &line.split(',').collect::<Vec<_>>())).collect()
 }
 
 fn parse(heading: &[&str], fields: &[&str]) -> Row {
     let text = |name: &str| fields[heading.iter().position(|&column| column == name).expect(name)];
     let number = |name: &str| -> f64 { text(name).parse().expect(name) };
     assert_eq!((text("film"), text("illuminant")), ("water", "D65"));
-    let wavelengths = heading
-        .iter()
-        .filter_map(|name| name.strip_prefix('R')?.parse::<f64>().ok());
+    let wavelengths = heading.iter().filter_map(|name| name.strip_prefix('R')?.parse::<f64>().ok());
     Row {
         cos_theta: number("cos_theta"),
         thickness_nm: number("d_nm"),
@@ -46,9 +42,7 @@ fn parse(heading: &[&str], fields: &[&str]) -> Row {
 fn worst(error: impl FnMut(&Row) -> f64) -> f64 {
     let rows = rows();
     assert_eq!(rows.len(), ROWS);
-    rows.iter()
-        .map(error)
-        .fold(0.0, |worst, error| if error <= worst { worst } else { error })
+    rows.iter().map(error).fold(0.0, |worst, error| if error <= worst { worst } else { error })
 }
 
 fn water() -> FilmOptics {
@@ -58,14 +52,7 @@ fn water() -> FilmOptics {
 #[test]
 fn colours_equal_the_reference() {
     let optics = water();
-    let colour = |row: &Row| {
-        optics.xyz(
-            row.cos_theta,
-            Walls::One {
-                thickness_nm: row.thickness_nm,
-            },
-        )
-    };
+    let colour = |row: &Row| optics.xyz(row.cos_theta, Walls::One { thickness_nm: row.thickness_nm });
     let xyz = worst(|row| (colour(row) - row.xyz).abs().max_element());
     let srgb = worst(|row| (BT709.from_xyz() * colour(row) - row.srgb).abs().max_element());
     // Measured 2.4e-15 and 3.7e-15: rounding, of sums of 421 terms and of tmm's complex matrices; other platforms' sines get the rest.
@@ -77,17 +64,9 @@ fn spectra_equal_the_reference() {
     let optics = water();
     let error = |row: &Row| {
         assert_eq!(row.spectrum.len(), 7);
-        let found = optics.spectrum(
-            row.cos_theta,
-            Walls::One {
-                thickness_nm: row.thickness_nm,
-            },
-        );
+        let found = optics.spectrum(row.cos_theta, Walls::One { thickness_nm: row.thickness_nm });
         let at = |nm: f64| found.iter().find(|point| point.0 == nm).expect("every 5 nm").1;
-        row.spectrum
-            .iter()
-            .map(|&(nm, r)| (at(nm) - r).abs())
-            .fold(0.0, f64::max)
+        row.spectrum.iter().map(|&(nm, r)| (at(nm) - r).abs()).fold(0.0, f64::max)
     };
     let worst = worst(error);
     // Measured 1.6e-14, near grazing, where narrow fringes magnify the rounding of the phase.
@@ -96,14 +75,7 @@ fn spectra_equal_the_reference() {
 
 #[test]
 fn a_wrong_film_would_be_noticed() {
-    let thicker = |row: &Row| {
-        water().xyz(
-            row.cos_theta,
-            Walls::One {
-                thickness_nm: row.thickness_nm + 1e-6,
-            },
-        )
-    };
+    let thicker = |row: &Row| water().xyz(row.cos_theta, Walls::One { thickness_nm: row.thickness_nm + 1e-6 });
     assert!(worst(|row| (thicker(row) - row.xyz).abs().max_element()) > 1e-11);
     assert!(worst(|_| f64::NAN).is_nan());
 }

@@ -32,10 +32,7 @@ impl RgbSpace {
         let [r, g, b] = primaries.map(|(x, y)| chromaticity_to_xyz(DVec2::new(x, y)));
         let unscaled = DMat3::from_cols(r, g, b);
         let to_xyz = unscaled * DMat3::from_diagonal(unscaled.inverse() * chromaticity_to_xyz(WHITE));
-        Self {
-            to_xyz,
-            from_xyz: to_xyz.inverse(),
-        }
+        Self { to_xyz, from_xyz: to_xyz.inverse() }
     }
 
     /// The matrix from RGB to XYZ.
@@ -77,22 +74,14 @@ pub fn bt2020_to_bt709() -> DMat3 {
 /// sRGB value of a linear component (IEC 61966-2-1). 0..1 maps to 0..1; the curve goes on above 1, and is odd below 0.
 pub fn srgb_encode(linear: f64) -> f64 {
     let size = linear.abs();
-    let encoded = if size <= 0.0031308 {
-        12.92 * size
-    } else {
-        1.055 * size.powf(1.0 / 2.4) - 0.055
-    };
+    let encoded = if size <= 0.0031308 { 12.92 * size } else { 1.055 * size.powf(1.0 / 2.4) - 0.055 };
     encoded.copysign(linear)
 }
 
 /// Linear component of an sRGB value, the inverse of [`srgb_encode`].
 pub fn srgb_decode(encoded: f64) -> f64 {
     let size = encoded.abs();
-    let linear = if size <= 0.04045 {
-        size / 12.92
-    } else {
-        ((size + 0.055) / 1.055).powf(2.4)
-    };
+    let linear = if size <= 0.04045 { size / 12.92 } else { ((size + 0.055) / 1.055).powf(2.4) };
     linear.copysign(encoded)
 }
 
@@ -124,10 +113,7 @@ mod tests {
     #[test]
     fn luminance_weights_are_the_published_ones() {
         // Rounded as ITU-R prints them.
-        let published = [
-            (&BT709, DVec3::new(0.2126, 0.7152, 0.0722)),
-            (&BT2020, DVec3::new(0.2627, 0.6780, 0.0593)),
-        ];
+        let published = [(&BT709, DVec3::new(0.2126, 0.7152, 0.0722)), (&BT2020, DVec3::new(0.2627, 0.6780, 0.0593))];
         for (space, expected) in published {
             assert!((space.luminance_weights() - expected).abs().max_element() < 5.1e-5);
         }
@@ -135,11 +121,7 @@ mod tests {
 
     #[test]
     fn bt709_to_bt2020_is_that_of_bt2087() {
-        let rows = [
-            [0.6274, 0.3293, 0.0433],
-            [0.0691, 0.9195, 0.0114],
-            [0.0164, 0.0880, 0.8956],
-        ];
+        let rows = [[0.6274, 0.3293, 0.0433], [0.0691, 0.9195, 0.0114], [0.0164, 0.0880, 0.8956]];
         for (i, row) in rows.into_iter().enumerate() {
             // Recommendation ITU-R BT.2087 prints four digits.
             assert!((bt709_to_bt2020().row(i) - DVec3::from_array(row)).abs().max_element() < 5.1e-5);

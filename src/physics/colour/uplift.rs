@@ -21,9 +21,7 @@ pub struct Uplift {
 static BT709: LazyLock<Uplift> = LazyLock::new(|| {
     let text = include_str!("../../../assets/spectra/uplift_bt709.csv");
     // The text is part of the program, and tests parse it.
-    Uplift {
-        rho: Spectrum::columns_from_csv("uplift_bt709.csv", text).expect("the built-in uplift is valid"),
-    }
+    Uplift { rho: Spectrum::columns_from_csv("uplift_bt709.csv", text).expect("the built-in uplift is valid") }
 });
 
 impl Uplift {
@@ -76,10 +74,7 @@ mod tests {
     fn spectra_are_nonnegative_and_sum_to_one() {
         for i in 0..SAMPLES {
             let rho = Uplift::bt709().at(i);
-            assert!(
-                rho.min_element() >= 0.0 && (rho.element_sum() - 1.0).abs() < 1e-14,
-                "sample {i}: {rho}"
-            );
+            assert!(rho.min_element() >= 0.0 && (rho.element_sum() - 1.0).abs() < 1e-14, "sample {i}: {rho}");
         }
     }
 }

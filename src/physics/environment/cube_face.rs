@@ -26,14 +26,8 @@ pub enum CubeFace {
 
 impl CubeFace {
     /// All faces in the order of the GPU's layers.
-    pub const ALL: [Self; 6] = [
-        Self::PositiveX,
-        Self::NegativeX,
-        Self::PositiveY,
-        Self::NegativeY,
-        Self::PositiveZ,
-        Self::NegativeZ,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::PositiveX, Self::NegativeX, Self::PositiveY, Self::NegativeY, Self::PositiveZ, Self::NegativeZ];
 
     /// The face's array layer on the GPU, 0 to 5.
     pub fn layer(self) -> usize {
@@ -60,17 +54,9 @@ impl CubeFace {
         let DVec3 { x, y, z } = direction;
         let size = direction.abs();
         let (face, sc, tc, ma) = if size.z >= size.x && size.z >= size.y {
-            if z > 0.0 {
-                (Self::PositiveZ, x, -y, size.z)
-            } else {
-                (Self::NegativeZ, -x, -y, size.z)
-            }
+            if z > 0.0 { (Self::PositiveZ, x, -y, size.z) } else { (Self::NegativeZ, -x, -y, size.z) }
         } else if size.y >= size.x {
-            if y > 0.0 {
-                (Self::PositiveY, x, z, size.y)
-            } else {
-                (Self::NegativeY, x, -z, size.y)
-            }
+            if y > 0.0 { (Self::PositiveY, x, z, size.y) } else { (Self::NegativeY, x, -z, size.y) }
         } else if x > 0.0 {
             (Self::PositiveX, -z, -y, size.x)
         } else {
@@ -105,11 +91,7 @@ mod tests {
             (DVec3::NEG_Z, DVec3::NEG_X, DVec3::NEG_Y),
         ];
         for (face, (major, right, down)) in CubeFace::ALL.into_iter().zip(table) {
-            assert_eq!(
-                face.direction(DVec2::new(0.25, 0.5)),
-                major + 0.25 * right + 0.5 * down,
-                "{face:?}"
-            );
+            assert_eq!(face.direction(DVec2::new(0.25, 0.5)), major + 0.25 * right + 0.5 * down, "{face:?}");
         }
     }
 

@@ -53,13 +53,8 @@ impl CubeMap {
 
     /// A panorama, with texels about as wide as its pixels; the repairs are the panorama's.
     pub fn from_equirect(panorama: &Equirect) -> Self {
-        let map = Self::from_fn(size_for_panorama(panorama.width()), 2, |direction| {
-            panorama.radiance(direction)
-        });
-        Self {
-            repairs: panorama.repairs(),
-            ..map
-        }
+        let map = Self::from_fn(size_for_panorama(panorama.width()), 2, |direction| panorama.radiance(direction));
+        Self { repairs: panorama.repairs(), ..map }
     }
 
     /// Texels along the edge of a face of the largest level.
@@ -96,14 +91,9 @@ impl CubeMap {
     /// The mean of the radiance over all directions: what a small diffuse sphere, lit on average, would show.
     pub fn mean_radiance(&self) -> DVec3 {
         let level = &self.mips[0];
-        let rows: Vec<_> = (0..6 * level.size)
-            .into_par_iter()
-            .map(|row| weighted_row(level, row))
-            .collect();
+        let rows: Vec<_> = (0..6 * level.size).into_par_iter().map(|row| weighted_row(level, row)).collect();
         // Summed in order, so that equal maps have equal means to the last bit.
-        let (radiance, weight) = rows
-            .into_iter()
-            .fold((DVec3::ZERO, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
+        let (radiance, weight) = rows.into_iter().fold((DVec3::ZERO, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
         radiance / weight
     }
 
@@ -113,14 +103,8 @@ impl CubeMap {
         let last = self.size() as f64 - 1.0;
         let centre = (index + 0.5) * (2.0 / self.size() as f64) - 1.0;
         let inside = centre.abs().max_element() < 1.0;
-        let (face, st) = if inside {
-            (face, centre)
-        } else {
-            CubeFace::of_direction(face.direction(centre))
-        };
-        let nearest = ((st + 1.0) * (self.size() as f64 / 2.0))
-            .floor()
-            .clamp(DVec2::ZERO, DVec2::splat(last));
+        let (face, st) = if inside { (face, centre) } else { CubeFace::of_direction(face.direction(centre)) };
+        let nearest = ((st + 1.0) * (self.size() as f64 / 2.0)).floor().clamp(DVec2::ZERO, DVec2::splat(last));
         self.mips[0].radiance(face.layer(), nearest.y as usize * self.size() + nearest.x as usize)
     }
 }
@@ -141,12 +125,7 @@ fn size_for_panorama(width: usize) -> usize {
 /// Levels of the sizes that the GPU expects: each half the last, rounded down.
 fn empty_mips(size: usize) -> Vec<CubeLevel> {
     let sizes = std::iter::successors(Some(size), |&size| (size > 1).then_some(size / 2));
-    sizes
-        .map(|size| CubeLevel {
-            size,
-            faces: Default::default(),
-        })
-        .collect()
+    sizes.map(|size| CubeLevel { size, faces: Default::default() }).collect()
 }
 
 fn fill_face(
@@ -158,9 +137,7 @@ fn fill_face(
 ) -> Repairs {
     let fill_row = |(row, texels): (usize, &mut [[f32; 3]])| -> Repairs {
         let columns = texels.iter_mut().enumerate();
-        columns
-            .map(|(column, texel)| fill_texel(texel, face, [column, row], size, supersampling, radiance))
-            .sum()
+        columns.map(|(column, texel)| fill_texel(texel, face, [column, row], size, supersampling, radiance)).sum()
     };
     texels.par_chunks_exact_mut(size).enumerate().map(fill_row).sum()
 }
@@ -192,10 +169,8 @@ fn store_mips(mips: &mut [CubeLevel], face: CubeFace, mut texels: Vec<[f32; 3]>)
         if level.size * level.size != texels.len() {
             texels = mip::halve(&texels, texels.len().isqrt());
         }
-        level.faces[face.layer()] = texels
-            .par_iter()
-            .map(|&texel| Vec3::from(texel).extend(1.0).to_array().map(f16::from_f32))
-            .collect();
+        level.faces[face.layer()] =
+            texels.par_iter().map(|&texel| Vec3::from(texel).extend(1.0).to_array().map(f16::from_f32)).collect();
     }
 }
 
@@ -206,10 +181,7 @@ fn weighted_row(level: &CubeLevel, row: usize) -> (DVec3, f64) {
     (0..level.size).fold((DVec3::ZERO, 0.0), |(radiance, weight), column| {
         // A texel's solid angle falls with the cube of its distance from the cube's centre.
         let solid_angle = (1.0 + coordinate(row).powi(2) + coordinate(column).powi(2)).powf(-1.5);
-        (
-            radiance + solid_angle * level.radiance(layer, row * level.size + column),
-            weight + solid_angle,
-        )
+        (radiance + solid_angle * level.radiance(layer, row * level.size + column), weight + solid_angle)
     })
 }
 
@@ -217,9 +189,7 @@ fn weighted_row(level: &CubeLevel, row: usize) -> (DVec3, f64) {
 fn content_id(level: &CubeLevel) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325 ^ level.size as u64;
     for texel in level.faces.iter().flatten() {
-        let bits = texel
-            .iter()
-            .fold(0, |bits, component| bits << 16 | u64::from(component.to_bits()));
+        let bits = texel.iter().fold(0, |bits, component| bits << 16 | u64::from(component.to_bits()));
         hash = (hash ^ bits).wrapping_mul(0x0000_0100_0000_01b3);
         // Multiplication carries bits only upwards.
         hash ^= hash >> 32;

@@ -59,19 +59,10 @@ impl Equirect {
     pub fn new(width: usize, height: usize, mut pixels: Vec<[f32; 3]>) -> Result<Self, WrongPixelCount> {
         let wanted = width.checked_mul(height);
         if pixels.is_empty() || wanted != Some(pixels.len()) || !width.is_multiple_of(2) {
-            return Err(WrongPixelCount {
-                width,
-                height,
-                pixels: pixels.len(),
-            });
+            return Err(WrongPixelCount { width, height, pixels: pixels.len() });
         }
         let repairs = pixels.par_iter_mut().map(Repairs::repair).sum();
-        Ok(Self {
-            width,
-            height,
-            pixels,
-            repairs,
-        })
+        Ok(Self { width, height, pixels, repairs })
     }
 
     /// Pixels in a row.
@@ -125,9 +116,7 @@ mod tests {
 
     /// Radiance that tells its column by red and its row by green.
     fn ruler(width: usize, height: usize) -> Equirect {
-        let pixels = (0..width * height)
-            .map(|i| [(i % width) as f32, (i / width) as f32, 1.0])
-            .collect();
+        let pixels = (0..width * height).map(|i| [(i % width) as f32, (i / width) as f32, 1.0]).collect();
         Equirect::new(width, height, pixels).unwrap()
     }
 
@@ -167,11 +156,7 @@ mod tests {
         for row in 0..height {
             for column in 0..width {
                 let uv = DVec2::new((column as f64 + 0.5) / width as f64, (row as f64 + 0.5) / height as f64);
-                let expected = if (column, row) == (5, 2) {
-                    DVec3::new(4.0, 5.0, 6.0)
-                } else {
-                    DVec3::ZERO
-                };
+                let expected = if (column, row) == (5, 2) { DVec3::new(4.0, 5.0, 6.0) } else { DVec3::ZERO };
                 let error = panorama.radiance(direction_of_uv(uv)).distance(expected);
                 assert!(error < 1e-12, "column {column}, row {row}");
             }
@@ -203,22 +188,8 @@ mod tests {
         // Straight across the pole the bright pixel of the top row is half of what is seen.
         let toward = direction_of_uv(DVec2::new(3.5 / 16.0, 0.0));
         let away = direction_of_uv(DVec2::new(11.5 / 16.0, 0.0));
-        assert!(
-            (panorama
-                .radiance(toward + 1e-9 * direction_of_uv(DVec2::new(3.5 / 16.0, 0.5)))
-                .x
-                - 8.0)
-                .abs()
-                < 1e-6
-        );
-        assert!(
-            (panorama
-                .radiance(away + 1e-9 * direction_of_uv(DVec2::new(11.5 / 16.0, 0.5)))
-                .x
-                - 8.0)
-                .abs()
-                < 1e-6
-        );
+        assert!((panorama.radiance(toward + 1e-9 * direction_of_uv(DVec2::new(3.5 / 16.0, 0.5))).x - 8.0).abs() < 1e-6);
+        assert!((panorama.radiance(away + 1e-9 * direction_of_uv(DVec2::new(11.5 / 16.0, 0.5))).x - 8.0).abs() < 1e-6);
     }
 
     #[test]
@@ -244,17 +215,7 @@ mod tests {
     #[test]
     fn repairs_are_counted() {
         let panorama = Equirect::new(2, 1, vec![[f32::NAN, 1.0, 1.0], [1.0, 1.0, f32::INFINITY]]).unwrap();
-        assert_eq!(
-            panorama.repairs(),
-            Repairs {
-                not_a_number: 1,
-                negative: 0,
-                too_bright: 1
-            }
-        );
-        assert_eq!(
-            panorama.pixels(),
-            [[0.0, 1.0, 1.0], [1.0, 1.0, super::super::MAX_RADIANCE]]
-        );
+        assert_eq!(panorama.repairs(), Repairs { not_a_number: 1, negative: 0, too_bright: 1 });
+        assert_eq!(panorama.pixels(), [[0.0, 1.0, 1.0], [1.0, 1.0, super::super::MAX_RADIANCE]]);
     }
 }

@@ -11,14 +11,11 @@ pub(super) fn halve(texels: &[[f32; 3]], size: usize) -> Vec<[f32; 3]> {
     let half = (size / 2).max(1);
     let coverage: Vec<_> = (0..half).map(|i| Coverage::new(i, size, half)).collect();
     let mut smaller = vec![[0.0; 3]; half * half];
-    smaller
-        .par_chunks_exact_mut(half)
-        .zip(&coverage)
-        .for_each(|(row, vertical)| {
-            for (texel, horizontal) in row.iter_mut().zip(&coverage) {
-                *texel = mean(texels, size, horizontal, vertical);
-            }
-        });
+    smaller.par_chunks_exact_mut(half).zip(&coverage).for_each(|(row, vertical)| {
+        for (texel, horizontal) in row.iter_mut().zip(&coverage) {
+            *texel = mean(texels, size, horizontal, vertical);
+        }
+    });
     smaller
 }
 
@@ -35,10 +32,7 @@ impl Coverage {
         let (start, end) = (index as f64 * scale, (index + 1) as f64 * scale);
         let first = start.floor() as usize;
         let overlap = |parent: usize| ((parent + 1) as f64).min(end) - (parent as f64).max(start);
-        Self {
-            first,
-            weights: [0, 1, 2].map(|i| overlap(first + i).max(0.0) / scale),
-        }
+        Self { first, weights: [0, 1, 2].map(|i| overlap(first + i).max(0.0) / scale) }
     }
 
     /// The parents that are covered at all, with their weights.
@@ -64,18 +58,11 @@ mod tests {
     use super::*;
 
     fn noise(count: usize) -> Vec<[f32; 3]> {
-        (0..count)
-            .map(|i| [0.1, 0.7, 1.3].map(|phase| 1.0 + (i as f32 * 12.9898 + phase).sin()))
-            .collect()
+        (0..count).map(|i| [0.1, 0.7, 1.3].map(|phase| 1.0 + (i as f32 * 12.9898 + phase).sin())).collect()
     }
 
     fn mean_of(texels: &[[f32; 3]]) -> f64 {
-        texels
-            .iter()
-            .flatten()
-            .map(|&component| f64::from(component))
-            .sum::<f64>()
-            / (3 * texels.len()) as f64
+        texels.iter().flatten().map(|&component| f64::from(component)).sum::<f64>() / (3 * texels.len()) as f64
     }
 
     #[test]
@@ -97,11 +84,7 @@ mod tests {
 
     #[test]
     fn odd_sizes_share_the_middle_parent() {
-        let texels = [0.0, 1.0, 0.0]
-            .repeat(3)
-            .into_iter()
-            .map(|value| [value; 3])
-            .collect::<Vec<_>>();
+        let texels = [0.0, 1.0, 0.0].repeat(3).into_iter().map(|value| [value; 3]).collect::<Vec<_>>();
         assert_eq!(halve(&texels, 3), [[1.0f32 / 3.0; 3]]);
     }
 }

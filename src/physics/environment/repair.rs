@@ -35,13 +35,7 @@ impl Repairs {
         } else if radiance.iter().any(|&component| component > MAX_RADIANCE) {
             repairs.too_bright = 1;
         }
-        *radiance = radiance.map(|component| {
-            if component.is_nan() {
-                0.0
-            } else {
-                component.clamp(0.0, MAX_RADIANCE)
-            }
-        });
+        *radiance = radiance.map(|component| if component.is_nan() { 0.0 } else { component.clamp(0.0, MAX_RADIANCE) });
         repairs
     }
 }
@@ -66,11 +60,7 @@ impl Sum for Repairs {
 
 impl fmt::Display for Repairs {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            not_a_number,
-            negative,
-            too_bright,
-        } = self;
+        let Self { not_a_number, negative, too_bright } = self;
         write!(
             formatter,
             "{not_a_number} pixels that are not a number and {negative} negative ones taken as black, \
@@ -99,21 +89,9 @@ mod tests {
             [f32::NEG_INFINITY, 3.0, 4.0],
         ];
         let repairs: Repairs = pixels.iter_mut().map(Repairs::repair).sum();
-        assert_eq!(
-            repairs,
-            Repairs {
-                not_a_number: 1,
-                negative: 2,
-                too_bright: 1
-            }
-        );
+        assert_eq!(repairs, Repairs { not_a_number: 1, negative: 2, too_bright: 1 });
         assert_eq!(repairs.total(), 4);
-        let expected = [
-            [0.0, 0.0, MAX_RADIANCE],
-            [0.0, 2.0, MAX_RADIANCE],
-            [MAX_RADIANCE, 1.0, 2.0],
-            [0.0, 3.0, 4.0],
-        ];
+        let expected = [[0.0, 0.0, MAX_RADIANCE], [0.0, 2.0, MAX_RADIANCE], [MAX_RADIANCE, 1.0, 2.0], [0.0, 3.0, 4.0]];
         assert_eq!(pixels, expected);
     }
 }

@@ -105,10 +105,7 @@ impl PrescribedFlow {
     /// The flow of these waves and vortices. Fails if there are more than [`MAX_WAVES`] or [`MAX_VORTICES`].
     pub fn new(waves: Vec<Wave>, vortices: Vec<Vortex>) -> Result<Self, FlowError> {
         if waves.len() > MAX_WAVES || vortices.len() > MAX_VORTICES {
-            return Err(FlowError {
-                waves: waves.len(),
-                vortices: vortices.len(),
-            });
+            return Err(FlowError { waves: waves.len(), vortices: vortices.len() });
         }
         Ok(Self { waves, vortices })
     }
@@ -125,23 +122,14 @@ impl PrescribedFlow {
 
     /// The stream function at unit vector `x` and time `t` in seconds, rad/s.
     pub fn stream_function(&self, x: DVec3, t: f64) -> f64 {
-        let waves = self
-            .waves
-            .iter()
-            .map(|wave| wave.amplitude_at(t) * wave.angle(x, t).sin());
-        let vortices = self
-            .vortices
-            .iter()
-            .map(|vortex| vortex.value(x, vortex.center_at(t), t));
+        let waves = self.waves.iter().map(|wave| wave.amplitude_at(t) * wave.angle(x, t).sin());
+        let vortices = self.vortices.iter().map(|vortex| vortex.value(x, vortex.center_at(t), t));
         waves.sum::<f64>() + vortices.sum::<f64>()
     }
 
     /// Velocity at unit vector `x` and time `t` in seconds, rad/s, tangent to the sphere and free of divergence.
     pub fn velocity(&self, x: DVec3, t: f64) -> DVec3 {
-        let waves = self
-            .waves
-            .iter()
-            .map(|wave| wave.amplitude_at(t) * wave.angle(x, t).cos() * wave.k);
+        let waves = self.waves.iter().map(|wave| wave.amplitude_at(t) * wave.angle(x, t).cos() * wave.k);
         let vortices = self.vortices.iter().map(|vortex| {
             let center = vortex.center_at(t);
             vortex.sharpness * vortex.value(x, center, t) * center
@@ -167,9 +155,7 @@ impl PrescribedFlow {
     pub fn speeds_at(&self, t: f64) -> (f64, f64) {
         const DIRECTIONS: u32 = 512;
         let squares = (0..DIRECTIONS).map(|k| self.velocity(fibonacci_direction(k, DIRECTIONS), t).length_squared());
-        let (sum, max) = squares.fold((0.0, 0.0), |(sum, max): (f64, f64), square| {
-            (sum + square, max.max(square))
-        });
+        let (sum, max) = squares.fold((0.0, 0.0), |(sum, max): (f64, f64), square| (sum + square, max.max(square)));
         ((sum / f64::from(DIRECTIONS)).sqrt(), max.sqrt())
     }
 }
@@ -280,17 +266,12 @@ mod tests {
                     f64::from(w.amplitude) * (k.dot(x) + f64::from(w.phase)).cos() * k
                 });
                 let vortices = frozen.vortices.iter().map(|v| {
-                    let [center, kappa] = [
-                        DVec3::from_array(v.center.map(f64::from)),
-                        DVec3::splat(v.sharpness.into()),
-                    ];
+                    let [center, kappa] =
+                        [DVec3::from_array(v.center.map(f64::from)), DVec3::splat(v.sharpness.into())];
                     kappa * f64::from(v.strength) * (kappa.x * (center.dot(x) - 1.0)).exp() * center
                 });
                 let velocity = x.cross(waves.sum::<DVec3>() + vortices.sum::<DVec3>());
-                assert!(
-                    velocity.distance(flow.velocity(x, t)) < 1e-5,
-                    "f32 rounding times κ ≤ 130, t = {t}"
-                );
+                assert!(velocity.distance(flow.velocity(x, t)) < 1e-5, "f32 rounding times κ ≤ 130, t = {t}");
             }
         }
     }
@@ -302,19 +283,10 @@ mod tests {
             assert!(flow.speeds_at(t).1 <= flow.max_speed_bound());
         }
         for sharpness in [0.1, 5.0, 130.0] {
-            let vortex = Vortex {
-                sharpness,
-                swing_rad_s: 0.0,
-                swing_phase: 0.0,
-                ..flow.vortices()[0]
-            };
+            let vortex = Vortex { sharpness, swing_rad_s: 0.0, swing_phase: 0.0, ..flow.vortices()[0] };
             let alone = PrescribedFlow::new(vec![], vec![vortex]).unwrap();
             let (e, _) = vortex.center.any_orthonormal_pair();
-            let speed = |angle: f64| {
-                alone
-                    .velocity(vortex.center * angle.cos() + e * angle.sin(), 0.0)
-                    .length()
-            };
+            let speed = |angle: f64| alone.velocity(vortex.center * angle.cos() + e * angle.sin(), 0.0).length();
             let peak = (0..3142).map(|k| speed(1e-3 * f64::from(k))).fold(0.0, f64::max);
             assert!((peak / alone.max_speed_bound() - 1.0).abs() < 1e-3);
         }

@@ -26,20 +26,13 @@ impl Marble {
     /// The pattern of a seed.
     pub fn new(seed: u32) -> Self {
         let mut random = Random::new(seed, 0);
-        Self {
-            seed,
-            twists: (0..TWISTS).map(|_| Twist::random(&mut random)).collect(),
-        }
+        Self { seed, twists: (0..TWISTS).map(|_| Twist::random(&mut random)).collect() }
     }
 
     /// The pattern in the direction of unit vector `x`: within (−1, 1), about 0, equally often near either end.
     pub fn value(&self, x: DVec3) -> f64 {
         let before = self.twists.iter().fold(x, |x, twist| twist.undo(x));
-        let sum: f64 = OCTAVES
-            .iter()
-            .zip(1..)
-            .map(|(&(f, w), octave)| w * self.octave(before, f, octave))
-            .sum();
+        let sum: f64 = OCTAVES.iter().zip(1..).map(|(&(f, w), octave)| w * self.octave(before, f, octave)).sum();
         let wide = CONTRAST * sum;
         wide / (1.0 + wide * wide).sqrt()
     }
@@ -124,9 +117,7 @@ mod tests {
     fn samples(seed: u32, n: usize) -> Vec<f64> {
         let grid = CubedSphere::new(n).unwrap();
         let marble = Marble::new(seed);
-        (0..grid.cells())
-            .map(|cell| marble.value(grid.cell_direction(cell)))
-            .collect()
+        (0..grid.cells()).map(|cell| marble.value(grid.cell_direction(cell))).collect()
     }
 
     #[test]
@@ -136,27 +127,16 @@ mod tests {
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let spread = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / values.len() as f64).sqrt();
             assert!(values.iter().all(|v| v.abs() < 1.0));
-            assert!(
-                mean.abs() < 0.2 && (0.4..0.7).contains(&spread),
-                "seed {seed}: {mean} ± {spread}"
-            );
+            assert!(mean.abs() < 0.2 && (0.4..0.7).contains(&spread), "seed {seed}: {mean} ± {spread}");
         }
     }
 
     #[test]
     fn twists_preserve_length_area_and_continuity() {
-        let twist = Twist {
-            center: DVec3::Z,
-            reach_squared: 0.25,
-            half_turn: 1.5,
-        };
+        let twist = Twist { center: DVec3::Z, reach_squared: 0.25, half_turn: 1.5 };
         let d = 1e-6;
-        for x in [
-            DVec3::new(0.1, 0.2, 1.0),
-            DVec3::new(-0.3, 0.1, 1.0),
-            DVec3::new(0.5, 0.0, 0.9),
-        ]
-        .map(DVec3::normalize)
+        for x in
+            [DVec3::new(0.1, 0.2, 1.0), DVec3::new(-0.3, 0.1, 1.0), DVec3::new(0.5, 0.0, 0.9)].map(DVec3::normalize)
         {
             let (e1, e2) = x.any_orthonormal_pair();
             let slope =

@@ -25,22 +25,14 @@ impl PrescribedFlow {
         let mut random = Random::new(seed, DRAUGHT_STREAM);
         let mut waves: Vec<Wave> = (0..DRAUGHT_WAVES).map(|_| draught_wave(&mut random)).collect();
         scale_to_rms(&mut waves, DRAUGHT_RAD_S * strength);
-        Self {
-            waves,
-            vortices: Vec::new(),
-        }
+        Self { waves, vortices: Vec::new() }
     }
 
     /// A stirred film: the draught, and vortices of 5° to 25° that wander, curl the film up and unwind it again.
     pub fn stirred(seed: u32, strength: f64) -> Self {
         let mut random = Random::new(seed, STIR_STREAM);
-        let vortices = (0..STIR_VORTICES)
-            .map(|_| stirring_vortex(&mut random, strength))
-            .collect();
-        Self {
-            vortices,
-            ..Self::draught(seed, strength)
-        }
+        let vortices = (0..STIR_VORTICES).map(|_| stirring_vortex(&mut random, strength)).collect();
+        Self { vortices, ..Self::draught(seed, strength) }
     }
 
     /// A film that sloshes: rocked about horizontal axes every 2 to 3 s, nearly as a whole, in a weaker draught.
@@ -49,10 +41,7 @@ impl PrescribedFlow {
         let mut waves: Vec<Wave> = (0..SLOSH_WAVES).map(|_| sloshing_wave(&mut random)).collect();
         scale_to_rms(&mut waves, SLOSH_RAD_S * strength);
         let draught = Self::draught(seed, 0.5 * strength);
-        Self {
-            waves: [waves, draught.waves].concat(),
-            vortices: Vec::new(),
-        }
+        Self { waves: [waves, draught.waves].concat(), vortices: Vec::new() }
     }
 }
 
@@ -103,10 +92,7 @@ fn stirring_vortex(random: &mut Random, strength: f64) -> Vortex {
 /// Scales amplitudes to a root mean square speed over the sphere and all time: a wave's is |k A| √(1/2 · 1/2 · 2/3), from
 /// the swing, the wave, and the angle between k and x.
 fn scale_to_rms(waves: &mut [Wave], speed_rad_s: f64) {
-    let square: f64 = waves
-        .iter()
-        .map(|wave| wave.k.length_squared() * wave.amplitude.powi(2) / 6.0)
-        .sum();
+    let square: f64 = waves.iter().map(|wave| wave.k.length_squared() * wave.amplitude.powi(2) / 6.0).sum();
     let scale = speed_rad_s / square.sqrt();
     waves.iter_mut().for_each(|wave| wave.amplitude *= scale);
 }
@@ -115,11 +101,8 @@ fn scale_to_rms(waves: &mut [Wave], speed_rad_s: f64) {
 mod tests {
     use super::*;
 
-    const FLOWS: [fn(u32, f64) -> PrescribedFlow; 3] = [
-        PrescribedFlow::draught,
-        PrescribedFlow::stirred,
-        PrescribedFlow::sloshing,
-    ];
+    const FLOWS: [fn(u32, f64) -> PrescribedFlow; 3] =
+        [PrescribedFlow::draught, PrescribedFlow::stirred, PrescribedFlow::sloshing];
 
     #[test]
     fn speeds_are_those_of_a_film_at_all_times() {
@@ -127,10 +110,7 @@ mod tests {
             for (flow, range) in FLOWS.into_iter().zip([0.02..0.4, 0.05..0.6, 0.05..1.2]) {
                 for t in 0..40 {
                     let (rms, max) = flow(seed, 1.0).speeds_at(0.7 * f64::from(t));
-                    assert!(
-                        range.contains(&rms) && max < 3.0,
-                        "seed {seed}, {t}: {rms} rms, {max} max"
-                    );
+                    assert!(range.contains(&rms) && max < 3.0, "seed {seed}, {t}: {rms} rms, {max} max");
                 }
             }
         }

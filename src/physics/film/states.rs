@@ -46,18 +46,11 @@ impl InitialFilm {
         let rest = |a: f64| (rest_profile(a, a.signum()), rest_profile(a, -a.signum()));
         match *self {
             Self::Uniform { thickness_nm } => (thickness_nm, thickness_nm),
-            Self::Rest {
-                thickness_nm,
-                stratification,
-            } => {
+            Self::Rest { thickness_nm, stratification } => {
                 let (min, max) = rest(stratification);
                 (thickness_nm * min, thickness_nm * max)
             }
-            Self::Blown {
-                thickness_nm,
-                stratification,
-                ..
-            } => {
+            Self::Blown { thickness_nm, stratification, .. } => {
                 let (min, max) = rest(stratification);
                 (thickness_nm * min * BLOWN_RANGE[0], thickness_nm * max * BLOWN_RANGE[1])
             }
@@ -67,25 +60,17 @@ impl InitialFilm {
     /// Thickness in nm at the cell centres, in the grid's order.
     pub fn sample(&self, grid: CubedSphere) -> Vec<f32> {
         let profile = self.profile();
-        (0..grid.cells())
-            .into_par_iter()
-            .map(|cell| profile(grid.cell_direction(cell)) as f32)
-            .collect()
+        (0..grid.cells()).into_par_iter().map(|cell| profile(grid.cell_direction(cell)) as f32).collect()
     }
 
     /// The thickness in nm as a function, with what its directions have in common done once.
     fn profile(&self) -> Box<dyn Fn(DVec3) -> f64 + Send + Sync> {
         match *self {
             Self::Uniform { thickness_nm } => Box::new(move |_| thickness_nm),
-            Self::Rest {
-                thickness_nm,
-                stratification,
-            } => Box::new(move |x| thickness_nm * rest_profile(stratification, x.z)),
-            Self::Blown {
-                thickness_nm,
-                stratification,
-                seed,
-            } => {
+            Self::Rest { thickness_nm, stratification } => {
+                Box::new(move |x| thickness_nm * rest_profile(stratification, x.z))
+            }
+            Self::Blown { thickness_nm, stratification, seed } => {
                 let marble = Marble::new(seed);
                 Box::new(move |x| thickness_nm * rest_profile(stratification, x.z) * blown_profile(marble.value(x)))
             }
@@ -115,51 +100,28 @@ mod tests {
 
     const FILMS: [InitialFilm; 5] = [
         InitialFilm::Uniform { thickness_nm: 500.0 },
-        InitialFilm::Rest {
-            thickness_nm: 700.0,
-            stratification: 0.6,
-        },
-        InitialFilm::Rest {
-            thickness_nm: 700.0,
-            stratification: -2.0,
-        },
-        InitialFilm::Blown {
-            thickness_nm: 700.0,
-            stratification: 0.0,
-            seed: 1,
-        },
-        InitialFilm::Blown {
-            thickness_nm: 400.0,
-            stratification: 0.4,
-            seed: 2,
-        },
+        InitialFilm::Rest { thickness_nm: 700.0, stratification: 0.6 },
+        InitialFilm::Rest { thickness_nm: 700.0, stratification: -2.0 },
+        InitialFilm::Blown { thickness_nm: 700.0, stratification: 0.0, seed: 1 },
+        InitialFilm::Blown { thickness_nm: 400.0, stratification: 0.4, seed: 2 },
     ];
 
     fn mean(film: InitialFilm, n: usize) -> f64 {
         let grid = CubedSphere::new(n).unwrap();
         let areas = grid.areas();
-        let total: f64 = areas
-            .iter()
-            .enumerate()
-            .map(|(cell, area)| area * film.thickness_nm(grid.cell_direction(cell)))
-            .sum();
+        let total: f64 =
+            areas.iter().enumerate().map(|(cell, area)| area * film.thickness_nm(grid.cell_direction(cell))).sum();
         total / areas.iter().sum::<f64>()
     }
 
     #[test]
     fn the_rest_state_has_the_mean_asked_for() {
         for stratification in [0.0, 1e-12, 1e-5, 0.3, -0.6, 3.0] {
-            let film = InitialFilm::Rest {
-                thickness_nm: 600.0,
-                stratification,
-            };
+            let film = InitialFilm::Rest { thickness_nm: 600.0, stratification };
             // Midpoint rule over cells, second order; extrapolated it is fourth.
             let [coarse, fine] = [16, 32].map(|n| mean(film, n));
             let extrapolated = fine + (fine - coarse) / 3.0;
-            assert!(
-                (extrapolated / 600.0 - 1.0).abs() < 1e-5,
-                "a = {stratification}: {extrapolated}"
-            );
+            assert!((extrapolated / 600.0 - 1.0).abs() < 1e-5, "a = {stratification}: {extrapolated}");
         }
     }
 
@@ -181,31 +143,17 @@ mod tests {
             let (min, max) = film.range_nm();
             let values = film.sample(CubedSphere::new(20).unwrap());
             let rounding = 1.0 + f64::from(f32::EPSILON);
-            assert!(
-                values
-                    .iter()
-                    .all(|&h| (min / rounding..=max * rounding).contains(&f64::from(h))),
-                "{film:?}"
-            );
+            assert!(values.iter().all(|&h| (min / rounding..=max * rounding).contains(&f64::from(h))), "{film:?}");
         }
     }
 
     #[test]
     fn a_blown_film_uses_its_range_and_has_its_mean() {
         for seed in 0..6 {
-            let film = InitialFilm::Blown {
-                thickness_nm: 700.0,
-                stratification: 0.0,
-                seed,
-            };
+            let film = InitialFilm::Blown { thickness_nm: 700.0, stratification: 0.0, seed };
             let values = film.sample(CubedSphere::new(24).unwrap());
-            let (min, max) = values
-                .iter()
-                .fold((f32::MAX, 0.0_f32), |(min, max), &h| (min.min(h), max.max(h)));
-            assert!(
-                (300.0..340.0).contains(&min) && (1120.0..1191.0).contains(&max),
-                "{min} to {max} nm"
-            );
+            let (min, max) = values.iter().fold((f32::MAX, 0.0_f32), |(min, max), &h| (min.min(h), max.max(h)));
+            assert!((300.0..340.0).contains(&min) && (1120.0..1191.0).contains(&max), "{min} to {max} nm");
             assert!((mean(film, 24) / 700.0 - 1.0).abs() < 0.1, "{}", mean(film, 24));
         }
     }

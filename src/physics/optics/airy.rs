@@ -21,10 +21,7 @@ impl Polarised {
     }
 
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        Self {
-            s: f(self.s),
-            p: f(self.p),
-        }
+        Self { s: f(self.s), p: f(self.p) }
     }
 }
 
@@ -43,10 +40,7 @@ impl Incidence {
     /// The light that meets a film of index `n` at `cos_theta`.
     pub fn new(n: f64, cos_theta: f64) -> Self {
         let face = amplitudes(n, cos_theta).map(|r| r * r);
-        Self {
-            face,
-            n_cos_refracted: n_cos_refracted(n, cos_theta),
-        }
+        Self { face, n_cos_refracted: n_cos_refracted(n, cos_theta) }
     }
 
     /// Reflectance of a film of this thickness, for each polarisation; the film absorbs nothing, so 1 − R goes through.
@@ -89,10 +83,7 @@ fn n_cos_refracted(n: f64, cos_theta: f64) -> f64 {
 pub fn amplitudes(n: f64, cos_theta: f64) -> Polarised {
     let inside = n_cos_refracted(n, cos_theta);
     let outside = n * n * cos_theta;
-    Polarised {
-        s: contrast(cos_theta, inside),
-        p: contrast(outside, inside),
-    }
+    Polarised { s: contrast(cos_theta, inside), p: contrast(outside, inside) }
 }
 
 /// (a − b) / (a + b) for a, b ≥ 0. Both are 0 only at grazing on n = 1, which is no surface and reflects nothing.
@@ -108,9 +99,7 @@ pub fn reflectance(n: f64, cos_theta: f64, thickness_nm: f64, wavelength_nm: f64
 /// The most that a film of any thickness can reflect at this angle, unpolarised: ½ Σ 4r² / (1 + r²)², which is R at cos δ = −1.
 /// 0.0784 for water at normal incidence, 1 at grazing, 0 for n = 1.
 pub fn max_reflectance(n: f64, cos_theta: f64) -> f64 {
-    amplitudes(n, cos_theta)
-        .map(|r| (2.0 * r / (1.0 + r * r)).powi(2))
-        .mean()
+    amplitudes(n, cos_theta).map(|r| (2.0 * r / (1.0 + r * r)).powi(2)).mean()
 }
 
 #[cfg(test)]
@@ -127,9 +116,7 @@ mod tests {
         for n in INDICES {
             for cos_theta in COSINES {
                 for thickness_nm in THICKNESSES_NM {
-                    WAVELENGTHS_NM
-                        .iter()
-                        .for_each(|&nm| check(n, cos_theta, thickness_nm, nm));
+                    WAVELENGTHS_NM.iter().for_each(|&nm| check(n, cos_theta, thickness_nm, nm));
                 }
             }
         }
@@ -143,10 +130,7 @@ mod tests {
         let (c_re, c_im) = (eta_air * cos, eta_film * sin);
         let norm2 = |re: f64, im: f64| re * re + im * im;
         let incoming = norm2(eta_air * b_re + c_re, eta_air * b_im + c_im);
-        (
-            norm2(eta_air * b_re - c_re, eta_air * b_im - c_im) / incoming,
-            4.0 * eta_air * eta_air / incoming,
-        )
+        (norm2(eta_air * b_re - c_re, eta_air * b_im - c_im) / incoming, 4.0 * eta_air * eta_air / incoming)
     }
 
     #[test]
@@ -160,14 +144,8 @@ mod tests {
                 let (r_matrix, t_matrix) = characteristic_matrix(eta_air, eta_film, phase);
                 // Near resonance at grazing incidence rounding of the phase is magnified; elsewhere 1e-14 holds.
                 let tolerance = if cos_theta < 0.01 { 1e-8 } else { 1e-13 };
-                assert!(
-                    (r - r_matrix).abs() < tolerance,
-                    "R {r} {r_matrix} n={n} cos={cos_theta} d={thickness_nm}"
-                );
-                assert!(
-                    (r + t_matrix - 1.0).abs() < tolerance,
-                    "R+T {r} {t_matrix} n={n} cos={cos_theta}"
-                );
+                assert!((r - r_matrix).abs() < tolerance, "R {r} {r_matrix} n={n} cos={cos_theta} d={thickness_nm}");
+                assert!((r + t_matrix - 1.0).abs() < tolerance, "R+T {r} {t_matrix} n={n} cos={cos_theta}");
                 assert!((0.0..=1.0).contains(&r));
             }
         });
@@ -223,14 +201,8 @@ mod tests {
         for n in INDICES {
             for cos_theta in COSINES {
                 let quarter_wave_nm = 500.0 / 4.0 / n_cos_refracted(n, cos_theta);
-                let (max, quarter) = (
-                    max_reflectance(n, cos_theta),
-                    reflectance(n, cos_theta, quarter_wave_nm, 500.0),
-                );
-                assert!(
-                    (max - quarter.mean()).abs() < 1e-14,
-                    "n={n} cos={cos_theta}: {max} {quarter:?}"
-                );
+                let (max, quarter) = (max_reflectance(n, cos_theta), reflectance(n, cos_theta, quarter_wave_nm, 500.0));
+                assert!((max - quarter.mean()).abs() < 1e-14, "n={n} cos={cos_theta}: {max} {quarter:?}");
                 for thickness_nm in THICKNESSES_NM {
                     assert!(reflectance(n, cos_theta, thickness_nm, 500.0).mean() <= max + 1e-15);
                 }

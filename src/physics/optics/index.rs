@@ -41,11 +41,7 @@ pub enum FilmIndex {
 impl FilmIndex {
     /// A film without dispersion, `n` from 1 to 4.
     pub fn constant(n: f64) -> Result<Self, FilmIndexError> {
-        if INDEX_RANGE.contains(&n) {
-            Ok(Self::Constant(n))
-        } else {
-            Err(FilmIndexError::OutOfRange(n))
-        }
+        if INDEX_RANGE.contains(&n) { Ok(Self::Constant(n)) } else { Err(FilmIndexError::OutOfRange(n)) }
     }
 
     /// Refractive index, relative to vacuum, at a vacuum wavelength of 182 to 1129 nm (the range of the fit for water).
@@ -76,9 +72,7 @@ impl FromStr for FilmIndex {
         if text.eq_ignore_ascii_case("water") {
             return Ok(Self::Water);
         }
-        text.parse()
-            .map_err(|_| FilmIndexError::Unknown(text.into()))
-            .and_then(Self::constant)
+        text.parse().map_err(|_| FilmIndexError::Unknown(text.into())).and_then(Self::constant)
     }
 }
 
@@ -99,11 +93,7 @@ mod tests {
     #[test]
     fn water_has_its_handbook_index_at_the_sodium_line() {
         // 1.33299 at 589.3 nm and 20 °C (CRC handbook) is relative to air, which has 1.00027; both are good to about 1e-5.
-        assert!(
-            (FilmIndex::Water.n(589.3) - 1.33299 * 1.00027).abs() < 1e-5,
-            "{}",
-            FilmIndex::Water.n(589.3)
-        );
+        assert!((FilmIndex::Water.n(589.3) - 1.33299 * 1.00027).abs() < 1e-5, "{}", FilmIndex::Water.n(589.3));
     }
 
     #[test]
@@ -113,12 +103,7 @@ mod tests {
 
     #[test]
     fn reads_back_what_it_prints() {
-        for film in [
-            FilmIndex::Water,
-            FilmIndex::Constant(1.33),
-            FilmIndex::Constant(4.0),
-            FilmIndex::Constant(1.0),
-        ] {
+        for film in [FilmIndex::Water, FilmIndex::Constant(1.33), FilmIndex::Constant(4.0), FilmIndex::Constant(1.0)] {
             assert_eq!(film.to_string().parse(), Ok(film));
         }
         assert_eq!(" Water ".parse(), Ok(FilmIndex::Water));
@@ -127,10 +112,7 @@ mod tests {
     #[test]
     fn refuses_what_no_film_has() {
         for text in ["0.99", "4.01", "-1", "nan", "inf"] {
-            assert!(
-                matches!(text.parse::<FilmIndex>(), Err(FilmIndexError::OutOfRange(_))),
-                "{text}"
-            );
+            assert!(matches!(text.parse::<FilmIndex>(), Err(FilmIndexError::OutOfRange(_))), "{text}");
         }
         assert_eq!("soap".parse::<FilmIndex>(), Err(FilmIndexError::Unknown("soap".into())));
     }

@@ -52,11 +52,7 @@ impl CubedSphere {
 
     /// The grid with `n` cells along a cube edge. Fails outside [`Self::MIN_N`]..=[`Self::MAX_N`].
     pub fn new(n: usize) -> Result<Self, GridError> {
-        if (Self::MIN_N..=Self::MAX_N).contains(&n) {
-            Ok(Self { n })
-        } else {
-            Err(GridError(n))
-        }
+        if (Self::MIN_N..=Self::MAX_N).contains(&n) { Ok(Self { n }) } else { Err(GridError(n)) }
     }
 
     /// Cells along a cube edge, N.
@@ -89,11 +85,7 @@ impl CubedSphere {
     /// The unit vector at the centre of a cell, given its place in the order panel, j, i.
     pub fn cell_direction(self, index: usize) -> DVec3 {
         let (panel, i, j) = self.cell(index);
-        self.direction(PanelPoint {
-            panel,
-            x: i as f64,
-            y: j as f64,
-        })
+        self.direction(PanelPoint { panel, x: i as f64, y: j as f64 })
     }
 
     /// The inverse of [`Self::direction`] for any non-zero vector: the panel it points through, coordinates within
@@ -106,11 +98,7 @@ impl CubedSphere {
             let angle = (direction.dot(axis) / depth).atan() + FRAC_PI_4;
             (angle / self.cell_angle() - 0.5).clamp(-0.5, self.n as f64 - 0.5)
         };
-        PanelPoint {
-            panel,
-            x: coordinate(r),
-            y: coordinate(u),
-        }
+        PanelPoint { panel, x: coordinate(r), y: coordinate(u) }
     }
 
     /// The solid angle of cell (i, j) of any panel, in steradians; all cells together make 4π.
@@ -229,11 +217,6 @@ mod tests {
     #[test]
     fn sizes_out_of_range_are_refused() {
         assert_eq!(CubedSphere::new(7), Err(GridError(7)));
-        assert!(
-            CubedSphere::new(8193)
-                .unwrap_err()
-                .to_string()
-                .contains("use 8 to 8192")
-        );
+        assert!(CubedSphere::new(8193).unwrap_err().to_string().contains("use 8 to 8192"));
     }
 }

@@ -44,40 +44,21 @@ impl HaloTable {
                     .filter(move |&(_, i, j)| outside(i) + outside(j) == edges)
             })
         };
-        let entries = |edges, reach| {
-            beyond(edges)
-                .map(|(panel, i, j)| entry(grid, panel, i, j, reach))
-                .collect()
-        };
-        Self {
-            edges: entries(1, 0),
-            corners: entries(2, HALO as isize),
-        }
+        let entries = |edges, reach| beyond(edges).map(|(panel, i, j)| entry(grid, panel, i, j, reach)).collect();
+        Self { edges: entries(1, 0), corners: entries(2, HALO as isize) }
     }
 }
 
 /// The entry of halo cell (i, j) of a panel; its stencil may reach that many cells beyond the neighbour's ends.
 fn entry(grid: CubedSphere, panel: usize, i: isize, j: isize, reach: isize) -> HaloEntry {
-    let place = grid.locate(grid.direction(PanelPoint {
-        panel,
-        x: i as f64,
-        y: j as f64,
-    }));
+    let place = grid.locate(grid.direction(PanelPoint { panel, x: i as f64, y: j as f64 }));
     // One coordinate is a whole number but for rounding; should both be, then either way is exact.
     let along_x = off_centre(place.x) > off_centre(place.y);
-    let (along, across) = if along_x {
-        (place.x, place.y)
-    } else {
-        (place.y, place.x)
-    };
+    let (along, across) = if along_x { (place.x, place.y) } else { (place.y, place.x) };
     let row = across.round() as isize;
     let first = (along.floor() as isize - 1).clamp(-reach, grid.n() as isize + reach - 4);
     let source = [0, 1, 2, 3].map(|step| {
-        let (i, j) = if along_x {
-            (first + step, row)
-        } else {
-            (row, first + step)
-        };
+        let (i, j) = if along_x { (first + step, row) } else { (row, first + step) };
         grid.padded_index(place.panel, i, j) as u32
     });
     HaloEntry {
@@ -117,15 +98,9 @@ mod tests {
                 .map(|index| grid.cell(index))
                 .map(|(panel, i, j)| grid.padded_index(panel, i as isize, j as isize) as u32)
                 .collect();
-            assert_eq!(
-                (table.edges.len(), table.corners.len()),
-                (6 * 4 * HALO * n, 6 * 4 * HALO * HALO)
-            );
+            assert_eq!((table.edges.len(), table.corners.len()), (6 * 4 * HALO * n, 6 * 4 * HALO * HALO));
             for pass in [&table.edges, &table.corners] {
-                assert!(
-                    pass.iter()
-                        .all(|entry| entry.source.iter().all(|source| ready.contains(source)))
-                );
+                assert!(pass.iter().all(|entry| entry.source.iter().all(|source| ready.contains(source))));
                 ready.extend(pass.iter().map(|entry| entry.target));
             }
             assert_eq!(ready.len(), grid.padded_len());
@@ -136,11 +111,7 @@ mod tests {
     fn the_index_across_the_edge_is_exact() {
         let grid = CubedSphere::new(13).unwrap();
         for index in 0..13 {
-            let beyond = PanelPoint {
-                panel: 0,
-                x: 14.0,
-                y: f64::from(index),
-            };
+            let beyond = PanelPoint { panel: 0, x: 14.0, y: f64::from(index) };
             let place = grid.locate(grid.direction(beyond));
             assert_eq!(place.panel, 1);
             assert!((place.x - 1.0).abs() < 1e-12);

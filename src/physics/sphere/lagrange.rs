@@ -14,11 +14,7 @@ mod tests {
     fn cubics_are_reproduced() {
         let cubic = |x: f64| 2.0 - 3.0 * x + 0.5 * x * x - 1.5 * x * x * x;
         for t in [-1.0, -0.4, 0.0, 0.3, 1.0, 1.9] {
-            let value: f64 = cubic_weights(t)
-                .iter()
-                .zip(-1..3)
-                .map(|(w, node)| w * cubic(f64::from(node)))
-                .sum();
+            let value: f64 = cubic_weights(t).iter().zip(-1..3).map(|(w, node)| w * cubic(f64::from(node))).sum();
             assert!((value - cubic(t)).abs() < 1e-13);
         }
     }

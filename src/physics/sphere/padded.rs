@@ -73,9 +73,7 @@ impl<T: FieldValue> PaddedField<T> {
         let place = self.grid.locate(direction);
         let [x, y] = [place.x.floor(), place.y.floor()];
         let [across, up] = [weights(place.x - x), weights(place.y - y)];
-        let corner = self
-            .grid
-            .padded_index(place.panel, x as isize + first, y as isize + first);
+        let corner = self.grid.padded_index(place.panel, x as isize + first, y as isize + first);
         let row = |j: usize| {
             let start = corner + j * self.grid.padded_width();
             weighted(across.into_iter().zip(self.values[start..start + S].iter().copied()))
@@ -115,16 +113,10 @@ mod tests {
     fn halo_error(n: usize) -> f64 {
         let field = field(n);
         let span = -(HALO as isize)..(n + HALO) as isize;
-        let cells = (0..6).flat_map(|panel| {
-            span.clone()
-                .flat_map(move |j| (-2..n as isize + 2).map(move |i| (panel, i, j)))
-        });
+        let cells =
+            (0..6).flat_map(|panel| span.clone().flat_map(move |j| (-2..n as isize + 2).map(move |i| (panel, i, j))));
         cells.fold(0.0, |worst: f64, (panel, i, j)| {
-            let exact = smooth(field.grid.direction(PanelPoint {
-                panel,
-                x: i as f64,
-                y: j as f64,
-            }));
+            let exact = smooth(field.grid.direction(PanelPoint { panel, x: i as f64, y: j as f64 }));
             worst.max((field.values[field.grid.padded_index(panel, i, j)] - exact).abs())
         })
     }
@@ -135,10 +127,7 @@ mod tests {
         let probe = CubedSphere::new(37).unwrap();
         let corners = [1.0, -1.0].map(|s| DVec3::new(1.0, s, -1.0).normalize());
         let near_corners = corners.map(|c| (c + DVec3::new(1e-3, 0.0, 2e-3)).normalize());
-        let directions = (0..probe.cells())
-            .map(|cell| probe.cell_direction(cell))
-            .chain(corners)
-            .chain(near_corners);
+        let directions = (0..probe.cells()).map(|cell| probe.cell_direction(cell)).chain(corners).chain(near_corners);
         directions.fold(0.0, |worst: f64, x| worst.max((lookup(&field, x) - smooth(x)).abs()))
     }
 
@@ -147,19 +136,13 @@ mod tests {
         for error in [halo_error, |n| lookup_error(n, PaddedField::bicubic)] {
             let (coarse, fine) = (error(20), error(40));
             assert!(fine < 1e-5, "{fine:e}");
-            assert!(
-                coarse / fine > 12.0,
-                "ideal 16, less the mixture of positions: {coarse:e} / {fine:e}"
-            );
+            assert!(coarse / fine > 12.0, "ideal 16, less the mixture of positions: {coarse:e} / {fine:e}");
         }
     }
 
     #[test]
     fn bilinear_lookup_converges_at_second_order() {
-        let (coarse, fine) = (
-            lookup_error(20, PaddedField::bilinear),
-            lookup_error(40, PaddedField::bilinear),
-        );
+        let (coarse, fine) = (lookup_error(20, PaddedField::bilinear), lookup_error(40, PaddedField::bilinear));
         assert!(coarse / fine > 3.2, "ideal 4: {coarse:e} / {fine:e}");
     }
 

@@ -41,14 +41,8 @@ pub fn measure(grid: CubedSphere, values: &[f64], exact: &[f64], initial: &[f64]
 }
 
 /// The answer for fields that are not on the grid.
-const INCOMPARABLE: Measured = Measured {
-    l1: f64::NAN,
-    l2: f64::NAN,
-    linf: f64::NAN,
-    mass_drift: f64::NAN,
-    min: f64::NAN,
-    max: f64::NAN,
-};
+const INCOMPARABLE: Measured =
+    Measured { l1: f64::NAN, l2: f64::NAN, linf: f64::NAN, mass_drift: f64::NAN, min: f64::NAN, max: f64::NAN };
 
 /// The larger of two, or not a number if either is not: `f64::max` would hide it.
 fn nan_max(a: f64, b: f64) -> f64 {
@@ -82,10 +76,6 @@ mod tests {
         let mut broken = exact.clone();
         broken[3] = f64::NAN;
         let found = measure(grid, &broken, &exact, &exact);
-        assert!(
-            [found.l1, found.l2, found.linf, found.min, found.max]
-                .iter()
-                .all(|norm| norm.is_nan())
-        );
+        assert!([found.l1, found.l2, found.linf, found.min, found.max].iter().all(|norm| norm.is_nan()));
     }
 }

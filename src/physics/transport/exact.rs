@@ -22,11 +22,7 @@ impl FromStr for Quantity {
         match name {
             "density" => Ok(Self::Density),
             "ratio" => Ok(Self::Ratio),
-            _ => Err(CaseError::UnknownName {
-                what: "kind",
-                name: name.into(),
-                known: "density, ratio",
-            }),
+            _ => Err(CaseError::UnknownName { what: "kind", name: name.into(), known: "density, ratio" }),
         }
     }
 }
@@ -48,20 +44,14 @@ pub struct Departure {
 pub fn departure(wind: &Wind, x: DVec3, t: f64, steps: u32) -> Departure {
     let periods = t / PERIOD;
     if (periods - periods.round()).abs() < 1e-12 || steps == 0 {
-        return Departure {
-            point: x,
-            area_ratio: 1.0,
-        };
+        return Departure { point: x, area_ratio: 1.0 };
     }
     let dt = t / f64::from(steps);
     let (point, stretch) = (0..steps).fold((x, 0.0), |(x, stretch), step| {
         let (x, change) = step_back(wind, x, t - f64::from(step) * dt, dt);
         (x, stretch + change)
     });
-    Departure {
-        point,
-        area_ratio: (-stretch).exp(),
-    }
+    Departure { point, area_ratio: (-stretch).exp() }
 }
 
 /// The exact value at `x` and time `t` of a tracer that started as `tracer`; `steps` as in [`departure`].
@@ -123,12 +113,8 @@ mod tests {
     fn the_area_ratio_is_that_of_the_backward_map() {
         let wind = wind(WindKind::Divergent);
         let d = 1e-5;
-        for x in [
-            DVec3::new(-0.7, 0.3, 0.6),
-            DVec3::new(0.1, -0.8, -0.4),
-            DVec3::new(0.5, 0.5, 0.5),
-        ]
-        .map(DVec3::normalize)
+        for x in
+            [DVec3::new(-0.7, 0.3, 0.6), DVec3::new(0.1, -0.8, -0.4), DVec3::new(0.5, 0.5, 0.5)].map(DVec3::normalize)
         {
             let (e1, e2) = x.any_orthonormal_pair();
             let foot = |step: DVec3| departure(&wind, (x + step).normalize(), 2.5, 240).point;
@@ -147,11 +133,7 @@ mod tests {
         let tracer = Tracer::new(TracerKind::GaussianHills, DMat3::IDENTITY);
         let areas = grid.areas();
         let mass = |value: &dyn Fn(DVec3) -> f64| -> f64 {
-            areas
-                .iter()
-                .enumerate()
-                .map(|(cell, area)| area * value(grid.cell_direction(cell)))
-                .sum()
+            areas.iter().enumerate().map(|(cell, area)| area * value(grid.cell_direction(cell))).sum()
         };
         let initial = mass(&|x| tracer.value(x));
         let [density, ratio] = [Quantity::Density, Quantity::Ratio]

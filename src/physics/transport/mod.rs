@@ -40,9 +40,7 @@ pub enum CaseError {
 /// The unit vector along `v`; `what` names it in the error for vectors that have none.
 fn unit(v: glam::DVec3, what: &'static str) -> Result<glam::DVec3, CaseError> {
     // Scaled first, so that the squares of very long and very short vectors stay finite and positive.
-    (v / v.abs().max_element())
-        .try_normalize()
-        .ok_or(CaseError::NoDirection(what))
+    (v / v.abs().max_element()).try_normalize().ok_or(CaseError::NoDirection(what))
 }
 
 #[cfg(test)]

@@ -31,20 +31,14 @@ impl FlowMap {
     pub fn new(grid: CubedSphere, tracer: impl Fn(DVec3) -> f64 + Sync) -> Self {
         let halo = HaloTable::new(grid);
         let tracer = PaddedField::sample(grid, &halo, tracer);
-        Self {
-            halo,
-            tracer,
-            map: None,
-        }
+        Self { halo, tracer, map: None }
     }
 
     /// Moves the fluid by one step from time `t` to `t + dt`.
     pub fn step(&mut self, t: f64, dt: f64, velocity: impl Fn(DVec3, f64) -> DVec3 + Sync) {
         let moved = PaddedField::sample(self.tracer.grid(), &self.halo, |x| {
             let earlier = backtrace(x, t + dt, dt, &velocity);
-            self.map
-                .as_ref()
-                .map_or(earlier, |map| map.bicubic(earlier).normalize())
+            self.map.as_ref().map_or(earlier, |map| map.bicubic(earlier).normalize())
         });
         self.map = Some(moved);
     }
@@ -60,11 +54,7 @@ impl FlowMap {
     pub fn values(&self) -> Vec<f64> {
         match &self.map {
             None => self.tracer.cells(),
-            Some(map) => map
-                .cells()
-                .into_iter()
-                .map(|origin| self.tracer.bicubic(origin))
-                .collect(),
+            Some(map) => map.cells().into_iter().map(|origin| self.tracer.bicubic(origin)).collect(),
         }
     }
 }
@@ -98,10 +88,7 @@ mod tests {
     fn a_backtrace_is_a_rotation_in_solid_rotation() {
         let x = DVec3::new(0.3, 0.4, -0.5).normalize();
         let foot = backtrace(x, 1.0, 0.1, |x, _| DVec3::Z.cross(x));
-        assert!(
-            foot.distance(glam::DMat3::from_rotation_z(-0.1) * x) < 1e-7,
-            "RK4: 0.1^5 / 120"
-        );
+        assert!(foot.distance(glam::DMat3::from_rotation_z(-0.1) * x) < 1e-7, "RK4: 0.1^5 / 120");
     }
 
     #[test]

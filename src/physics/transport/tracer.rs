@@ -34,11 +34,7 @@ impl FromStr for TracerKind {
             "ccb" => Ok(Self::CorrelatedCosineBells),
             "sc" => Ok(Self::SlottedCylinders),
             "tc1" => Ok(Self::Bell),
-            _ => Err(CaseError::UnknownName {
-                what: "tracer",
-                name: name.into(),
-                known: "gh, cb, ccb, sc, tc1",
-            }),
+            _ => Err(CaseError::UnknownName { what: "tracer", name: name.into(), known: "gh, cb, ccb, sc, tc1" }),
         }
     }
 }
@@ -54,19 +50,12 @@ impl Tracer {
     /// The field with its features where the literature puts them, turned by `rotation`
     /// (see [`Wind::tracer_rotation`](super::Wind::tracer_rotation)).
     pub fn new(kind: TracerKind, rotation: DMat3) -> Self {
-        let longitudes: &[f64] = if kind == TracerKind::Bell {
-            &[1.5 * PI]
-        } else {
-            &[5.0 / 6.0 * PI, 7.0 / 6.0 * PI]
-        };
+        let longitudes: &[f64] = if kind == TracerKind::Bell { &[1.5 * PI] } else { &[5.0 / 6.0 * PI, 7.0 / 6.0 * PI] };
         let features = longitudes.iter().zip([-1.0, 1.0]).map(|(&longitude, slot)| Feature {
             from_world: (rotation * DMat3::from_rotation_z(longitude)).transpose(),
             slot,
         });
-        Self {
-            kind,
-            features: features.collect(),
-        }
+        Self { kind, features: features.collect() }
     }
 
     /// The field with a single feature about `center`, whatever the wind's axis; a slot keeps its direction under the shortest
@@ -121,11 +110,7 @@ impl Feature {
     /// ½ (1 + cos(π r / radius)) within the radius, an angle, and 0 outside.
     fn cosine_bell(&self, x: DVec3, radius: f64) -> f64 {
         let r = great_circle(self.from_world * x);
-        if r < radius {
-            0.5 * (1.0 + (PI * r / radius).cos())
-        } else {
-            0.0
-        }
+        if r < radius { 0.5 * (1.0 + (PI * r / radius).cos()) } else { 0.0 }
     }
 
     /// 1 in the cylinder of radius ½ and 0 outside and in its slot, which is r/3 wide and ends 5r/12 beyond the middle.
@@ -177,10 +162,7 @@ mod tests {
     fn slots_open_to_opposite_sides() {
         let [first, second] = [5.0 / 6.0 * PI, 7.0 / 6.0 * PI];
         let sc = |lambda, theta| value(TracerKind::SlottedCylinders, lambda, theta);
-        assert_eq!(
-            [sc(first, -0.3), sc(first, 0.3), sc(second, 0.3), sc(second, -0.3)],
-            [1.0, 0.1, 1.0, 0.1]
-        );
+        assert_eq!([sc(first, -0.3), sc(first, 0.3), sc(second, 0.3), sc(second, -0.3)], [1.0, 0.1, 1.0, 0.1]);
         assert_eq!([sc(first + 0.1, 0.3), sc(first + 0.05, 0.3)], [1.0, 0.1]);
     }
 

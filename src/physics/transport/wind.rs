@@ -28,11 +28,7 @@ impl FromStr for WindKind {
             "sb" => Ok(Self::SolidBody),
             "nd" => Ok(Self::NonDivergent),
             "dv" => Ok(Self::Divergent),
-            _ => Err(CaseError::UnknownName {
-                what: "wind",
-                name: name.into(),
-                known: "sb, nd, dv",
-            }),
+            _ => Err(CaseError::UnknownName { what: "wind", name: name.into(), known: "sb, nd, dv" }),
         }
     }
 }
@@ -49,16 +45,9 @@ impl Wind {
     /// by the shortest rotation that takes +z to the axis; for −z, where there is no single one, by half a turn about +x or
     /// another horizontal axis. Fails for an axis without direction.
     pub fn new(kind: WindKind, axis: Option<DVec3>) -> Result<Self, CaseError> {
-        let usual = if kind == WindKind::SolidBody {
-            DVec3::X
-        } else {
-            DVec3::Z
-        };
+        let usual = if kind == WindKind::SolidBody { DVec3::X } else { DVec3::Z };
         let axis = unit(axis.unwrap_or(usual), "axis")?;
-        Ok(Self {
-            kind,
-            frame: DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Z, axis)),
-        })
+        Ok(Self { kind, frame: DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Z, axis)) })
     }
 
     /// Which of the winds it is.
@@ -73,11 +62,7 @@ impl Wind {
 
     /// The rotation of the tracers that belong to this wind: they turn with ND and DV and stay where they are in SB.
     pub fn tracer_rotation(&self) -> DMat3 {
-        if self.kind == WindKind::SolidBody {
-            DMat3::IDENTITY
-        } else {
-            self.frame
-        }
+        if self.kind == WindKind::SolidBody { DMat3::IDENTITY } else { self.frame }
     }
 
     /// Velocity at unit vector `x` and time `t`.
@@ -94,10 +79,8 @@ impl Wind {
                 let cos_theta = p.x.hypot(p.y);
                 let east = -5.0 * p.z * cos_theta * (cos_theta - p.x);
                 let north = 2.5 * p.y * cos_theta;
-                let directions = [
-                    DVec3::new(-p.y, p.x, 0.0),
-                    DVec3::new(-p.z * p.x, -p.z * p.y, cos_theta * cos_theta),
-                ];
+                let directions =
+                    [DVec3::new(-p.y, p.x, 0.0), DVec3::new(-p.z * p.x, -p.z * p.y, cos_theta * cos_theta)];
                 amplitude * (east * directions[0] + north * directions[1])
             }
         };
@@ -179,10 +162,7 @@ mod tests {
                     (speed(d) - speed(-d)) / (2.0 * d)
                 };
                 // Central differences: truncation and rounding are both near 1e-10.
-                assert!(
-                    (slope(e1) + slope(e2) - wind.divergence(x, 0.9)).abs() < 1e-8,
-                    "{kind:?}"
-                );
+                assert!((slope(e1) + slope(e2) - wind.divergence(x, 0.9)).abs() < 1e-8, "{kind:?}");
             }
         }
     }

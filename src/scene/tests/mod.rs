@@ -29,12 +29,10 @@ fn documented() -> Vec<[&'static str; 4]> {
 
 /// The table of a scene's TOML that a section names; the first item of a list.
 fn section<'a>(scene: &'a toml::Table, path: &str) -> &'a toml::Table {
-    path.split('.')
-        .filter(|name| !name.is_empty())
-        .fold(scene, |table, name| match &table[name] {
-            toml::Value::Array(items) => items[0].as_table().expect("a list of tables"),
-            value => value.as_table().expect("a table"),
-        })
+    path.split('.').filter(|name| !name.is_empty()).fold(scene, |table, name| match &table[name] {
+        toml::Value::Array(items) => items[0].as_table().expect("a list of tables"),
+        value => value.as_table().expect("a table"),
+    })
 }
 
 /// A text that sets one key of one section.
@@ -52,21 +50,9 @@ fn setting(section: &str, key: &str, value: &str) -> String {
 fn documented_keys_are_the_coded_keys() {
     let every_key = document::every_key();
     let rows = documented();
-    for path in [
-        "",
-        "bubble",
-        "bubble.film",
-        "camera",
-        "light",
-        "view",
-        "motion",
-        "event",
-    ] {
+    for path in ["", "bubble", "bubble.film", "camera", "light", "view", "motion", "event"] {
         let coded = section(&every_key, path).iter();
-        let mut coded: Vec<&str> = coded
-            .filter(|(_, value)| !is_section(value))
-            .map(|(key, _)| key.as_str())
-            .collect();
+        let mut coded: Vec<&str> = coded.filter(|(_, value)| !is_section(value)).map(|(key, _)| key.as_str()).collect();
         let mut listed: Vec<&str> = rows.iter().filter(|row| row[0] == path).map(|row| row[1]).collect();
         coded.sort_unstable();
         listed.sort_unstable();
@@ -75,21 +61,13 @@ fn documented_keys_are_the_coded_keys() {
 }
 
 fn is_section(value: &toml::Value) -> bool {
-    value.is_table()
-        || value
-            .as_array()
-            .is_some_and(|items| items.iter().any(toml::Value::is_table))
+    value.is_table() || value.as_array().is_some_and(|items| items.iter().any(toml::Value::is_table))
 }
 
 #[test]
 fn documented_defaults_are_the_coded_defaults() {
-    let scene = Scene {
-        events: vec![Event {
-            tick: 0,
-            change: Change::Motion(MotionChange::default()),
-        }],
-        ..Scene::default()
-    };
+    let scene =
+        Scene { events: vec![Event { tick: 0, change: Change::Motion(MotionChange::default()) }], ..Scene::default() };
     let coded = toml::Table::try_from(scene).unwrap();
     let rows = documented();
     assert!(rows.len() > 30, "only {} keys found in the page", rows.len());
@@ -124,21 +102,9 @@ fn documented_ranges_are_the_enforced_ranges() {
         // A millionth beyond the end of a range of numbers, one beyond the end of a range of whole numbers.
         let whole = !written(key, default, 1.0).contains('.');
         let step = |end: f64| if whole { 1.0 } else { 1e-6 * end.abs().max(1.0) };
-        assert!(
-            accepts(low) && accepts(high),
-            "{key} in [{path}] must allow {low} and {high}"
-        );
-        for outside in [
-            low - step(low),
-            high + step(high),
-            f64::NAN,
-            f64::INFINITY,
-            f64::NEG_INFINITY,
-        ] {
-            assert!(
-                (low..=high).contains(&outside) || !accepts(outside),
-                "{key} = {outside} in [{path}]"
-            );
+        assert!(accepts(low) && accepts(high), "{key} in [{path}] must allow {low} and {high}");
+        for outside in [low - step(low), high + step(high), f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!((low..=high).contains(&outside) || !accepts(outside), "{key} = {outside} in [{path}]");
         }
         ranges += 1;
     }
@@ -147,20 +113,11 @@ fn documented_ranges_are_the_enforced_ranges() {
 
 #[test]
 fn scene_in_memory_is_refused_by_its_key() {
-    let mut scene = Scene {
-        bubbles: vec![Bubble::default(); 2],
-        ..Scene::default()
-    };
+    let mut scene = Scene { bubbles: vec![Bubble::default(); 2], ..Scene::default() };
     scene.bubbles[1].film.index = FilmIndexName::Constant(f64::NAN);
     let message = scene.validate().unwrap_err().to_string();
-    assert_eq!(
-        message,
-        "`index` in [bubble.film] number 2 is NaN; it must be within 1 ..= 4"
-    );
-    let newer = Scene {
-        version: 2,
-        ..Scene::default()
-    };
+    assert_eq!(message, "`index` in [bubble.film] number 2 is NaN; it must be within 1 ..= 4");
+    let newer = Scene { version: 2, ..Scene::default() };
     assert!(newer.validate().is_err(), "the version must be checked too");
 }
 
@@ -187,9 +144,7 @@ fn presets_are_all_embedded() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let scenes = files.filter(|path| path.extension().is_some_and(|end| end == "toml"));
-    let mut found: Vec<String> = scenes
-        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
-        .collect();
+    let mut found: Vec<String> = scenes.map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
     let mut embedded: Vec<&str> = preset_names().collect();
     found.sort_unstable();
     embedded.sort_unstable();
@@ -224,19 +179,10 @@ fn no_bubbles_is_not_the_default_bubble() {
 fn words_and_values_share_a_key() {
     let read = |text: &str| Scene::from_toml(&with_version(text), "s.toml").unwrap();
     let index = |value: &str| read(&format!("[[bubble]]\nfilm.index = {value}")).bubbles[0].film.index;
-    assert_eq!(
-        (index("\"water\""), index("2")),
-        (FilmIndexName::Water, FilmIndexName::Constant(2.0))
-    );
+    assert_eq!((index("\"water\""), index("2")), (FilmIndexName::Water, FilmIndexName::Constant(2.0)));
     let environment = |value: &str| read(&format!("light.environment = \"{value}\"")).light.environment;
-    assert_eq!(
-        (environment("tent"), environment("windows")),
-        (Environment::Tent, Environment::Windows)
-    );
-    assert_eq!(
-        environment("sky/Noon.EXR"),
-        Environment::File("sky/Noon.EXR".to_owned())
-    );
+    assert_eq!((environment("tent"), environment("windows")), (Environment::Tent, Environment::Windows));
+    assert_eq!(environment("sky/Noon.EXR"), Environment::File("sky/Noon.EXR".to_owned()));
     let backdrop = |value: &str| read(&format!("view.backdrop = {value}")).view.backdrop;
     assert_eq!(backdrop("\"environment\""), Backdrop::Environment);
     assert_eq!(backdrop("[0, 0.5, 1]"), Backdrop::Radiance([0.0, 0.5, 1.0]));

@@ -4,11 +4,7 @@ use super::super::*;
 use proptest::prelude::*;
 
 fn film() -> impl Strategy<Value = Film> {
-    let state = prop_oneof![
-        Just(FilmStateName::Uniform),
-        Just(FilmStateName::Rest),
-        Just(FilmStateName::Blown)
-    ];
+    let state = prop_oneof![Just(FilmStateName::Uniform), Just(FilmStateName::Rest), Just(FilmStateName::Blown)];
     let index = prop_oneof![Just(FilmIndexName::Water), (1.0..4.0).prop_map(FilmIndexName::Constant)];
     (state, 1.0..10_000.0, -5.0..5.0, index, any::<u64>(), 16u32..=1024).prop_map(
         |(state, thickness_nm, stratification, index, seed, cells)| Film {
@@ -31,20 +27,15 @@ fn bubble() -> impl Strategy<Value = Bubble> {
 }
 
 fn camera() -> impl Strategy<Value = Camera> {
-    (
-        prop::array::uniform3(-1e3..1e3),
-        -1e9..1e9,
-        -90.0..90.0,
-        0.0..1e3,
-        1.0..170.0,
-    )
-        .prop_map(|(target_m, azimuth_deg, elevation_deg, distance_m, fov_y_deg)| Camera {
+    (prop::array::uniform3(-1e3..1e3), -1e9..1e9, -90.0..90.0, 0.0..1e3, 1.0..170.0).prop_map(
+        |(target_m, azimuth_deg, elevation_deg, distance_m, fov_y_deg)| Camera {
             target_m,
             azimuth_deg,
             elevation_deg,
             distance_m,
             fov_y_deg,
-        })
+        },
+    )
 }
 
 fn radiance() -> impl Strategy<Value = [f64; 3]> {
@@ -54,20 +45,15 @@ fn radiance() -> impl Strategy<Value = [f64; 3]> {
 fn light() -> impl Strategy<Value = Light> {
     let file = "[a-z \\\\\"'é/]{0,8}\\.(exr|hdr)".prop_map(Environment::File);
     let environment = prop_oneof![Just(Environment::Tent), Just(Environment::Windows), file];
-    (
-        environment,
-        "[A-Z][A-Z0-9\"]{0,4}",
-        prop::option::of(radiance()),
-        -1e9..1e9,
-        0.0..1e4,
-    )
-        .prop_map(|(environment, illuminant, constant, rotation_deg, intensity)| Light {
+    (environment, "[A-Z][A-Z0-9\"]{0,4}", prop::option::of(radiance()), -1e9..1e9, 0.0..1e4).prop_map(
+        |(environment, illuminant, constant, rotation_deg, intensity)| Light {
             environment,
             illuminant,
             constant,
             rotation_deg,
             intensity,
-        })
+        },
+    )
 }
 
 fn view() -> impl Strategy<Value = View> {
@@ -81,12 +67,7 @@ fn view() -> impl Strategy<Value = View> {
 }
 
 fn flow() -> impl Strategy<Value = Flow> {
-    prop_oneof![
-        Just(Flow::Rest),
-        Just(Flow::Sloshing),
-        Just(Flow::Draught),
-        Just(Flow::Stirred)
-    ]
+    prop_oneof![Just(Flow::Rest), Just(Flow::Sloshing), Just(Flow::Draught), Just(Flow::Stirred)]
 }
 
 fn motion() -> impl Strategy<Value = Motion> {
@@ -103,38 +84,19 @@ fn motion() -> impl Strategy<Value = Motion> {
 }
 
 fn event() -> impl Strategy<Value = Event> {
-    (
-        any::<u64>(),
-        prop::option::of(flow()),
-        prop::option::of(0.0..10.0),
-        any::<u64>(),
-    )
-        .prop_map(|(tick, flow, strength, seed)| Event {
+    (any::<u64>(), prop::option::of(flow()), prop::option::of(0.0..10.0), any::<u64>()).prop_map(
+        |(tick, flow, strength, seed)| Event {
             tick,
-            change: Change::Motion(MotionChange {
-                flow,
-                strength,
-                seed: Some(seed),
-            }),
-        })
+            change: Change::Motion(MotionChange { flow, strength, seed: Some(seed) }),
+        },
+    )
 }
 
 fn scene() -> impl Strategy<Value = Scene> {
-    let lists = (
-        prop::collection::vec(bubble(), 0..4),
-        prop::collection::vec(event(), 0..4),
-    );
+    let lists = (prop::collection::vec(bubble(), 0..4), prop::collection::vec(event(), 0..4));
     (lists, camera(), light(), view(), motion()).prop_map(|((bubbles, mut events), camera, light, view, motion)| {
         events.sort_by_key(|event| event.tick);
-        Scene {
-            version: VERSION,
-            bubbles,
-            camera,
-            light,
-            view,
-            motion,
-            events,
-        }
+        Scene { version: VERSION, bubbles, camera, light, view, motion, events }
     })
 }
 

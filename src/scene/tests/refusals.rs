@@ -7,9 +7,7 @@ use crate::scene::Scene;
 type Case = (&'static str, &'static str);
 
 fn refusal(text: &str) -> String {
-    Scene::from_toml(text, "s.toml")
-        .expect_err("this scene must be refused")
-        .to_string()
+    Scene::from_toml(text, "s.toml").expect_err("this scene must be refused").to_string()
 }
 
 fn assert_refused(cases: &[Case]) {
@@ -22,10 +20,7 @@ fn assert_refused(cases: &[Case]) {
 fn version_is_required_and_known() {
     let unknown = |found: &str| format!("version {found} cannot be read here; this program reads `version = 1`");
     assert_eq!(refusal(""), "s.toml:1: no version; add `version = 1` at the top");
-    assert_eq!(
-        refusal("\nversion = 2\nnew_in_2 = 1"),
-        format!("s.toml:2: {}", unknown("2"))
-    );
+    assert_eq!(refusal("\nversion = 2\nnew_in_2 = 1"), format!("s.toml:2: {}", unknown("2")));
     assert_eq!(refusal("version = \"1\""), format!("s.toml:1: {}", unknown("\"1\"")));
 }
 
@@ -33,10 +28,7 @@ fn version_is_required_and_known() {
 fn text_must_be_toml() {
     assert_refused(&[
         ("radius_mm 3", "2: key with no value, expected `=`"),
-        (
-            "[[bubble]]\nradius_mm = 1\nradius_mm = 2",
-            "4: duplicate key: `radius_mm`",
-        ),
+        ("[[bubble]]\nradius_mm = 1\nradius_mm = 2", "4: duplicate key: `radius_mm`"),
         ("[camera]\n[camera]", "3: duplicate key: `camera`"),
     ]);
 }
@@ -48,23 +40,14 @@ fn unknown_keys_name_the_nearest_known_one() {
             "[[bubble]]\n[bubble.film]\nthicknes_nm = 300",
             "4: unknown key `thicknes_nm` in [bubble.film]; did you mean `thickness_nm`?",
         ),
-        (
-            "[camera]\nfov = 3",
-            "3: unknown key `fov` in [camera]; did you mean `fov_y_deg`?",
-        ),
+        ("[camera]\nfov = 3", "3: unknown key `fov` in [camera]; did you mean `fov_y_deg`?"),
         ("[lihgt]", "2: unknown key `lihgt`; did you mean `light`?"),
         (
             "[[bubble]]\n[[bubble]]\nradius = 3",
             "4: unknown key `radius` in [[bubble]] number 2; did you mean `radius_mm`?",
         ),
-        (
-            "[[bubble]]\nqqq = 3",
-            "3: unknown key `qqq` in [[bubble]]; known here: `center_m`, `film`, `radius_mm`",
-        ),
-        (
-            "[[event]]\nkind = \"motion\"\nspeed = 2",
-            "4: unknown key `speed` in [[event]]; did you mean `seed`?",
-        ),
+        ("[[bubble]]\nqqq = 3", "3: unknown key `qqq` in [[bubble]]; known here: `center_m`, `film`, `radius_mm`"),
+        ("[[event]]\nkind = \"motion\"\nspeed = 2", "4: unknown key `speed` in [[event]]; did you mean `seed`?"),
         (
             "[light]\nx.y = 1\n[camera]\nfov = 3",
             "3: unknown key `x` in [light]; known here: `constant`, `environment`, `illuminant`, `intensity`, `rotation_deg`",
@@ -79,27 +62,15 @@ fn unknown_keys_name_the_nearest_known_one() {
 #[test]
 fn tables_and_lists_are_told_apart() {
     assert_refused(&[
-        (
-            "[bubble]\nradius_mm = 3",
-            "2: `bubble` has the wrong kind of table; write [[bubble]]",
-        ),
+        ("[bubble]\nradius_mm = 3", "2: `bubble` has the wrong kind of table; write [[bubble]]"),
         ("[[camera]]", "2: `camera` has the wrong kind of table; write [camera]"),
-        (
-            "camera = 3",
-            "2: `camera` is wrong: invalid type: integer `3`, expected the table Camera",
-        ),
-        (
-            "bubble = 3",
-            "2: `bubble` is wrong: invalid type: integer `3`, expected a list",
-        ),
+        ("camera = 3", "2: `camera` is wrong: invalid type: integer `3`, expected the table Camera"),
+        ("bubble = 3", "2: `bubble` is wrong: invalid type: integer `3`, expected a list"),
         (
             "bubble = [{film = 3}]",
             "2: `film` in [[bubble]] is wrong: invalid type: integer `3`, expected the table Film",
         ),
-        (
-            "[camera.fov_y_deg]",
-            "2: `fov_y_deg` in [camera] is wrong: invalid type: table, expected a number",
-        ),
+        ("[camera.fov_y_deg]", "2: `fov_y_deg` in [camera] is wrong: invalid type: table, expected a number"),
     ]);
 }
 
@@ -118,10 +89,7 @@ fn values_have_their_type() {
             "[motion]\nflow = \"windy\"",
             "3: `flow` in [motion] is wrong: unknown word `windy`, expected one of `rest`, `sloshing`, `draught`, `stirred`",
         ),
-        (
-            "[motion]\nflow = 3",
-            "3: `flow` in [motion] is wrong: expected a word in quotes",
-        ),
+        ("[motion]\nflow = 3", "3: `flow` in [motion] is wrong: expected a word in quotes"),
         (
             "[camera]\ntarget_m = [\n0, 0]",
             "3: `target_m` in [camera] is wrong: invalid length 2, expected three numbers",
@@ -138,10 +106,7 @@ fn values_have_their_type() {
             "[[event]]\nkind = \"motion\"\ntick = 0.5",
             "4: `tick` in [[event]] is wrong: invalid type: floating point `0.5`, expected a whole number from 0 on",
         ),
-        (
-            "[[event]]\nkind = \"dance\"",
-            "3: `kind` in [[event]] is wrong: unknown word `dance`, expected `motion`",
-        ),
+        ("[[event]]\nkind = \"dance\"", "3: `kind` in [[event]] is wrong: unknown word `dance`, expected `motion`"),
         ("[[event]]\ntick = 3", "2: [[event]] is wrong: missing field `kind`"),
     ]);
 }
@@ -149,18 +114,9 @@ fn values_have_their_type() {
 #[test]
 fn values_lie_in_their_range() {
     assert_refused(&[
-        (
-            "[[bubble]]\n\nradius_mm = 9e3",
-            "4: `radius_mm` in [[bubble]] is 9000; it must be within 0.1 ..= 5000",
-        ),
-        (
-            "[camera]\nazimuth_deg = nan",
-            "3: `azimuth_deg` in [camera] is NaN; it must be a finite number",
-        ),
-        (
-            "[camera]\nazimuth_deg = -inf",
-            "3: `azimuth_deg` in [camera] is -inf; it must be a finite number",
-        ),
+        ("[[bubble]]\n\nradius_mm = 9e3", "4: `radius_mm` in [[bubble]] is 9000; it must be within 0.1 ..= 5000"),
+        ("[camera]\nazimuth_deg = nan", "3: `azimuth_deg` in [camera] is NaN; it must be a finite number"),
+        ("[camera]\nazimuth_deg = -inf", "3: `azimuth_deg` in [camera] is -inf; it must be a finite number"),
         (
             "[light]\nconstant = [1, nan, 1]",
             "3: `constant` in [light] holds a number that is NaN; it must be within 0 ..= 65504",
@@ -173,16 +129,10 @@ fn values_lie_in_their_range() {
             "[light]\nenvironment = \"tnt\"",
             "3: `environment` in [light] is \"tnt\"; use \"tent\", \"windows\" or the path of an .exr or .hdr file",
         ),
-        (
-            "[light]\nilluminant = \"\"",
-            "3: `illuminant` in [light] is empty; name one, as in `illuminant = \"D65\"`",
-        ),
+        ("[light]\nilluminant = \"\"", "3: `illuminant` in [light] is empty; name one, as in `illuminant = \"D65\"`"),
     ]);
     let crowd = with_version(&"[[bubble]]\n".repeat(43));
-    assert_eq!(
-        refusal(&crowd),
-        "s.toml:2: `bubble` is a list of 43; at most 42 are allowed"
-    );
+    assert_eq!(refusal(&crowd), "s.toml:2: `bubble` is a list of 43; at most 42 are allowed");
 }
 
 #[test]

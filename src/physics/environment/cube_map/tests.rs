@@ -6,11 +6,7 @@ fn directions(count: usize) -> impl Iterator<Item = DVec3> {
     (0..count).map(move |i| {
         let z = 1.0 - (2 * i + 1) as f64 / count as f64;
         let azimuth = i as f64 * 2.399_963_229_728_653;
-        DVec3::new(
-            azimuth.cos() * (1.0 - z * z).sqrt(),
-            azimuth.sin() * (1.0 - z * z).sqrt(),
-            z,
-        )
+        DVec3::new(azimuth.cos() * (1.0 - z * z).sqrt(), azimuth.sin() * (1.0 - z * z).sqrt(), z)
     })
 }
 
@@ -31,19 +27,10 @@ fn a_direction_finds_its_own_radiance() {
 fn one_bright_texel_lies_where_the_gpu_would_find_it() {
     // Vulkan, +Y face (layer 2): s along +x, t along +z.
     let target = DVec3::new(0.375, 1.0, -0.625);
-    let map = CubeMap::from_fn(
-        8,
-        1,
-        |direction| if direction == target { DVec3::ONE } else { DVec3::ZERO },
-    );
+    let map = CubeMap::from_fn(8, 1, |direction| if direction == target { DVec3::ONE } else { DVec3::ZERO });
     let (column, row) = (5, 1); // s = (5 + ½)/4 − 1, t = (1 + ½)/4 − 1
-    let lit: Vec<_> = (0..6)
-        .flat_map(|layer| (0..64).map(move |index| (layer, index)))
-        .collect();
-    let lit: Vec<_> = lit
-        .into_iter()
-        .filter(|&(layer, index)| map.mips[0].radiance(layer, index).x > 0.0)
-        .collect();
+    let lit: Vec<_> = (0..6).flat_map(|layer| (0..64).map(move |index| (layer, index))).collect();
+    let lit: Vec<_> = lit.into_iter().filter(|&(layer, index)| map.mips[0].radiance(layer, index).x > 0.0).collect();
     assert_eq!(lit, [(2, row * 8 + column)]);
     assert_eq!(map.sample(target), DVec3::ONE);
 }
@@ -57,22 +44,15 @@ fn a_bright_pixel_of_a_panorama_shines_from_its_direction() {
         let map = CubeMap::from_equirect(&Equirect::new(width, height, pixels).unwrap());
         let uv = DVec2::new((column as f64 + 0.5) / width as f64, (row as f64 + 0.5) / height as f64);
         let shown = direction_of_uv(uv);
-        let brightest = directions(20000)
-            .max_by(|a, b| map.sample(*a).x.total_cmp(&map.sample(*b).x))
-            .unwrap();
+        let brightest = directions(20000).max_by(|a, b| map.sample(*a).x.total_cmp(&map.sample(*b).x)).unwrap();
         // The pixel is 0.1 wide, and the directions tried lie 0.025 apart.
-        assert!(
-            shown.distance(brightest) < 0.08,
-            "pixel ({column}, {row}) shines from {brightest}, not {shown}"
-        );
+        assert!(shown.distance(brightest) < 0.08, "pixel ({column}, {row}) shines from {brightest}, not {shown}");
     }
 }
 
 #[test]
 fn interpolation_is_continuous_across_faces() {
-    let map = CubeMap::from_fn(8, 1, |direction| {
-        DVec3::splat((7.0 * direction.normalize()).sin().element_sum() + 3.0)
-    });
+    let map = CubeMap::from_fn(8, 1, |direction| DVec3::splat((7.0 * direction.normalize()).sin().element_sum() + 3.0));
     for t in (0..100).map(|i| f64::from(i) / 50.0 - 0.99) {
         let [near, far] = [1e-9, -1e-9].map(|offset| map.sample(DVec3::new(1.0 + offset, t, 1.0)));
         // Neighbouring texels differ by about 1; a seam would show as a jump of that order. Half a texel's shift along the
@@ -95,11 +75,7 @@ fn mips_have_gpu_sizes_and_keep_the_mean() {
             };
             for level in map.mips() {
                 // f16 holds values below 2 to 2⁻¹¹.
-                assert!(
-                    mean(level).distance(mean(&map.mips()[0])) < 2e-3,
-                    "size {size}, level {}",
-                    level.size
-                );
+                assert!(mean(level).distance(mean(&map.mips()[0])) < 2e-3, "size {size}, level {}", level.size);
             }
         }
     }
@@ -111,11 +87,7 @@ fn mean_radiance_weighs_by_solid_angle() {
     assert!(white.mean_radiance().distance(DVec3::new(0.25, 0.5, 2.0)) < 1e-12);
     // The mean of z² over the sphere is 1/3; weighing texels equally would give (1/3)(1 + 2 (π/4 − ...)), several per cent off.
     let lobe = CubeMap::from_fn(128, 1, |direction| DVec3::splat(direction.normalize().z.powi(2)));
-    assert!(
-        (lobe.mean_radiance().x - 1.0 / 3.0).abs() < 1e-4,
-        "{}",
-        lobe.mean_radiance()
-    );
+    assert!((lobe.mean_radiance().x - 1.0 / 3.0).abs() < 1e-4, "{}", lobe.mean_radiance());
 }
 
 #[test]
@@ -126,18 +98,8 @@ fn what_f16_cannot_hold_is_repaired_and_counted() {
         CubeFace::NegativeZ => DVec3::splat(-1.0),
         _ => DVec3::ONE,
     });
-    assert_eq!(
-        map.repairs(),
-        Repairs {
-            not_a_number: 4,
-            negative: 4,
-            too_bright: 4
-        }
-    );
-    assert!(
-        (map.sample(DVec3::X).x - f64::from(MAX_RADIANCE)).abs() < 32.0,
-        "f16 steps by 32 there"
-    );
+    assert_eq!(map.repairs(), Repairs { not_a_number: 4, negative: 4, too_bright: 4 });
+    assert!((map.sample(DVec3::X).x - f64::from(MAX_RADIANCE)).abs() < 32.0, "f16 steps by 32 there");
     assert_eq!(map.sample(DVec3::NEG_Z), DVec3::ZERO);
     assert!(
         map.mips()
@@ -158,17 +120,11 @@ fn repairs_of_a_panorama_are_reported() {
 
 #[test]
 fn ids_tell_contents_apart() {
-    let map = |value: f64| {
-        CubeMap::from_fn(4, 1, |direction| {
-            DVec3::splat(if direction.x > 0.9 { value } else { 1.0 })
-        })
-    };
+    let map =
+        |value: f64| CubeMap::from_fn(4, 1, |direction| DVec3::splat(if direction.x > 0.9 { value } else { 1.0 }));
     assert_eq!(map(2.0).id(), map(2.0).id());
     assert_ne!(map(2.0).id(), map(2.01).id());
-    assert_ne!(
-        CubeMap::constant(DVec3::ONE).id(),
-        CubeMap::from_fn(2, 1, |_| DVec3::ONE).id()
-    );
+    assert_ne!(CubeMap::constant(DVec3::ONE).id(), CubeMap::from_fn(2, 1, |_| DVec3::ONE).id());
     // Pinned: the same on every machine and with every compiler.
     assert_eq!(CubeMap::constant(DVec3::ONE).id(), 10_282_663_682_314_710_383);
 }

@@ -70,12 +70,7 @@ mod tests {
             assert_eq!(map.repairs().total(), 0, "{environment:?}");
             let direction = DVec3::new(0.3, -0.4, 0.2);
             // Rounding of one normalisation against another.
-            assert!(
-                environment
-                    .radiance(7.0 * direction)
-                    .distance(environment.radiance(direction))
-                    < 1e-12
-            );
+            assert!(environment.radiance(7.0 * direction).distance(environment.radiance(direction)) < 1e-12);
         }
     }
 
@@ -89,20 +84,11 @@ mod tests {
     #[test]
     fn the_room_is_dark_but_for_its_windows() {
         let map = CubeMap::from_fn(128, 1, |direction| Procedural::Windows.radiance(direction));
-        let greens: Vec<_> = map.mips()[0]
-            .faces
-            .iter()
-            .flatten()
-            .map(|texel| texel[1].to_f64())
-            .collect();
+        let greens: Vec<_> = map.mips()[0].faces.iter().flatten().map(|texel| texel[1].to_f64()).collect();
         let share = |test: &dyn Fn(f64) -> bool| {
             greens.iter().filter(|&&green| test(green)).count() as f64 / greens.len() as f64
         };
-        assert!(
-            share(&|green| green < 0.1) > 0.6,
-            "dark {}",
-            share(&|green| green < 0.1)
-        );
+        assert!(share(&|green| green < 0.1) > 0.6, "dark {}", share(&|green| green < 0.1));
         let bright = share(&|green| green > 5.0);
         assert!((0.03..0.25).contains(&bright), "bright {bright}");
         assert!(greens.iter().all(|&green| green < 16.0));

@@ -37,14 +37,7 @@ mod tests {
 
     #[test]
     fn steps_and_bells_have_their_ends() {
-        assert_eq!(
-            [
-                smoothstep(1.0, 3.0, 0.0),
-                smoothstep(1.0, 3.0, 2.0),
-                smoothstep(1.0, 3.0, 9.0)
-            ],
-            [0.0, 0.5, 1.0]
-        );
+        assert_eq!([smoothstep(1.0, 3.0, 0.0), smoothstep(1.0, 3.0, 2.0), smoothstep(1.0, 3.0, 9.0)], [0.0, 0.5, 1.0]);
         assert_eq!(smoothstep(3.0, 1.0, 1.0), 1.0);
         assert_eq!(bell(0.0, 2.0), 1.0);
         assert!(bell(8.0, 2.0) < 4e-4);

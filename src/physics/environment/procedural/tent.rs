@@ -49,11 +49,7 @@ struct Seam {
 
 impl Seam {
     fn new((azimuth_deg, half_width, depth): (f64, f64, f64)) -> Self {
-        Self {
-            towards: DVec2::from_angle(azimuth_deg.to_radians()),
-            half_width,
-            depth,
-        }
+        Self { towards: DVec2::from_angle(azimuth_deg.to_radians()), half_width, depth }
     }
 
     /// How much the seam darkens the cloth; it ends before the floor and fades into the roof.
@@ -84,13 +80,7 @@ impl Softbox {
         let (sin_elevation, cos_elevation) = elevation_deg.to_radians().sin_cos();
         let towards = (cos_elevation * level).extend(sin_elevation);
         let right = level.perp().extend(0.0);
-        Self {
-            towards,
-            right,
-            up: towards.cross(right),
-            half_size,
-            radiance,
-        }
+        Self { towards, right, up: towards.cross(right), half_size, radiance }
     }
 
     fn radiance(&self, direction: DVec3) -> DVec3 {

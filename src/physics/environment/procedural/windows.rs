@@ -91,11 +91,7 @@ pub(super) fn radiance(direction: DVec3) -> DVec3 {
 /// Where a ray from the bubble meets the room.
 fn room_hit(direction: DVec3) -> DVec3 {
     let reach = |towards: f64, low: f64, high: f64| {
-        if towards.abs() < 1e-12 {
-            f64::INFINITY
-        } else {
-            (if towards > 0.0 { high } else { low }) / towards
-        }
+        if towards.abs() < 1e-12 { f64::INFINITY } else { (if towards > 0.0 { high } else { low }) / towards }
     };
     let x = reach(direction.x, ROOM_MIN.x, ROOM_MAX.x);
     let y = reach(direction.y, ROOM_MIN.y, ROOM_MAX.y);
@@ -166,11 +162,7 @@ impl Window {
         let glass = across(0) * across(1);
         // Bars stand against the light: only a little of it creeps round them.
         let painted = behind.lerp(0.16 * self.sky, frame);
-        if glass > 0.0 {
-            painted.lerp(outside(direction) * self.sky, glass)
-        } else {
-            painted
-        }
+        if glass > 0.0 { painted.lerp(outside(direction) * self.sky, glass) } else { painted }
     }
 }
 

@@ -7,8 +7,8 @@ use std::{
 
 use glam::DVec3;
 
+use super::{InputError, read_environment, read_text};
 use crate::{
-    input::{self, InputError},
     physics::{
         colour::{Illuminant, UnknownIlluminant},
         environment::{CubeMap, Procedural},
@@ -58,16 +58,19 @@ pub fn load_scene(name: &str) -> Result<LoadedScene, LoadError> {
     let (scene, folder) = match preset(name) {
         Some(scene) => (scene, PathBuf::new()),
         None if !path.exists() && path.extension().is_none() => {
-            return Err(LoadError::NoSuchScene { name: name.to_owned(), presets: preset_names().collect::<Vec<_>>().join(", ") });
+            return Err(LoadError::NoSuchScene {
+                name: name.to_owned(),
+                presets: preset_names().collect::<Vec<_>>().join(", "),
+            });
         }
         None => {
-            let text = input::read_text(path)?;
+            let text = read_text(path)?;
             (Scene::from_toml(&text, name)?, path.parent().map(Path::to_owned).unwrap_or_default())
         }
     };
     let resources = Resources {
         environment: load_environment(&scene.light, &folder)?,
-        illuminant: Arc::new(Illuminant::named(&scene.light.illuminant)?),
+        illuminant: Arc::new(scene.light.illuminant.parse::<Illuminant>()?),
     };
     Ok(LoadedScene { scene, name: name.to_owned(), folder, resources })
 }
@@ -78,7 +81,7 @@ pub fn load_environment(light: &Light, folder: &Path) -> Result<Arc<CubeMap>, Lo
         _ if light.constant.is_some() => CubeMap::constant(DVec3::ONE),
         Environment::Tent => CubeMap::from_procedural(Procedural::Tent),
         Environment::Windows => CubeMap::from_procedural(Procedural::Windows),
-        Environment::File(path) => CubeMap::from_equirect(&input::load_environment(&folder.join(path))?),
+        Environment::File(path) => CubeMap::from_equirect(&read_environment(&folder.join(path))?),
     };
     Ok(Arc::new(map))
 }

@@ -1,0 +1,69 @@
+//! Pictures as the program makes them, into the file that their kind goes to.
+
+use std::path::Path;
+
+use glam::Vec3;
+
+use super::{ExrPicture, ExrPrimaries, Metadata, OutputError, PngPicture, write_atomically};
+use crate::physics::colour::bt2020_to_bt709;
+
+/// A finished picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Picture {
+    /// What a display shows: rows of gamma-encoded sRGB and alpha from the top left.
+    Display {
+        /// Width and height in pixels.
+        size: [u32; 2],
+        /// 4 · width · height bytes.
+        rgba: Vec<u8>,
+    },
+    /// Scene radiance in linear BT.709, rows from the top left.
+    Radiance {
+        /// Width and height in pixels.
+        size: [u32; 2],
+        /// Width · height pixels.
+        rgb: Vec<[f32; 3]>,
+    },
+}
+
+impl Picture {
+    /// Scene radiance from linear BT.2020 with a fourth number that means nothing.
+    #[must_use]
+    pub fn radiance_from_bt2020(size: [u32; 2], rgba: &[[f32; 4]]) -> Self {
+        let matrix = bt2020_to_bt709();
+        let rgb =
+            rgba.iter().map(|[r, g, b, _]| (matrix * Vec3::new(*r, *g, *b).as_dvec3()).as_vec3().to_array()).collect();
+        Self::Radiance { size, rgb }
+    }
+
+    /// Writes a PNG of what a display shows, or an EXR of radiance.
+    ///
+    /// # Errors
+    /// Those of [`write_atomically`].
+    pub fn save(&self, path: &Path, metadata: &Metadata) -> Result<(), OutputError> {
+        match self {
+            Self::Display { size: [width, height], rgba } => {
+                PngPicture { width: *width, height: *height, rgba, metadata }.save(path)
+            }
+            Self::Radiance { size: [width, height], rgb } => {
+                let picture = ExrPicture {
+                    width: *width as usize,
+                    height: *height as usize,
+                    channels: ["R", "G", "B"],
+                    pixels: rgb,
+                    primaries: Some(ExrPrimaries::Bt709),
+                    metadata,
+                };
+                picture.save(path)
+            }
+        }
+    }
+}
+
+/// Writes a text file, whole or not at all.
+///
+/// # Errors
+/// Those of [`write_atomically`].
+pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
+    write_atomically(path, |writer| std::io::Write::write_all(writer, text.as_bytes()))
+}
