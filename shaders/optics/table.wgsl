@@ -1,6 +1,7 @@
-// The lookup table's axes, both ways. Columns are sqrt(cos theta), which resolves grazing angles; rows are
-// v = d cos_t, the path that interference depends on, so that fringes run along columns at every angle.
-// The first and last texel centres sit exactly on the ends of the range: no film (v = 0) is a row of exact zeros.
+// The lookup table's axes, both ways. Columns are sqrt(cos theta), which resolves grazing angles; rows follow the path d cos_t
+// that interference depends on, so that fringes run along columns at every angle. Rows are three times denser at no film than in
+// the middle, for there the reflectance starts as a parabola from black, and the eye sees small errors best in the dark.
+// The first and last texel centres sit exactly on the ends of the range: no film is a row of exact zeros.
 
 // What a table spans. Mirrors `TableAxes` in src/gpu/bake_table.rs.
 struct TableAxes {
@@ -14,6 +15,19 @@ struct TableAxes {
 
 import package::optics::airy::cos_refracted;
 
+// How much of the rows' spacing is even: part v of the longest path is at part t of the rows with v = t (t + EVEN) / (1 + EVEN).
+const EVEN: f32 = 0.5;
+
+fn path_of_row(t: f32) -> f32 {
+    return t * (t + EVEN) / (1.0 + EVEN);
+}
+
+// Inverse of path_of_row, in the form that does not cancel near zero.
+fn row_of_path(v: f32) -> f32 {
+    let scaled = (1.0 + EVEN) * v;
+    return 2.0 * scaled / (EVEN + sqrt(EVEN * EVEN + 4.0 * scaled));
+}
+
 struct FilmPoint {
     cos_theta: f32,
     thickness_nm: f32,
@@ -23,13 +37,13 @@ struct FilmPoint {
 fn film_of_texel(axes: TableAxes, texel: vec2f) -> FilmPoint {
     let u = texel.x / (axes.size.x - 1.0);
     let cos_theta = u * u;
-    let path_nm = axes.max_thickness_nm * texel.y / (axes.size.y - 1.0);
+    let path_nm = axes.max_thickness_nm * path_of_row(texel.y / (axes.size.y - 1.0));
     return FilmPoint(cos_theta, path_nm / cos_refracted(axes.index, cos_theta));
 }
 
 // Texture coordinates of a film: the inverse of film_of_texel.
 fn table_coordinates(axes: TableAxes, film: FilmPoint) -> vec2f {
     let path_nm = film.thickness_nm * cos_refracted(axes.index, film.cos_theta);
-    let texel = vec2f(sqrt(film.cos_theta), path_nm / axes.max_thickness_nm) * (axes.size - 1.0);
+    let texel = vec2f(sqrt(film.cos_theta), row_of_path(path_nm / axes.max_thickness_nm)) * (axes.size - 1.0);
     return (texel + 0.5) / axes.size;
 }
