@@ -6,13 +6,11 @@ import package::light::environment::{Light, backdrop_radiance, environment_radia
 import package::optics::film_colour::{Polarised, film_colour};
 import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{product, scaled, sum, transmitted, unpolarised};
-import package::sphere::cubed::{HALO, locate, padded_index};
+import package::sphere::cubed::{HALO, locate};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
 // 1: the film has one thickness everywhere, and no field is read.
 override UNIFORM_FILM: u32;
-// 1: a plain mirror-like sphere with a single filtered environment lookup, the yardstick of the frame's cost.
-override YARDSTICK: u32;
 // Samples along each side of a pixel: 1, or more for bubbles of a few pixels, whose film is finer than a pixel.
 override SAMPLES: u32;
 
@@ -36,13 +34,17 @@ struct Bubble {
 @group(0) @binding(5) var<uniform> axes: TableAxes;
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;
-@group(0) @binding(8) var<storage, read> film: array<f32>;
+@group(0) @binding(8) var film: texture_2d_array<f32>;
 
 @vertex
 fn bounding_quad(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     let x = select(bubble.bounds.x, bubble.bounds.z, (index & 1u) == 1u);
     let y = select(bubble.bounds.y, bubble.bounds.w, (index >> 1u) == 1u);
     return vec4f(x, y, 0.0, 1.0);
+}
+
+fn film_texel(texel: vec2i, panel: u32) -> f32 {
+    return textureLoad(film, texel, panel, 0).r;
 }
 
 // Thickness at a point of the unit sphere, bilinear between cell centres.
@@ -53,9 +55,11 @@ fn thickness_nm(direction: vec3f) -> f32 {
     let at = locate(direction, bubble.cells);
     let base = floor(at.cell);
     let t = at.cell - base;
-    let low = padded_index(at.panel, i32(base.x), i32(base.y), bubble.cells);
-    let high = low + bubble.cells + 2u * HALO;
-    return mix(mix(film[low], film[low + 1u], t.x), mix(film[high], film[high + 1u], t.x), t.y);
+    // Weighted here: filtering hardware has only 8 bits for its weights, and need not filter this format at all.
+    let first = vec2i(base) + i32(HALO);
+    let low = mix(film_texel(first, at.panel), film_texel(first + vec2i(1, 0), at.panel), t.x);
+    let high = mix(film_texel(first + vec2i(0, 1), at.panel), film_texel(first + vec2i(1, 1), at.panel), t.x);
+    return mix(low, high, t.y);
 }
 
 fn wall(point: vec3f, cos_theta: f32) -> Polarised {
@@ -113,22 +117,19 @@ fn outer_radiance(path: Path) -> vec3f {
     let point = path.foot - path.cos_theta * path.direction;
     let v0 = path.direction + 2.0 * path.cos_theta * point;
     let mirrored = surroundings(v0, footprint(path, v0, 2.0));
-    if (YARDSTICK == 1u) {
-        return mirrored;
-    }
     let front = wall(point, path.cos_theta);
     let inside = inner_radiance(path, path.foot + path.cos_theta * path.direction);
     return unpolarised(sum(scaled(front, mirrored), product(transmitted(front), inside)));
 }
 
-// Radiance of the bubble along the ray through a picture position whose ray is known to meet the sphere.
-fn bubble_radiance(direction: vec3f) -> vec3f {
+// Geometry of a view ray that meets the sphere.
+fn path_along(direction: vec3f) -> Path {
     let eye = (view.eye_m - bubble.centre_m) / bubble.radius_m;
     let foot = eye - dot(eye, direction) * direction;
     let cos_theta = sqrt(max(1.0 - dot(foot, foot), 0.0));
     let distance = length(eye);
     let cos_view = abs(dot(eye, direction)) / distance;
-    let path = Path(
+    return Path(
         direction,
         foot,
         cos_theta,
@@ -136,8 +137,13 @@ fn bubble_radiance(direction: vec3f) -> vec3f {
         distance * cos_view / max(cos_theta, 1e-3),
         length(foot) / distance,
     );
-    if (distance <= 1.0) {
-        return unpolarised(inner_radiance(path, foot + cos_theta * direction));
+}
+
+// Radiance of the bubble along the ray through a picture position whose ray is known to meet the sphere.
+fn bubble_radiance(direction: vec3f) -> vec3f {
+    let path = path_along(direction);
+    if (distance(view.eye_m, bubble.centre_m) <= bubble.radius_m) {
+        return unpolarised(inner_radiance(path, path.foot + path.cos_theta * direction));
     }
     return outer_radiance(path);
 }
@@ -146,15 +152,15 @@ fn bubble_radiance(direction: vec3f) -> vec3f {
 fn sample_radiance(position: vec2f, width: f32) -> vec3f {
     let plane = view_plane(view, position);
     let edge = silhouette(view, bubble.centre_m, bubble.radius_m, plane, width);
-    let ray = normalize(plane);
-    if (edge.coverage >= 1.0) {
-        return bubble_radiance(ray);
+    var radiance = vec3f(0.0);
+    if (edge.coverage > 0.0) {
+        radiance = bubble_radiance(edge.inside);
     }
-    let behind = backdrop(ray, pixel_angle(view, ray));
-    if (edge.coverage <= 0.0) {
-        return behind;
+    if (edge.coverage < 1.0) {
+        let ray = normalize(plane);
+        radiance = mix(backdrop(ray, pixel_angle(view, ray)), radiance, edge.coverage);
     }
-    return mix(behind, bubble_radiance(edge.inside), edge.coverage);
+    return radiance;
 }
 
 @fragment
@@ -170,4 +176,19 @@ fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
         total += sample_radiance(corner + offset, width);
     }
     return vec4f(total * width * width, 1.0);
+}
+
+// The yardstick of the frame's cost: a plain mirror with one filtered environment lookup.
+@fragment
+fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let plane = view_plane(view, position.xy);
+    let edge = silhouette(view, bubble.centre_m, bubble.radius_m, plane, 1.0);
+    let behind = backdrop(normalize(plane), view.pixel_height);
+    if (edge.coverage <= 0.0) {
+        return vec4f(behind, 1.0);
+    }
+    let path = path_along(edge.inside);
+    let point = path.foot - path.cos_theta * path.direction;
+    let mirrored = path.direction + 2.0 * path.cos_theta * point;
+    return vec4f(mix(behind, surroundings(mirrored, footprint(path, mirrored, 2.0)), edge.coverage), 1.0);
 }

@@ -5,7 +5,7 @@ import package::camera::view::View;
 struct Silhouette {
     // Part of the sample's square inside the outline, 0 to 1.
     coverage: f32,
-    // Unit ray through the middle of the covered part.
+    // Unit ray through the middle of the covered part: the sample itself where it is covered whole.
     inside: vec3f,
 }
 
@@ -37,9 +37,12 @@ fn silhouette(view: View, centre_m: vec3f, radius_m: f32, plane: vec3f, width: f
     let pixel = max(length(rate), 1e-12) * width;
     let depth = inward / pixel + 0.5;
     let coverage = clamp(depth, 0.0, 1.0);
+    if (coverage >= 1.0) {
+        return Silhouette(1.0, ray);
+    }
     // A partly covered sample is shaded at the middle of what it covers, half of `depth` inside the outline.
     let limb = sin_limb * outward + cos_limb * to_centre;
-    let step_in = (0.5 * coverage * pixel);
+    let step_in = 0.5 * coverage * pixel;
     let inside = normalize(limb - step_in * (cos_limb * outward - sin_limb * to_centre));
     return Silhouette(coverage, inside);
 }

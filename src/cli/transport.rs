@@ -10,7 +10,7 @@ use serde_json::json;
 
 use super::{AdapterArguments, parse};
 use crate::{
-    gpu::{Gpu, GpuError, advance_map::Step, film::Field, timing::Recorder},
+    gpu::{Gpu, GpuError, advance_map::Step, film::Field, readback::Readback, timing::Recorder},
     output::write_text,
     physics::{
         sphere::CubedSphere,
@@ -213,9 +213,10 @@ impl Case {
         let per_step = |ms: f64| ms / self.steps.max(1) as f64;
         let (cpu_ms, wall_ms) = (cpu.elapsed().as_secs_f64() * 1e3, wall.elapsed().as_secs_f64() * 1e3);
         let mut recorder = Recorder::new(gpu);
-        field.show(&mut recorder, None)?;
+        let tracer = field.thickness(&mut recorder, None)?;
         recorder.submit(&Default::default());
-        let padded: Vec<f32> = bytemuck::pod_collect_to_vec(&field.read_shown(gpu).wait(gpu)?);
+        let padded: Vec<f32> =
+            bytemuck::pod_collect_to_vec(&Readback::of_buffer(gpu, tracer, tracer.size()).wait(gpu)?);
         let values = field.inner(&padded).into_iter().map(f64::from).collect();
         Ok(Moved {
             values,

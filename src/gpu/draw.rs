@@ -7,6 +7,7 @@ use super::{
     Gpu, GpuError,
     bake_table::{Table, table_sampler},
     environment::{Environment, texel_angle},
+    film::no_film,
     pipelines::RenderKey,
     timing::Recorder,
 };
@@ -78,7 +79,7 @@ pub struct DrawInputs<'a> {
     /// The table.
     pub table: Option<&'a Table>,
     /// Shown thickness of a film, by its index.
-    pub thickness: &'a dyn Fn(usize) -> Option<&'a wgpu::Buffer>,
+    pub film: &'a dyn Fn(usize) -> Option<wgpu::TextureView>,
 }
 
 /// Pixels that one submission draws at most, so that none runs long.
@@ -120,20 +121,20 @@ impl DrawPass {
         let mut pass = Self { backdrop: (pipeline, bindings), bubbles: Vec::new(), width: key.size[0] };
         let Some(table) = inputs.table else { return Ok(pass) };
         let sampler = table_sampler(gpu);
-        // Where the film is uniform no field is read, and any small buffer will do.
-        let no_field = gpu.buffer("no field", 4, wgpu::BufferUsages::STORAGE);
         for bubble in &key.bubbles {
             let pipeline = gpu.pipelines.render(gpu, &bubble_pipeline(key, bubble))?;
             let uniform = gpu.uniform("bubble", &bubble_uniform(bubble));
-            let film = (inputs.thickness)(bubble.index).unwrap_or(&no_field);
+            let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film(gpu));
             let own = [
                 uniform.as_entire_binding(),
                 table.axes.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&table.view),
                 wgpu::BindingResource::Sampler(&sampler),
-                film.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&film),
             ];
-            let resources: Vec<_> = shared.iter().chain(&own).cloned().collect();
+            // The yardstick reads no film: its layout ends with the bubble itself.
+            let own = if key.yardstick { &own[..1] } else { &own[..] };
+            let resources: Vec<_> = shared.iter().chain(own).cloned().collect();
             let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &resources);
             pass.bubbles.push((pipeline, bindings));
         }
@@ -188,13 +189,9 @@ fn bubble_pipeline(key: &DrawKey, bubble: &BubbleKey) -> RenderKey {
     RenderKey {
         pass: "bubble",
         vertex: "bounding_quad",
-        fragment: "shade",
+        fragment: if key.yardstick { "shade_mirror" } else { "shade" },
         format: radiance_format(key.full_precision),
-        constants: vec![
-            ("UNIFORM_FILM", u32::from(uniform)),
-            ("YARDSTICK", u32::from(key.yardstick)),
-            ("SAMPLES", bubble.samples),
-        ],
+        constants: vec![("UNIFORM_FILM", u32::from(uniform)), ("SAMPLES", bubble.samples)],
     }
 }
 

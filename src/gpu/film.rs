@@ -11,7 +11,6 @@ use super::{
     Gpu, GpuError,
     advance_map::{MapBuffers, Step, advance_map},
     pipelines::ComputeKey,
-    readback::Readback,
     timing::Recorder,
 };
 use crate::physics::sphere::{CubedSphere, HALO, HaloEntry, HaloTable};
@@ -25,6 +24,9 @@ pub struct GridUniform {
     pad: [u32; 3],
 }
 
+/// Name of the passes that make a film ready to be drawn.
+const SHOW: &str = "show_field";
+
 /// A film's field.
 pub struct Field {
     sphere: CubedSphere,
@@ -37,8 +39,8 @@ pub struct Field {
     map_is_identity: bool,
     /// The tracer of the last remap, and where the next remap goes.
     tracer: [wgpu::Buffer; 2],
-    /// What the picture reads.
-    shown: wgpu::Buffer,
+    /// What pictures read: a layer a panel, halo included.
+    film: wgpu::Texture,
 }
 
 struct HaloList {
@@ -64,7 +66,7 @@ impl Field {
             map: ["map", "next map"].map(|label| gpu.buffer(label, padded * 16, usage)),
             map_is_identity: true,
             tracer: ["tracer", "next tracer"].map(|label| gpu.buffer(label, padded * 4, usage)),
-            shown: gpu.buffer("thickness", padded * 4, usage),
+            film: film_texture(gpu, sphere.padded_width() as u32),
         }
     }
 
@@ -74,10 +76,10 @@ impl Field {
         self.sphere.n() as u32
     }
 
-    /// Thickness in nm in padded storage, halo included: what pictures read.
+    /// Thickness in nm as it was last shown, a layer a panel, halo included.
     #[must_use]
-    pub fn shown(&self) -> &wgpu::Buffer {
-        &self.shown
+    pub fn film(&self) -> wgpu::TextureView {
+        film_view(&self.film)
     }
 
     /// Sets the tracer, in the grid's order of cells, and forgets all motion.
@@ -115,18 +117,32 @@ impl Field {
 
     /// Makes the thickness ready to be drawn, a part of a step ahead of the state if one is given. The state stays.
     pub fn show(&self, recorder: &mut Recorder<'_>, ahead: Option<&Step>) -> Result<(), GpuError> {
-        let name = "show_field";
-        if let Some(step) = ahead {
-            self.advance_into_spare(recorder, name, step)?;
-            self.sample(recorder, name, &self.map[1], &self.shown)?;
-        } else if self.map_is_identity {
-            let size = self.shown.size();
-            recorder.encoder().copy_buffer_to_buffer(&self.tracer[0], 0, &self.shown, 0, size);
-            return Ok(());
-        } else {
-            self.sample(recorder, name, &self.map[0], &self.shown)?;
-        }
-        fill_halo(recorder, &self.halo, name, HaloOf::Tracer(&self.shown))
+        let thickness = self.thickness(recorder, ahead)?;
+        let gpu = recorder.gpu;
+        let pipeline =
+            gpu.pipelines.compute(gpu, &ComputeKey { pass: "pack_film", entry: "pack_film", constants: vec![] })?;
+        let bindings = gpu.bind(
+            &pipeline.get_bind_group_layout(0),
+            &[thickness.as_entire_binding(), wgpu::BindingResource::TextureView(&self.film())],
+        );
+        let side = self.film.width();
+        recorder.dispatch(SHOW, &pipeline, &bindings, [side.div_ceil(64), side, 6]);
+        Ok(())
+    }
+
+    /// The thickness in padded storage, a part of a step ahead of the state if one is given. The buffer holds it until the next step.
+    pub fn thickness(&self, recorder: &mut Recorder<'_>, ahead: Option<&Step>) -> Result<&wgpu::Buffer, GpuError> {
+        let map = match ahead {
+            Some(step) => {
+                self.advance_into_spare(recorder, SHOW, step)?;
+                &self.map[1]
+            }
+            None if self.map_is_identity => return Ok(&self.tracer[0]),
+            None => &self.map[0],
+        };
+        self.sample(recorder, SHOW, map, &self.tracer[1])?;
+        fill_halo(recorder, &self.halo, SHOW, HaloOf::Tracer(&self.tracer[1]))?;
+        Ok(&self.tracer[1])
     }
 
     fn sample(
@@ -154,12 +170,6 @@ impl Field {
         }
     }
 
-    /// Starts to bring the shown thickness back; [`Field::inner`] picks the cells from what arrives.
-    #[must_use]
-    pub fn read_shown(&self, gpu: &Gpu) -> Readback {
-        Readback::of_buffer(gpu, &self.shown, self.shown.size())
-    }
-
     /// The cells of padded storage, in the grid's order.
     #[must_use]
     pub fn inner(&self, padded: &[f32]) -> Vec<f32> {
@@ -180,6 +190,32 @@ impl Field {
         let (panel, i, j) = self.sphere.cell(cell);
         self.sphere.padded_index(panel, i as isize, j as isize)
     }
+}
+
+/// An empty film for pictures that read none.
+#[must_use]
+pub fn no_film(gpu: &Gpu) -> wgpu::TextureView {
+    film_view(&film_texture(gpu, 1))
+}
+
+fn film_texture(gpu: &Gpu, side: u32) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("film"),
+        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 6 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::R32Float,
+        usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    })
+}
+
+fn film_view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
 }
 
 /// tan(α) of each cell coordinate of an edge, halo included, rounded once from f64.

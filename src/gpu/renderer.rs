@@ -243,8 +243,8 @@ impl Renderer {
             .environment
             .get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant(DVec3::ZERO)));
         let fields = &self.products.fields;
-        let thickness = |film: usize| fields.get(film).and_then(Option::as_ref).map(Field::shown);
-        let inputs = DrawInputs { environment, table: self.products.table.as_ref(), thickness: &thickness };
+        let film = |film: usize| fields.get(film).and_then(Option::as_ref).map(Field::film);
+        let inputs = DrawInputs { environment, table: self.products.table.as_ref(), film: &film };
         let pass = DrawPass::new(&self.gpu, key, &inputs)?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);

@@ -28,6 +28,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "pass/bake_table",
     "pass/bubble",
     "pass/fill_halo",
+    "pass/pack_film",
     "pass/probe_colour",
     "pass/sample_tracer",
     "pass/tonemap",
