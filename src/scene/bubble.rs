@@ -55,8 +55,8 @@ impl Default for Film {
     fn default() -> Self {
         Self {
             state: FilmStateName::Rest,
-            thickness_nm: 550.0,
-            stratification: 0.6,
+            thickness_nm: 580.0,
+            stratification: 0.7,
             index: FilmIndexName::Water,
             seed: 1,
             cells: 256,

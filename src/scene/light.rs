@@ -89,7 +89,7 @@ pub struct View {
 
 impl Default for View {
     fn default() -> Self {
-        Self { exposure_ev: 0.0, backdrop: Backdrop::Radiance([0.004, 0.004, 0.005]), dither: true, dither_seed: 0 }
+        Self { exposure_ev: 1.5, backdrop: Backdrop::Radiance([0.0012, 0.0012, 0.0016]), dither: true, dither_seed: 0 }
     }
 }
 

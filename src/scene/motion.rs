@@ -26,7 +26,7 @@ pub struct Motion {
 
 impl Default for Motion {
     fn default() -> Self {
-        Self { tick_s: 1.0 / 60.0, flow: Flow::Draught, strength: 1.0, seed: 1, remap_ticks: 20, speed: 1.0 }
+        Self { tick_s: 1.0 / 60.0, flow: Flow::Stirred, strength: 0.5, seed: 1, remap_ticks: 20, speed: 1.0 }
     }
 }
 

@@ -8,7 +8,7 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 11] = presets![
+const PRESETS: [(&str, &str); 10] = presets![
     "default",
     "fresh",
     "bands",
@@ -16,7 +16,6 @@ const PRESETS: [(&str, &str); 11] = presets![
     "windows",
     "bright",
     "lamplight",
-    "family",
     "inside",
     "far",
     "furnace",
