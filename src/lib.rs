@@ -18,6 +18,8 @@
 
 #![warn(missing_docs)]
 
+#[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
+pub mod app;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;
 pub mod gpu;

@@ -123,8 +123,8 @@ fn one_line(text: &str) -> String {
 
 #[cfg(feature = "gui")]
 fn open_window(arguments: &AppArguments) -> anyhow::Result<()> {
-    let _ = arguments;
-    anyhow::bail!("later")
+    let scene = arguments.scene.as_deref().unwrap_or("default");
+    Ok(crate::app::run(crate::input::load_scene(scene)?, &arguments.adapter.choice())?)
 }
 
 #[cfg(not(feature = "gui"))]

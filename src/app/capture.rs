@@ -1,0 +1,60 @@
+//! Saving the picture: drawn once more in full, brought back without waiting, and written by a worker.
+
+use std::path::PathBuf;
+
+use super::{files::Files, model::Model};
+use crate::{
+    gpu::{Gpu, GpuError, Renderer, readback::Readback},
+    output::{Metadata, Picture},
+    plan::{Pace, Shot, want},
+};
+
+/// A picture on its way from the device to a file.
+pub struct Capture {
+    readback: Readback,
+    size: [u32; 2],
+    radiance: bool,
+    path: PathBuf,
+    metadata: Metadata,
+}
+
+impl Capture {
+    /// Draws the model's moment in full, and starts to bring it back: radiance, or what people see.
+    pub fn begin(
+        renderer: &mut Renderer,
+        model: &Model,
+        size: [u32; 2],
+        radiance: bool,
+        path: PathBuf,
+    ) -> Result<Self, String> {
+        let moment = model.clock.moment(&model.scene.motion);
+        let shot = Shot { size, moment, full_precision: radiance, yardstick: false, pace: Pace::Whole };
+        let want = want(&model.scene, &model.resources, &shot).map_err(|error| error.to_string())?;
+        renderer.bring(&want).map_err(|error| error.to_string())?;
+        let readback = if radiance { renderer.read_radiance() } else { renderer.read_picture() };
+        let readback = readback.ok_or("there is no picture to save yet")?;
+        Ok(Self { readback, size, radiance, path, metadata: metadata(model) })
+    }
+
+    /// Hands the picture to a worker once it has arrived; tells whether it is still on its way.
+    pub fn poll(&self, gpu: &Gpu, files: &Files) -> Result<bool, GpuError> {
+        gpu.device.poll(wgpu::PollType::Poll).map_err(|error| GpuError::Lost(error.to_string()))?;
+        let Some(bytes) = self.readback.try_take() else { return Ok(true) };
+        let (bytes, size, radiance) = (bytes?, self.size, self.radiance);
+        files.save_picture(self.path.clone(), self.metadata.clone(), move || {
+            if radiance {
+                Picture::radiance_from_bt2020(size, &bytemuck::pod_collect_to_vec(&bytes))
+            } else {
+                Picture::Display { size, rgba: bytes }
+            }
+        });
+        Ok(false)
+    }
+}
+
+fn metadata(model: &Model) -> Metadata {
+    Metadata::new()
+        .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
+        .with("Scene", &model.name)
+        .with("Time", &format!("{} s", model.clock.time_s(&model.scene.motion)))
+}

@@ -1,0 +1,236 @@
+//! Work that takes long, on threads of its own, so that the window never freezes: dialogs, loading, saving.
+
+use std::{
+    future::Future,
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        mpsc::{Receiver, Sender, channel},
+    },
+    time::{Duration, Instant},
+};
+
+use super::model::{Model, Target};
+use crate::{
+    input::{LoadedScene, load_environment, load_scene},
+    output::{Metadata, Picture, write_text},
+    physics::{colour::Illuminant, environment::CubeMap},
+    plan::Resources,
+    scene::Light,
+};
+
+/// A dialog that ends sooner than this without an answer was never seen.
+const UNSEEN: Duration = Duration::from_millis(250);
+
+/// What came of a piece of work.
+enum Outcome {
+    Scene(Box<LoadedScene>),
+    Light(Box<Light>, Resources),
+    Chosen(Target, PathBuf),
+    Done(String),
+    Failed(String),
+    Nothing,
+}
+
+/// What dialogs and workers have brought that the window must see to.
+#[derive(Debug, PartialEq)]
+pub enum Arrival {
+    /// Another scene is in the model.
+    Scene,
+    /// A file was chosen.
+    Chosen(Target, PathBuf),
+}
+
+/// The workers.
+pub struct Files {
+    wake: Arc<dyn Fn() + Send + Sync>,
+    sender: Sender<(u64, Outcome)>,
+    receiver: Receiver<(u64, Outcome)>,
+    /// The load that counts; what older ones bring is dropped.
+    load: u64,
+}
+
+impl Files {
+    /// No work yet. `wake` is called from other threads whenever something has arrived.
+    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+        let (sender, receiver) = channel();
+        Self { wake: Arc::new(wake), sender, receiver, load: 0 }
+    }
+
+    /// Loads a scene by its path or a preset's name.
+    pub fn load_scene(&mut self, model: &mut Model, name: String) {
+        self.begin_load(model, &name);
+        self.run(move || match load_scene(&name) {
+            Ok(scene) => Outcome::Scene(Box::new(scene)),
+            Err(error) => Outcome::Failed(error.to_string()),
+        });
+    }
+
+    /// Loads the environment and illuminant that a light names; they and the light arrive together.
+    pub fn load_light(&mut self, model: &mut Model, light: Light) {
+        self.begin_load(model, "the light");
+        let folder = model.folder.clone();
+        let known = &model.scene.light;
+        let same = (&known.environment, known.constant) == (&light.environment, light.constant);
+        let environment = same.then(|| model.resources.environment.clone());
+        self.run(move || load_light(light, &folder, environment));
+    }
+
+    fn begin_load(&mut self, model: &mut Model, what: &str) {
+        self.load += 1;
+        model.loading = Some(what.to_owned());
+    }
+
+    /// Saves a scene.
+    pub fn save_scene(&self, path: PathBuf, toml: String) {
+        self.run(move || match write_text(&path, &toml) {
+            Ok(()) => Outcome::Done(format!("Saved {}", path.display())),
+            Err(error) => Outcome::Failed(error.to_string()),
+        });
+    }
+
+    /// Saves a picture.
+    pub fn save_picture(&self, path: PathBuf, metadata: Metadata, picture: impl FnOnce() -> Picture + Send + 'static) {
+        self.run(move || match picture().save(&path, &metadata) {
+            Ok(()) => Outcome::Done(format!("Saved {}", path.display())),
+            Err(error) => Outcome::Failed(error.to_string()),
+        });
+    }
+
+    /// Asks for a file. The dialog is made here, on the window's thread, as macOS demands, and waited for on another.
+    pub fn ask(&self, target: Target, model: &Model, window: &winit::window::Window) {
+        let dialog = rfd::AsyncFileDialog::new().set_parent(window).set_directory(model.folder.as_path());
+        let (name, endings) = target.file_type();
+        let dialog = dialog.add_filter(name, endings);
+        if target.is_read() {
+            self.wait_for(target, dialog.pick_file());
+        } else {
+            let stem = Path::new(&model.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
+            self.wait_for(target, dialog.set_file_name(format!("{stem}.{}", endings[0])).save_file());
+        }
+    }
+
+    fn wait_for(&self, target: Target, answer: impl Future<Output = Option<rfd::FileHandle>> + Send + 'static) {
+        let asked = Instant::now();
+        self.run(move || match pollster::block_on(answer) {
+            Some(file) => Outcome::Chosen(target, file.path().to_owned()),
+            None if asked.elapsed() < UNSEEN => Outcome::Failed(
+                "no file dialog could be opened: install xdg-desktop-portal or zenity, or drop files on the window"
+                    .to_owned(),
+            ),
+            None => Outcome::Nothing,
+        });
+    }
+
+    fn run(&self, work: impl FnOnce() -> Outcome + Send + 'static) {
+        let (wake, sender, load) = (self.wake.clone(), self.sender.clone(), self.load);
+        let job = move || {
+            let broken = |_| Outcome::Failed("an internal error stopped the work: please report it".to_owned());
+            let outcome = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(broken);
+            // Nobody listens any more once the window is gone.
+            let _ = sender.send((load, outcome));
+            wake();
+        };
+        if let Err(error) = std::thread::Builder::new().name("soapfilm files".to_owned()).spawn(job) {
+            let failed = Outcome::Failed(format!("no thread could be started: {error}"));
+            let _ = self.sender.send((self.load, failed));
+            (self.wake)();
+        }
+    }
+
+    /// Puts what has arrived into the model, and returns what the window must see to.
+    pub fn collect(&self, model: &mut Model) -> Vec<Arrival> {
+        let arrived: Vec<_> = self.receiver.try_iter().collect();
+        arrived.into_iter().filter_map(|(load, outcome)| self.accept(model, load == self.load, outcome)).collect()
+    }
+
+    fn accept(&self, model: &mut Model, current: bool, outcome: Outcome) -> Option<Arrival> {
+        match outcome {
+            Outcome::Scene(loaded) if current => {
+                model.adopt(*loaded);
+                return Some(Arrival::Scene);
+            }
+            Outcome::Light(light, resources) if current => model.adopt_light(*light, resources),
+            Outcome::Chosen(target, path) => return Some(Arrival::Chosen(target, path)),
+            Outcome::Done(text) => model.messages.note(text),
+            Outcome::Failed(text) => {
+                model.messages.problem(text);
+                model.loading = model.loading.take().filter(|_| !current);
+            }
+            Outcome::Scene(_) | Outcome::Light(..) | Outcome::Nothing => {}
+        }
+        None
+    }
+}
+
+fn load_light(light: Light, folder: &Path, known: Option<Arc<CubeMap>>) -> Outcome {
+    let illuminant = match light.illuminant.parse::<Illuminant>() {
+        Ok(illuminant) => Arc::new(illuminant),
+        Err(error) => return Outcome::Failed(error.to_string()),
+    };
+    match known.map_or_else(|| load_environment(&light, folder), Ok) {
+        Ok(environment) => Outcome::Light(Box::new(light), Resources { environment, illuminant }),
+        Err(error) => Outcome::Failed(error.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{app::model::tests::model, scene::Environment};
+
+    /// Files that tell by a channel when something has arrived.
+    fn files() -> (Files, Receiver<()>) {
+        let (sender, receiver) = channel();
+        (Files::new(move || drop(sender.send(()))), receiver)
+    }
+
+    const PATIENCE: Duration = Duration::from_secs(60);
+
+    #[test]
+    fn a_file_that_fails_says_so_and_changes_nothing() {
+        let ((mut files, arrived), mut model) = (files(), model());
+        let before = model.scene.clone();
+        files.load_scene(&mut model, "/no/such/scene.toml".to_owned());
+        assert!(model.loading.is_some());
+        arrived.recv_timeout(PATIENCE).unwrap();
+        assert_eq!(files.collect(&mut model), []);
+        assert!(model.messages.at(0.0)[0].text.contains("/no/such/scene.toml"));
+        assert_eq!((model.scene, model.loading), (before, None));
+    }
+
+    #[test]
+    fn only_the_latest_load_counts() {
+        let ((mut files, arrived), mut model) = (files(), model());
+        files.load_scene(&mut model, "black".to_owned());
+        files.load_scene(&mut model, "bands".to_owned());
+        for _ in 0..2 {
+            arrived.recv_timeout(PATIENCE).unwrap();
+        }
+        assert_eq!(files.collect(&mut model), [Arrival::Scene]);
+        assert_eq!((model.name.as_str(), model.loading), ("bands", None));
+    }
+
+    #[test]
+    fn a_light_and_what_it_names_arrive_together() {
+        let ((mut files, arrived), mut model) = (files(), model());
+        let before = model.resources.environment.id();
+        let light = Light { environment: Environment::Windows, ..Light::default() };
+        files.load_light(&mut model, light.clone());
+        assert_ne!(model.scene.light, light);
+        arrived.recv_timeout(PATIENCE).unwrap();
+        assert_eq!(files.collect(&mut model), []);
+        assert_eq!(model.scene.light, light);
+        assert_ne!(model.resources.environment.id(), before);
+    }
+
+    #[test]
+    fn work_that_panics_is_a_problem_and_no_crash() {
+        let ((files, arrived), mut model) = (files(), model());
+        files.run(|| panic!("planted"));
+        arrived.recv_timeout(PATIENCE).unwrap();
+        files.collect(&mut model);
+        assert!(model.messages.at(0.0)[0].text.contains("internal error"));
+    }
+}

@@ -1,0 +1,337 @@
+//! One redraw: time, panels, picture, window, and when the next one is due.
+
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use egui::{Rect, ViewportInfo};
+use winit::{event_loop::ActiveEventLoop, window::Window};
+
+#[cfg(debug_assertions)]
+use super::reload::ShaderWatch;
+use super::{
+    AppError,
+    capture::Capture,
+    files::Files,
+    model::{Model, Request},
+    paint::{Contents, Painted},
+    panels,
+    stage::Stage,
+};
+use crate::{
+    gpu::AdapterChoice,
+    plan::{FilmKey, Have, Pace, Plan, Shot, Want, want},
+};
+
+/// Time between two looks at the clock while nothing but its reading changes.
+const READING: Duration = Duration::from_millis(100);
+/// Time until a surface that had no frame is asked again.
+const ASK_AGAIN: Duration = Duration::from_millis(50);
+/// Time between two looks at a picture that is being brought back.
+const FETCH: Duration = Duration::from_millis(8);
+/// Time that a picture rests after it failed: nothing is gained by failing at every frame.
+const REST: Duration = Duration::from_secs(1);
+
+/// The window with all that it needs to draw itself.
+pub struct View {
+    /// The window.
+    pub window: Arc<Window>,
+    /// What the user does, as egui sees it.
+    pub egui: egui_winit::State,
+    /// The device's side.
+    pub stage: Stage,
+    /// Whether the system wants the window drawn anew.
+    pub exposed: bool,
+    /// Size of the picture, pixels.
+    pub picture_size: [u32; 2],
+    choice: AdapterChoice,
+    info: ViewportInfo,
+    captures: Vec<Capture>,
+    last_redraw: Instant,
+    rests_until: Option<Instant>,
+    #[cfg(debug_assertions)]
+    watch: Option<ShaderWatch>,
+}
+
+/// What one redraw found out about when the next is due.
+struct Due {
+    now: Instant,
+    at: Option<Instant>,
+}
+
+impl Due {
+    fn after(&mut self, wait: Duration) {
+        // A wait beyond the end of time is none at all.
+        self.at_latest(self.now.checked_add(wait));
+    }
+
+    fn at_latest(&mut self, instant: Option<Instant>) {
+        self.at = [self.at, instant].into_iter().flatten().min();
+    }
+}
+
+impl View {
+    /// A view on a new window.
+    pub fn new(window: Arc<Window>, egui: egui_winit::State, stage: Stage, choice: AdapterChoice) -> Self {
+        Self {
+            window,
+            egui,
+            stage,
+            exposed: true,
+            picture_size: [1, 1],
+            choice,
+            info: ViewportInfo::default(),
+            captures: Vec::new(),
+            last_redraw: Instant::now(),
+            rests_until: None,
+            #[cfg(debug_assertions)]
+            watch: ShaderWatch::of_source(),
+        }
+    }
+
+    /// Draws what has changed, and returns when there will be more to draw.
+    pub fn redraw(
+        &mut self,
+        event_loop: &ActiveEventLoop,
+        model: &mut Model,
+        files: &Files,
+    ) -> Result<Option<Instant>, AppError> {
+        let size = <[u32; 2]>::from(self.window.inner_size());
+        if size.contains(&0) {
+            return Ok(None);
+        }
+        self.recover(model)?;
+        let mut due = Due { now: Instant::now(), at: None };
+        let first_tick = self.pass_time(model, due.now);
+        let mut output = self.run_panels(event_loop, model, &mut due);
+        let moves = self.draw_picture(model, first_tick, &mut due);
+        self.fetch(model, files, &mut due);
+        self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
+        let painted = self.paint(&mut output, size, moves);
+        self.schedule(model, painted, moves, &mut due);
+        Ok(due.at)
+    }
+
+    /// Lets film time pass, unless the films are behind it; returns the tick before.
+    fn pass_time(&mut self, model: &mut Model, now: Instant) -> u64 {
+        let wall_s = now.duration_since(std::mem::replace(&mut self.last_redraw, now)).as_secs_f64();
+        let first_tick = model.clock.tick;
+        if model.behind_ticks == 0 {
+            model.clock.advance(wall_s, &model.scene.motion);
+        }
+        first_tick
+    }
+
+    fn run_panels(&mut self, event_loop: &ActiveEventLoop, model: &mut Model, due: &mut Due) -> Output {
+        let input = self.egui.take_egui_input(&self.window);
+        let ctx = self.egui.egui_ctx().clone();
+        let mut picture = None;
+        let mut full = ctx.run_ui(input, |ui| picture = Some(panels::show(ui, model)));
+        let platform = std::mem::take(&mut full.platform_output);
+        self.egui.handle_platform_output_with_event_loop(&self.window, event_loop, platform);
+        if let Some(root) = full.viewport_output.get_mut(&egui::ViewportId::ROOT) {
+            let commands = std::mem::take(&mut root.commands);
+            if commands.contains(&egui::ViewportCommand::Close) {
+                model.requests.push(Request::Quit);
+            }
+            // Nothing here asks for screenshots or the clipboard, so no action comes back.
+            egui_winit::process_viewport_commands(&ctx, &mut self.info, commands, &self.window, &mut Vec::new());
+            due.after(root.repaint_delay);
+        }
+        let rect = picture.map_or(Rect::NOTHING, |picture| picture.rect);
+        let (rect, size) =
+            pixel_rect(rect, full.pixels_per_point, self.stage.renderer.gpu.device.limits().max_texture_dimension_2d);
+        self.picture_size = size;
+        if let Some(picture) = picture {
+            model.move_camera(&picture.gesture, f64::from(size[0]) / f64::from(size[1]));
+        }
+        Output { full, rect }
+    }
+
+    /// Brings the picture nearer to what is wanted; tells whether its pixels changed.
+    fn draw_picture(&mut self, model: &mut Model, first_tick: u64, due: &mut Due) -> bool {
+        if self.rests_until.is_some_and(|until| due.now < until) {
+            due.at_latest(self.rests_until);
+            return false;
+        }
+        self.rests_until = None;
+        let moment = model.clock.moment(&model.scene.motion);
+        let shot = Shot { size: self.picture_size, moment, full_precision: false, yardstick: false, pace: Pace::Frame };
+        let brought = want(&model.scene, &model.resources, &shot).map_err(|error| error.to_string()).and_then(|want| {
+            let plan = self.stage.renderer.bring(&want).map_err(|error| error.to_string())?;
+            Ok((want, plan))
+        });
+        match brought {
+            Ok((want, plan)) => {
+                hold_clock(model, &want, self.stage.renderer.have(), first_tick);
+                self.account(model, &plan, due);
+                !plan.is_empty()
+            }
+            Err(text) => {
+                model.messages.problem(text);
+                self.rests_until = Some(due.now + REST);
+                // The message itself is to be shown at once.
+                due.after(Duration::ZERO);
+                false
+            }
+        }
+    }
+
+    fn account(&mut self, model: &mut Model, plan: &Plan, due: &mut Due) {
+        if !plan.complete {
+            due.after(Duration::ZERO);
+        }
+        let renderer = &self.stage.renderer;
+        // Times arrive when the device is polled; one that is lost is found out at the next redraw.
+        let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
+        model.costs.add_passes(renderer.times.take());
+        if !plan.is_empty() {
+            model.costs.add(due.now.elapsed().as_secs_f64() * 1e3, renderer.counts);
+        }
+    }
+
+    fn paint(&mut self, output: &mut Output, size: [u32; 2], moves: bool) -> Painted {
+        let Stage { renderer, surface, painter } = &mut self.stage;
+        let contents = Contents {
+            shapes: std::mem::take(&mut output.full.shapes),
+            picture: renderer.picture().map(|view| (view, output.rect)),
+            is_new: std::mem::take(&mut self.exposed) || moves,
+            size,
+            pixels_per_point: output.full.pixels_per_point,
+        };
+        painter.paint(&renderer.gpu, surface, self.egui.egui_ctx(), contents)
+    }
+
+    fn schedule(&mut self, model: &Model, painted: Painted, moves: bool, due: &mut Due) {
+        if let Some(wait_s) = model.clock.until_next_s(&model.scene.motion) {
+            let wait = Duration::from_secs_f64(wait_s);
+            due.after(if moves { wait } else { wait.max(READING) });
+        }
+        #[cfg(debug_assertions)]
+        due.at_latest(self.watch.as_ref().map(ShaderWatch::next));
+        match painted {
+            Painted::Done => {}
+            Painted::Later => due.after(ASK_AGAIN),
+            // The system will say when the window can be seen again.
+            Painted::Hidden => due.at = None,
+        }
+    }
+
+    /// Starts to save the picture.
+    pub fn capture(&mut self, model: &mut Model, radiance: bool, path: std::path::PathBuf) {
+        match Capture::begin(&mut self.stage.renderer, model, self.picture_size, radiance, path) {
+            Ok(capture) => self.captures.push(capture),
+            Err(text) => model.messages.problem(text),
+        }
+    }
+
+    fn fetch(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
+        let gpu = &self.stage.renderer.gpu;
+        self.captures.retain(|capture| {
+            capture.poll(gpu, files).unwrap_or_else(|error| {
+                model.messages.problem(format!("the picture is not saved: {error}"));
+                false
+            })
+        });
+        if !self.captures.is_empty() {
+            due.after(FETCH);
+        }
+    }
+
+    /// Makes everything on the device anew if the device is lost; reads changed shaders.
+    fn recover(&mut self, model: &mut Model) -> Result<(), AppError> {
+        // A loss is told by a callback, which comes when the device is polled.
+        let _ = self.stage.renderer.gpu.device.poll(wgpu::PollType::Poll);
+        if self.stage.renderer.gpu.is_lost() {
+            log::warn!("making everything on the graphics device anew");
+            self.captures.clear();
+            let instance = self.stage.renderer.gpu.instance.clone();
+            self.stage = Stage::new(instance, &self.choice, &self.window, self.egui.egui_ctx())?;
+            self.exposed = true;
+            model.messages.note("The graphics device was lost and has been opened again");
+        }
+        if let Err(error) = self.stage.renderer.gpu.check() {
+            model.messages.problem(error.to_string());
+        }
+        #[cfg(debug_assertions)]
+        self.reload_shaders(model);
+        Ok(())
+    }
+
+    #[cfg(debug_assertions)]
+    fn reload_shaders(&mut self, model: &mut Model) {
+        let Some(folder) = self.watch.as_mut().and_then(|watch| watch.changed(Instant::now())) else { return };
+        let library = crate::gpu::shaders::Library::Directory(folder.to_owned());
+        let renderer = &mut self.stage.renderer;
+        match renderer.gpu.pipelines.reload(&renderer.gpu, library) {
+            Ok(()) => {
+                renderer.forget_picture();
+                model.messages.note("Shaders read again");
+            }
+            Err(error) => model.messages.problem(error.to_string()),
+        }
+    }
+
+    /// Loses the device on purpose, to try out the recovery.
+    #[cfg(debug_assertions)]
+    pub fn lose_device(&self) {
+        self.stage.renderer.gpu.device.destroy();
+    }
+}
+
+/// What the panels left to be painted.
+struct Output {
+    full: egui::FullOutput,
+    rect: Rect,
+}
+
+/// The picture's place on whole pixels, in points, and its size in pixels, at least one and at most what a texture holds.
+fn pixel_rect(rect: Rect, pixels_per_point: f32, most: u32) -> (Rect, [u32; 2]) {
+    let pixels = |points: f32| (points * pixels_per_point).round().clamp(0.0, most as f32);
+    let min = [pixels(rect.min.x), pixels(rect.min.y)];
+    let size = [pixels(rect.max.x) - min[0], pixels(rect.max.y) - min[1]].map(|size| size.max(1.0));
+    let points = |pixels: [f32; 2]| egui::vec2(pixels[0], pixels[1]) / pixels_per_point;
+    (Rect::from_min_size(points(min).to_pos2(), points(size)), size.map(|size| size as u32))
+}
+
+/// Takes back the ticks of this frame that the films did not reach, and notes how far they are behind an edited history.
+fn hold_clock(model: &mut Model, want: &Want, have: &Have, first_tick: u64) {
+    let mut reached = 0;
+    let mut missing = 0;
+    for bubble in &want.picture.draw.bubbles {
+        if let (FilmKey::Field(film), Some(Some(field))) = (&bubble.film, have.fields.get(bubble.index)) {
+            reached = reached.max(field.state.moment.tick);
+            missing = missing.max(film.moment.tick.saturating_sub(field.state.moment.tick));
+        }
+    }
+    if missing > 0 {
+        let wanted = model.clock.tick;
+        model.clock.hold(reached, first_tick);
+        missing = missing.saturating_sub(wanted - model.clock.tick);
+    }
+    model.behind_ticks = missing;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::pos2;
+
+    #[test]
+    fn the_picture_stands_on_whole_pixels() {
+        let rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(971.3, 799.9));
+        let (placed, size) = pixel_rect(rect, 1.25, 8192);
+        assert_eq!(size, [1214, 1000]);
+        assert_eq!((placed.max * 1.25).round(), pos2(1214.0, 1000.0));
+    }
+
+    #[test]
+    fn no_room_is_one_pixel() {
+        for rect in [Rect::NOTHING, Rect::from_min_max(pos2(200.0, 0.0), pos2(150.0, 90.0))] {
+            let (placed, size) = pixel_rect(rect, 1.0, 8192);
+            assert!(size[0] == 1 && size[1] >= 1 && size[1] <= 90, "{size:?}");
+            assert!(placed.is_finite());
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! The history of a scene, as data: what a user changes while time runs becomes an event, so that a saved scene replays it.
+
+use crate::scene::{Change, Event, Flow, MotionChange, Scene};
+
+/// Enters a change of motion at a tick. At tick 0 nothing has happened yet: there it changes how the scene begins.
+pub fn record(scene: &mut Scene, tick: u64, change: MotionChange) {
+    let after = scene.events.partition_point(|event| event.tick <= tick);
+    match scene.events[..after].last_mut() {
+        Some(Event { tick: known, change: Change::Motion(motion) }) if *known == tick => merge(motion, &change),
+        _ if tick == 0 => begin(scene, &change),
+        _ => scene.events.insert(after, Event { tick, change: Change::Motion(change) }),
+    }
+}
+
+fn merge(known: &mut MotionChange, newer: &MotionChange) {
+    known.flow = newer.flow.or(known.flow);
+    known.strength = newer.strength.or(known.strength);
+    known.seed = newer.seed.or(known.seed);
+}
+
+fn begin(scene: &mut Scene, change: &MotionChange) {
+    let motion = &mut scene.motion;
+    motion.flow = change.flow.unwrap_or(motion.flow);
+    motion.strength = change.strength.unwrap_or(motion.strength);
+    motion.seed = change.seed.unwrap_or(motion.seed);
+}
+
+/// What happens at an event, in a line for people.
+#[must_use]
+pub fn describe(event: &Event, tick_s: f64) -> String {
+    let Change::Motion(change) = &event.change;
+    let parts = [
+        change.flow.map(|flow| flow_name(flow).to_owned()),
+        change.strength.map(|strength| format!("strength {strength}")),
+        change.seed.map(|seed| format!("seed {seed}")),
+    ];
+    let parts = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    format!("{:.2} s: {parts}", event.tick as f64 * tick_s)
+}
+
+/// A flow's name, as scene files have it.
+#[must_use]
+pub fn flow_name(flow: Flow) -> &'static str {
+    match flow {
+        Flow::Rest => "rest",
+        Flow::Sloshing => "sloshing",
+        Flow::Draught => "draught",
+        Flow::Stirred => "stirred",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Motion;
+
+    fn strength(strength: f64) -> MotionChange {
+        MotionChange { strength: Some(strength), ..MotionChange::default() }
+    }
+
+    fn stir() -> MotionChange {
+        MotionChange { flow: Some(Flow::Stirred), ..MotionChange::default() }
+    }
+
+    #[test]
+    fn a_change_while_time_runs_is_an_event_and_the_past_stays() {
+        let mut scene = Scene::default();
+        record(&mut scene, 90, stir());
+        record(&mut scene, 30, strength(2.0));
+        assert_eq!(scene.events.iter().map(|event| event.tick).collect::<Vec<_>>(), [30, 90]);
+        assert_eq!(scene.motion_at(29), Motion::default());
+        assert_eq!(scene.motion_at(90), Motion { flow: Flow::Stirred, strength: 2.0, ..Motion::default() });
+        assert_eq!(Scene::from_toml(&scene.to_toml(), "saved"), Ok(scene));
+    }
+
+    #[test]
+    fn changes_at_one_tick_are_one_event() {
+        let mut scene = Scene::default();
+        record(&mut scene, 30, strength(2.0));
+        record(&mut scene, 30, strength(3.0));
+        record(&mut scene, 30, stir());
+        let both = MotionChange { strength: Some(3.0), ..stir() };
+        assert_eq!(scene.events, [Event { tick: 30, change: Change::Motion(both) }]);
+    }
+
+    #[test]
+    fn at_the_beginning_the_beginning_changes() {
+        let mut scene = Scene::default();
+        record(&mut scene, 0, strength(2.0));
+        assert_eq!((scene.motion.strength, scene.events.len()), (2.0, 0));
+        // Unless an event stands there, which would undo it.
+        scene.events = vec![Event { tick: 0, change: Change::Motion(strength(5.0)) }];
+        record(&mut scene, 0, strength(4.0));
+        assert_eq!(scene.motion_at(0).strength, 4.0);
+    }
+
+    #[test]
+    fn events_read_like_sentences() {
+        let event = Event { tick: 90, change: Change::Motion(MotionChange { seed: Some(7), ..stir() }) };
+        assert_eq!(describe(&event, 1.0 / 60.0), "1.50 s: stirred, seed 7");
+    }
+}

@@ -1,0 +1,124 @@
+//! The keyboard: one table that is obeyed and shown as help.
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+/// What a key does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Lets film time stand or run.
+    Pause,
+    /// Goes on by one tick.
+    Step,
+    /// Goes back to tick 0.
+    Reset,
+    /// Brings the bubbles into the picture.
+    Frame,
+    /// Blows new films.
+    NewSeed,
+    /// Shows or hides the panels.
+    Panels,
+    /// Shows or hides the help.
+    Help,
+    /// Opens a scene.
+    Open,
+    /// Saves the scene.
+    Save,
+    /// Saves the picture as PNG.
+    SavePng,
+    /// Saves the picture as EXR.
+    SaveExr,
+    /// Takes messages and help away.
+    Dismiss,
+    /// Ends the program.
+    Quit,
+}
+
+/// A key, what it does, and how the help says so.
+pub struct Binding {
+    /// The key with its modifiers.
+    pub shortcut: KeyboardShortcut,
+    /// What it does.
+    pub action: Action,
+    /// What it does, for people.
+    pub help: &'static str,
+}
+
+const fn bare(key: Key, action: Action, help: &'static str) -> Binding {
+    Binding { shortcut: KeyboardShortcut::new(Modifiers::NONE, key), action, help }
+}
+
+const fn command(key: Key, action: Action, help: &'static str) -> Binding {
+    Binding { shortcut: KeyboardShortcut::new(Modifiers::COMMAND, key), action, help }
+}
+
+const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+
+/// All keys. Those with more modifiers stand first, for a shortcut also matches with more held than it asks for.
+pub const BINDINGS: [Binding; 14] = [
+    Binding {
+        shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::P),
+        action: Action::SaveExr,
+        help: "Save the picture's radiance as EXR",
+    },
+    command(Key::P, Action::SavePng, "Save the picture as PNG"),
+    command(Key::O, Action::Open, "Open a scene"),
+    command(Key::S, Action::Save, "Save the scene with its history"),
+    command(Key::Q, Action::Quit, "Quit"),
+    bare(Key::Space, Action::Pause, "Pause, or go on"),
+    bare(Key::Period, Action::Step, "One tick further"),
+    bare(Key::R, Action::Reset, "Back to the beginning"),
+    bare(Key::N, Action::NewSeed, "New seeds for film and flow"),
+    bare(Key::F, Action::Frame, "Frame the bubbles"),
+    bare(Key::H, Action::Panels, "Show or hide the panels"),
+    bare(Key::F1, Action::Help, "This help"),
+    bare(Key::Questionmark, Action::Help, "This help"),
+    bare(Key::Escape, Action::Dismiss, "Close help and messages"),
+];
+
+/// What the pointer does, for the help.
+pub const POINTER: [(&str, &str); 4] = [
+    ("Drag", "Turn around the bubble"),
+    ("Right or Shift drag", "Shift the view"),
+    ("Wheel, pinch", "Nearer or farther, into the bubble too"),
+    ("Double click", "Frame the bubbles"),
+];
+
+/// The actions of the keys pressed since the last frame. A widget that has the keyboard keeps its bare keys.
+#[must_use]
+pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
+    let taken = ctx.egui_wants_keyboard_input();
+    let free = |binding: &&Binding| !taken || binding.shortcut.modifiers.command;
+    ctx.input_mut(|input| {
+        let hit = |binding: &&Binding| input.consume_shortcut(&binding.shortcut);
+        BINDINGS.iter().filter(free).filter(hit).map(|binding| binding.action).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn press(modifiers: Modifiers, key: Key) -> Vec<Action> {
+        let ctx = egui::Context::default();
+        let pressed_key = egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
+        let input = egui::RawInput { modifiers, events: vec![pressed_key], ..Default::default() };
+        let mut actions = Vec::new();
+        ctx.run_ui(input, |ui| actions = pressed(ui.ctx())).drop_without_applying_deltas();
+        actions
+    }
+
+    #[test]
+    fn every_binding_does_what_it_says() {
+        for binding in &BINDINGS {
+            let KeyboardShortcut { modifiers, logical_key } = binding.shortcut;
+            // A keyboard reports the command key as ctrl too, as egui's winit layer does.
+            let modifiers = Modifiers { ctrl: modifiers.command, ..modifiers };
+            assert_eq!(press(modifiers, logical_key), [binding.action], "{}", binding.help);
+        }
+    }
+
+    #[test]
+    fn other_keys_do_nothing() {
+        assert_eq!(press(Modifiers::NONE, Key::Z), []);
+    }
+}

@@ -1,0 +1,60 @@
+//! The window: what is shown, the edits, keys and panels, and the loop that redraws when something changed and sleeps otherwise.
+//!
+//! | module | does |
+//! |---|---|
+//! | [`model`] | the state: scene, clock, messages, requests; knows neither window nor GPU |
+//! | [`clock`], [`orbit`], [`history`] | time, camera and events as pure functions of the model |
+//! | [`panels`], [`keys`] | how people change the model |
+//! | [`files`] | dialogs, loading and saving on threads |
+//! | `window`, `frame` | the event loop, and one redraw |
+//! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be made anew when a device is lost |
+
+pub mod clock;
+pub mod costs;
+pub mod files;
+pub mod history;
+pub mod keys;
+pub mod messages;
+pub mod model;
+pub mod orbit;
+pub mod panels;
+
+mod capture;
+mod frame;
+mod paint;
+#[cfg(debug_assertions)]
+mod reload;
+mod stage;
+mod style;
+mod surface;
+mod window;
+
+use crate::{
+    gpu::{AdapterChoice, GpuError},
+    input::LoadedScene,
+};
+
+/// Why the window cannot be opened, or had to be closed.
+#[derive(Debug, thiserror::Error)]
+pub enum AppError {
+    /// No display, or one that fails.
+    #[error("no window can be opened here ({0}); `soapfilm render` draws without one")]
+    EventLoop(#[from] winit::error::EventLoopError),
+    /// The system refuses a window.
+    #[error("the system refuses a window: {0}")]
+    Window(#[from] winit::error::OsError),
+    /// The adapter cannot draw into the window.
+    #[error("the graphics driver cannot draw into a window: {0}; choose another with --adapter or --backend")]
+    Surface(String),
+    /// No GPU, or one that fails for good.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+}
+
+/// Opens the window on a scene, and returns once it is closed.
+///
+/// # Errors
+/// There is no display or no usable adapter, or the device was lost and no other could be had.
+pub fn run(loaded: LoadedScene, choice: &AdapterChoice) -> Result<(), AppError> {
+    window::run(model::Model::new(loaded), choice)
+}

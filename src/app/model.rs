@@ -1,0 +1,246 @@
+//! What the window shows and what its user has changed: everything that needs neither a window nor a GPU.
+
+use std::path::PathBuf;
+
+use super::{clock::Clock, costs::Costs, history, keys::Action, messages::Messages, orbit};
+use crate::{
+    input::LoadedScene,
+    plan::Resources,
+    scene::{Film, Light, Motion, MotionChange, Scene},
+};
+
+/// What a file is wanted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// A scene to open.
+    OpenScene,
+    /// An environment to open.
+    OpenEnvironment,
+    /// Where the scene goes.
+    SaveScene,
+    /// Where the picture goes as people see it.
+    SavePng,
+    /// Where the picture's radiance goes.
+    SaveExr,
+}
+
+impl Target {
+    /// Name of the kind of file, and its endings, the usual one first.
+    #[must_use]
+    pub fn file_type(self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::OpenScene | Self::SaveScene => ("Scene", &["toml"]),
+            Self::OpenEnvironment => ("Environment", &["exr", "hdr"]),
+            Self::SavePng => ("PNG picture", &["png"]),
+            Self::SaveExr => ("OpenEXR picture", &["exr"]),
+        }
+    }
+
+    /// Whether the file is there already.
+    #[must_use]
+    pub fn is_read(self) -> bool {
+        matches!(self, Self::OpenScene | Self::OpenEnvironment)
+    }
+}
+
+/// What a panel or key asks for that takes more than the model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// A dialog for a file.
+    Ask(Target),
+    /// Another scene, by path or preset's name.
+    LoadScene(String),
+    /// Another light, whose environment must be loaded.
+    LoadLight(Light),
+    /// The end.
+    Quit,
+}
+
+/// The window's state.
+pub struct Model {
+    /// The scene as edited.
+    pub scene: Scene,
+    /// What it names.
+    pub resources: Resources,
+    /// A preset's name or a file's path.
+    pub name: String,
+    /// Folder that relative paths in the scene start from.
+    pub folder: PathBuf,
+    /// Film time.
+    pub clock: Clock,
+    /// Index of the bubble that the film panel edits.
+    pub selected: usize,
+    /// Strength while its slider is being dragged: it counts once it is let go.
+    pub strength_draft: Option<f64>,
+    /// Whether the panels are there.
+    pub shows_panels: bool,
+    /// Whether the help is there.
+    pub shows_help: bool,
+    /// What is being loaded.
+    pub loading: Option<String>,
+    /// Ticks that the films are behind the clock.
+    pub behind_ticks: u64,
+    /// What is to be said.
+    pub messages: Messages,
+    /// What pictures cost.
+    pub costs: Costs,
+    /// What has been asked for since the last frame.
+    pub requests: Vec<Request>,
+}
+
+impl Model {
+    /// A window on a scene, its clock running.
+    #[must_use]
+    pub fn new(loaded: LoadedScene) -> Self {
+        Self {
+            scene: loaded.scene,
+            resources: loaded.resources,
+            name: loaded.name,
+            folder: loaded.folder,
+            clock: Clock::default(),
+            selected: 0,
+            strength_draft: None,
+            shows_panels: true,
+            shows_help: false,
+            loading: None,
+            behind_ticks: 0,
+            messages: Messages::default(),
+            costs: Costs::default(),
+            requests: Vec::new(),
+        }
+    }
+
+    /// Shows another scene, from its beginning.
+    pub fn adopt(&mut self, loaded: LoadedScene) {
+        self.scene = loaded.scene;
+        self.resources = loaded.resources;
+        self.name = loaded.name;
+        self.folder = loaded.folder;
+        self.clock.reset();
+        self.selected = 0;
+        self.loading = None;
+    }
+
+    /// Shows the scene in another light.
+    pub fn adopt_light(&mut self, light: Light, resources: Resources) {
+        // What was turned while the light was loading stays as it is.
+        let Light { rotation_deg, intensity, .. } = self.scene.light;
+        self.scene.light = Light { rotation_deg, intensity, ..light };
+        self.resources = resources;
+        self.loading = None;
+    }
+
+    /// The motion that is in force now.
+    #[must_use]
+    pub fn motion(&self) -> Motion {
+        self.scene.motion_at(self.clock.tick)
+    }
+
+    /// Changes the motion from now on, which is an event in the scene's history.
+    pub fn change_motion(&mut self, change: MotionChange) {
+        history::record(&mut self.scene, self.clock.tick, change);
+    }
+
+    /// Puts another film on a bubble. All films share an index; another beginning of one is another beginning of all.
+    pub fn change_film(&mut self, index: usize, film: Film) {
+        for other in &mut self.scene.bubbles {
+            other.film.index = film.index;
+        }
+        let Some(bubble) = self.scene.bubbles.get_mut(index) else { return };
+        if bubble.film != film {
+            bubble.film = film;
+            self.clock.reset();
+        }
+    }
+
+    /// Blows every film anew, in another breath of air.
+    pub fn new_seeds(&mut self) {
+        for bubble in &mut self.scene.bubbles {
+            bubble.film.seed = new_seed();
+        }
+        self.scene.motion.seed = new_seed();
+        self.clock.reset();
+    }
+
+    /// Moves the camera.
+    pub fn move_camera(&mut self, gesture: &orbit::Gesture, aspect: f64) {
+        if *gesture != orbit::Gesture::default() {
+            self.scene.camera = orbit::moved(&self.scene.camera, &self.scene.bubbles, aspect, gesture);
+        }
+    }
+
+    /// Does what a key asks for; framing is a gesture on the picture, whose shape only that knows.
+    pub fn act(&mut self, action: Action) {
+        match action {
+            Action::Pause => self.clock.running = !self.clock.running,
+            Action::Step => self.clock.step(),
+            Action::Reset => self.clock.reset(),
+            Action::NewSeed => self.new_seeds(),
+            Action::Panels => self.shows_panels = !self.shows_panels,
+            Action::Help => self.shows_help = !self.shows_help,
+            Action::Dismiss => {
+                self.shows_help = false;
+                self.messages.clear();
+            }
+            Action::Open => self.requests.push(Request::Ask(Target::OpenScene)),
+            Action::Save => self.requests.push(Request::Ask(Target::SaveScene)),
+            Action::SavePng => self.requests.push(Request::Ask(Target::SavePng)),
+            Action::SaveExr => self.requests.push(Request::Ask(Target::SaveExr)),
+            Action::Quit => self.requests.push(Request::Quit),
+            Action::Frame => {}
+        }
+    }
+}
+
+/// A seed that was not there before, short enough to be written down.
+#[must_use]
+pub fn new_seed() -> u64 {
+    use std::hash::{BuildHasher, RandomState};
+    // Every `RandomState` has other keys, which the system drew at random.
+    RandomState::new().hash_one(0) % 100_000
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::{
+        input::load_scene,
+        scene::{Change, Event, FilmIndexName, Flow},
+    };
+
+    /// The preset without an environment to compute.
+    pub fn model() -> Model {
+        Model::new(load_scene("furnace").unwrap())
+    }
+
+    #[test]
+    fn what_changes_while_time_runs_is_an_event() {
+        let mut model = model();
+        model.clock.tick = 120;
+        let change = MotionChange { flow: Some(Flow::Stirred), ..MotionChange::default() };
+        model.change_motion(change.clone());
+        assert_eq!(model.motion().flow, Flow::Stirred);
+        assert_eq!(model.scene.events, [Event { tick: 120, change: Change::Motion(change) }]);
+    }
+
+    #[test]
+    fn another_film_begins_anew_and_an_index_is_everyones() {
+        let mut model = Model::new(load_scene("family").unwrap());
+        model.clock.tick = 50;
+        let film = Film { index: FilmIndexName::Constant(1.5), ..model.scene.bubbles[2].film.clone() };
+        model.change_film(2, film);
+        assert_eq!(model.clock.tick, 50, "the index shapes no film");
+        assert!(model.scene.bubbles.iter().all(|bubble| bubble.film.index == FilmIndexName::Constant(1.5)));
+        let film = Film { thickness_nm: 300.0, ..model.scene.bubbles[2].film.clone() };
+        model.change_film(2, film);
+        assert_eq!((model.clock.tick, model.scene.bubbles[2].film.thickness_nm), (0, 300.0));
+        model.change_film(99, Film::default());
+    }
+
+    #[test]
+    fn seeds_are_new() {
+        let seeds: std::collections::BTreeSet<_> = (0..20).map(|_| new_seed()).collect();
+        // Twenty draws of 100000: two pairs of equal ones happen once in a million runs.
+        assert!(seeds.len() >= 19, "{seeds:?}");
+    }
+}

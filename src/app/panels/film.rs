@@ -1,0 +1,82 @@
+//! The film panel: how the film of a bubble begins.
+
+use egui::Ui;
+
+use super::widgets::{choice, seed, slider};
+use crate::{
+    app::model::Model,
+    scene::{Film, FilmIndexName, FilmStateName},
+};
+
+const STATES: [(FilmStateName, &str, &str); 3] = [
+    (FilmStateName::Uniform, "uniform", "One thickness everywhere; nothing flows"),
+    (FilmStateName::Rest, "rest", "Sorted by gravity: thin above, thick below"),
+    (FilmStateName::Blown, "blown", "Freshly blown: random patches, not yet sorted"),
+];
+
+/// Cells along a panel's edge that the panel offers.
+const CELLS: [(u32, &str, &str); 4] = [
+    (64, "64", "24 576 cells"),
+    (128, "128", "98 304 cells"),
+    (256, "256", "393 216 cells"),
+    (512, "512", "1 572 864 cells: for fast graphics cards"),
+];
+
+/// Shows and edits the selected bubble's film.
+pub fn show(ui: &mut Ui, model: &mut Model) {
+    let count = model.scene.bubbles.len();
+    model.selected = model.selected.min(count.saturating_sub(1));
+    if count > 1 {
+        let mut number = model.selected + 1;
+        slider(ui, "Bubble", &mut number, 1..=count, "The bubble to edit", |slider| slider);
+        model.selected = number - 1;
+    }
+    let Some(bubble) = model.scene.bubbles.get_mut(model.selected) else {
+        ui.label("This scene has no bubble.");
+        return;
+    };
+    slider(ui, "Radius", &mut bubble.radius_mm, 0.1..=5000.0, "Radius of the bubble", |slider| {
+        slider.logarithmic(true).suffix(" mm").max_decimals(1)
+    });
+    let mut film = bubble.film.clone();
+    edit(ui, &mut film);
+    model.change_film(model.selected, film);
+}
+
+fn edit(ui: &mut Ui, film: &mut Film) {
+    choice(ui, "State", &mut film.state, &STATES);
+    let thinnest_nm = if film.state == FilmStateName::Uniform { 0.0 } else { 1.0 };
+    film.thickness_nm = film.thickness_nm.max(thinnest_nm);
+    let help = "Mean thickness of the film, outside to inside.\nBlack below 30 nm, brightest colours from 200 to 600 nm, pale above 1000 nm.";
+    slider(ui, "Thickness", &mut film.thickness_nm, thinnest_nm..=10_000.0, help, |slider| {
+        slider.logarithmic(true).smallest_positive(1.0).suffix(" nm").max_decimals(1)
+    });
+    if film.state != FilmStateName::Uniform {
+        let help = "How strongly gravity has sorted the film: 0 is even, above 0 thick below.";
+        slider(ui, "Stratification", &mut film.stratification, -5.0..=5.0, help, |slider| slider.max_decimals(2));
+    }
+    index(ui, &mut film.index);
+    if film.state == FilmStateName::Blown {
+        seed(ui, "Film seed", &mut film.seed, "Which of all random films");
+    }
+    if film.state != FilmStateName::Uniform {
+        choice(ui, "Cells", &mut film.cells, &CELLS);
+    }
+}
+
+/// Water's index varies with the wavelength; any other one is a number.
+fn index(ui: &mut Ui, index: &mut FilmIndexName) {
+    const WATER_LIKE: f64 = 1.333;
+    let constant = match *index {
+        FilmIndexName::Water => FilmIndexName::Constant(WATER_LIKE),
+        constant => constant,
+    };
+    let options = [
+        (FilmIndexName::Water, "water", "Water at 20 °C, with its dispersion"),
+        (constant, "constant", "The same index at every wavelength"),
+    ];
+    choice(ui, "Index", index, &options);
+    if let FilmIndexName::Constant(n) = index {
+        slider(ui, "Value", n, 1.0..=4.0, "Refractive index of all films", |slider| slider.fixed_decimals(3));
+    }
+}

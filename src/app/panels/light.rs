@@ -1,0 +1,85 @@
+//! The light panel.
+
+use egui::Ui;
+
+use super::widgets::{choice, group, slider};
+use crate::{
+    app::model::{Model, Request, Target},
+    physics::colour::Illuminant,
+    scene::{Environment, Light},
+};
+
+/// Radiance of a constant light when it is first chosen.
+const CONSTANT: [f64; 3] = [0.5; 3];
+
+/// Shows and edits the light.
+pub fn show(ui: &mut Ui, model: &mut Model) {
+    environment(ui, model);
+    illuminant(ui, model);
+    let light = &mut model.scene.light;
+    if let Some(radiance) = &mut light.constant {
+        group(ui, "Radiance", |ui| {
+            for (value, name) in radiance.iter_mut().zip(["red", "green", "blue"]) {
+                let number = egui::DragValue::new(value).range(0.0..=65504.0).speed(0.005).max_decimals(3);
+                ui.add(number).on_hover_text(format!("Constant radiance, {name}, linear BT.709"));
+            }
+        });
+    }
+    slider(ui, "Rotation", &mut light.rotation_deg, -180.0..=180.0, "Turns the light about the vertical", |slider| {
+        slider.suffix("°").max_decimals(1)
+    });
+    slider(ui, "Intensity", &mut light.intensity, 0.0..=10_000.0, "Factor on the light's radiance", |slider| {
+        slider.logarithmic(true).smallest_positive(0.01).suffix("x").max_decimals(2)
+    });
+}
+
+fn environment(ui: &mut Ui, model: &mut Model) {
+    let light = &model.scene.light;
+    let is = |name: &Environment| light.constant.is_none() && light.environment == *name;
+    let mut wanted: Option<Light> = None;
+    group(ui, "Environment", |ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        let built_in = [
+            (Environment::Tent, "tent", "A photographer's light tent with soft lamps"),
+            (Environment::Windows, "windows", "A dark room with bright windows"),
+        ];
+        for (name, label, help) in built_in {
+            if ui.selectable_label(is(&name), label).on_hover_text(help).clicked() && !is(&name) {
+                wanted = Some(Light { environment: name, constant: None, ..light.clone() });
+            }
+        }
+        let constant = ui.selectable_label(light.constant.is_some(), "constant");
+        if constant.on_hover_text("The same radiance from everywhere").clicked() && light.constant.is_none() {
+            wanted = Some(Light { constant: Some(CONSTANT), ..light.clone() });
+        }
+        let open =
+            ui.button("File…").on_hover_text("An equirectangular panorama, .exr or .hdr; or drop one on the window");
+        if open.clicked() {
+            model.requests.push(Request::Ask(Target::OpenEnvironment));
+        }
+    });
+    if let (Environment::File(path), None) = (&light.environment, light.constant) {
+        let name =
+            std::path::Path::new(path).file_name().map_or(path.clone(), |name| name.to_string_lossy().into_owned());
+        group(ui, "", |ui| ui.add(egui::Label::new(egui::RichText::new(name).weak()).truncate()).on_hover_text(path));
+    }
+    model.requests.extend(wanted.map(Request::LoadLight));
+}
+
+fn illuminant(ui: &mut Ui, model: &mut Model) {
+    const HELP: [&str; 4] = [
+        "Daylight, 6500 K",
+        "Daylight at the horizon, 5000 K",
+        "Incandescent lamp, 2856 K",
+        "Equal power at every wavelength",
+    ];
+    let light = &model.scene.light;
+    let current = Illuminant::NAMES.iter().position(|name| light.illuminant.eq_ignore_ascii_case(name));
+    let mut chosen = current.unwrap_or(usize::MAX);
+    let options: Vec<_> =
+        Illuminant::NAMES.iter().zip(HELP).enumerate().map(|(index, (name, help))| (index, *name, help)).collect();
+    if choice(ui, "Illuminant", &mut chosen, &options) {
+        let light = Light { illuminant: Illuminant::NAMES[chosen].to_owned(), ..light.clone() };
+        model.requests.push(Request::LoadLight(light));
+    }
+}

@@ -1,0 +1,72 @@
+//! The panels: each a small function of the model. They touch neither window nor GPU, so tests drive them without either.
+
+mod costs;
+mod film;
+mod header;
+mod help;
+mod light;
+mod motion;
+mod notices;
+mod picture;
+mod plots;
+#[cfg(test)]
+mod tests;
+mod view;
+mod widgets;
+
+use egui::{CollapsingHeader, Panel, Rect, ScrollArea, Ui};
+
+use super::{
+    keys::{self, Action},
+    model::Model,
+    orbit::Gesture,
+};
+
+/// Width of the panels, points.
+const WIDTH: f32 = 308.0;
+
+/// What the user interface leaves of the window, and what was done there.
+#[derive(Clone, Copy, Debug)]
+pub struct Picture {
+    /// Where the picture stands, in points.
+    pub rect: Rect,
+    /// How its camera is to be moved.
+    pub gesture: Gesture,
+}
+
+/// Shows everything around the picture, obeys the keys, and returns where the picture stands.
+pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
+    let actions = keys::pressed(ui.ctx());
+    for action in &actions {
+        model.act(*action);
+    }
+    if model.shows_panels {
+        // A window narrower than the panel is all panel; `H` hides it.
+        let width = WIDTH.min(ui.available_width());
+        Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
+    }
+    let mut picture = picture::show(ui);
+    picture.gesture.frame |= actions.contains(&Action::Frame);
+    notices::show(ui.ctx(), picture.rect, model);
+    help::show(ui.ctx(), &mut model.shows_help);
+    picture
+}
+
+fn sections(ui: &mut Ui, model: &mut Model) {
+    header::show(ui, model);
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        section(ui, "Film", true, |ui| film::show(ui, model));
+        section(ui, "Motion", true, |ui| motion::show(ui, model));
+        section(ui, "Light", true, |ui| light::show(ui, model));
+        section(ui, "View", true, |ui| view::show(ui, model));
+        section(ui, "Costs", false, |ui| costs::show(ui, model));
+    });
+}
+
+fn section(ui: &mut Ui, title: &str, open: bool, content: impl FnOnce(&mut Ui)) {
+    let title = egui::RichText::new(title).strong();
+    CollapsingHeader::new(title).default_open(open).show_unindented(ui, |ui| {
+        content(ui);
+        ui.add_space(6.0);
+    });
+}

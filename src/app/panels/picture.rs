@@ -1,0 +1,36 @@
+//! The picture's place in the window, and what the pointer does there.
+
+use egui::{CentralPanel, Frame, PointerButton, Response, Sense, Ui};
+use glam::DVec2;
+
+use super::Picture;
+use crate::app::orbit::Gesture;
+
+/// Natural logarithm of the magnification for a point of scrolling: a notch of a wheel is 40 points.
+const ZOOM_PER_POINT: f64 = 0.004;
+
+/// Takes what is left of the window for the picture, and reads the pointer there.
+pub fn show(ui: &mut Ui) -> Picture {
+    CentralPanel::no_frame()
+        .frame(Frame::NONE)
+        .show(ui, |ui| {
+            let rect = ui.available_rect_before_wrap();
+            let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
+            Picture { rect, gesture: gesture(ui, &response) }
+        })
+        .inner
+}
+
+fn gesture(ui: &Ui, response: &Response) -> Gesture {
+    let height = f64::from(response.rect.height()).max(1.0);
+    let drag = response.drag_delta();
+    let drag = DVec2::new(f64::from(drag.x), f64::from(drag.y)) / height;
+    let shifts = ui.input(|input| input.modifiers.shift) || !response.dragged_by(PointerButton::Primary);
+    let mut gesture = Gesture { frame: response.double_clicked(), ..Gesture::default() };
+    *(if shifts { &mut gesture.shift } else { &mut gesture.turn }) = drag;
+    if response.contains_pointer() {
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
+        gesture.zoom = ZOOM_PER_POINT * f64::from(scroll.x + scroll.y) + f64::from(pinch).max(1e-3).ln();
+    }
+    gesture
+}
