@@ -1,20 +1,27 @@
 //! `soapfilm transport`: the published tests of transport on the sphere, on the GPU.
 
-use std::{path::PathBuf, time::Instant};
+use std::{
+    path::PathBuf,
+    time::{Duration, Instant},
+};
 
 use clap::{Args, ValueEnum};
 use cpu_time::ProcessTime;
 use glam::DVec3;
-use rayon::prelude::*;
 use serde_json::json;
 
 use super::{AdapterArguments, parse};
 use crate::{
-    gpu::{Gpu, GpuError, advance_map::Step, film::Field, readback::Readback, timing::Recorder},
+    gpu::{
+        Gpu, GpuError,
+        film::Field,
+        timing::Recorder,
+        transport_case::{Case, Scheme},
+    },
     output::write_text,
     physics::{
         sphere::CubedSphere,
-        transport::{Measured, PERIOD, Quantity, Tracer, TracerKind, Wind, WindKind, exact, measure},
+        transport::{Measured, Quantity, Tracer, TracerKind, Wind, WindKind},
     },
 };
 
@@ -65,32 +72,6 @@ pub struct Arguments {
     adapter: AdapterArguments,
 }
 
-/// How often the flow map is remapped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Scheme {
-    /// At each step: semi-Lagrangian, bicubic.
-    Bicubic,
-    /// Five times a period.
-    Map,
-}
-
-impl Scheme {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Bicubic => "bicubic",
-            Self::Map => "map",
-        }
-    }
-
-    /// Steps from one remap to the next.
-    fn interval(self, steps_a_period: u32) -> u32 {
-        match self {
-            Self::Bicubic => 1,
-            Self::Map => (steps_a_period / 5).max(1),
-        }
-    }
-}
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Switch {
     On,
@@ -118,15 +99,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if arguments.wind == WindKind::Divergent && arguments.kind == Quantity::Density {
         anyhow::bail!("a density in the divergent wind is not built yet; use --kind ratio");
     }
-    let case = Case::new(arguments)?;
+    let case = case(arguments)?;
     let gpu = arguments.adapter.open()?;
-    let moved = case.run(&gpu)?;
+    let moved = advance(&gpu, &case)?;
     let norms = case.measure(&moved.values);
     println!(
         "{} steps of {}, {} remaps: l1 {:.6}, l2 {:.6}, linf {:.6}, range {:.6} to {:.6}",
-        moved.steps,
+        case.steps,
         case.scheme.name(),
-        moved.remaps,
+        case.remaps(),
         norms.l1,
         norms.l2,
         norms.linf,
@@ -134,136 +115,75 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         norms.max
     );
     if let Some(path) = &arguments.output {
-        write_text(path, &case.cells_csv(&moved.values))?;
+        write_text(path, &cells_csv(&case, &moved.values))?;
     }
     if let Some(path) = &arguments.json {
         let copy_ms = copy_ms_per_step(&gpu, &case)?;
-        write_text(path, &serde_json::to_string_pretty(&case.json(&norms, &moved, arguments.kind, copy_ms))?)?;
+        let report = report(&case, &norms, &moved, arguments.kind, copy_ms);
+        write_text(path, &serde_json::to_string_pretty(&report)?)?;
     }
     Ok(())
 }
 
-/// One test, with all it needs.
-struct Case {
-    grid: CubedSphere,
-    wind: Wind,
-    tracer: Tracer,
-    scheme: Scheme,
-    steps_a_period: u32,
-    steps: u64,
+fn case(arguments: &Arguments) -> anyhow::Result<Case> {
+    let wind = Wind::new(arguments.wind, arguments.axis)?;
+    let tracer = match arguments.tracer_at {
+        Some(place) => Tracer::at(arguments.tracer, place)?,
+        None => Tracer::new(arguments.tracer, wind.tracer_rotation()),
+    };
+    let all = f64::from(arguments.steps) * f64::from(arguments.periods);
+    Ok(Case {
+        grid: CubedSphere::new(arguments.cells as usize)?,
+        wind,
+        tracer,
+        scheme: arguments.scheme,
+        steps_a_period: arguments.steps,
+        steps: (arguments.until * all).round() as u64,
+    })
 }
 
-/// What a run left.
+/// What a run left, and what a step of it cost.
 struct Moved {
     values: Vec<f64>,
-    steps: u64,
-    remaps: u64,
     wall_ms: f64,
     cpu_ms: f64,
 }
 
-/// Steps in one submission, so that none runs long.
-const STEPS_A_SUBMISSION: u64 = 16;
+fn advance(gpu: &Gpu, case: &Case) -> Result<Moved, GpuError> {
+    let mut field = case.seed(gpu)?;
+    let (cpu, wall) = (ProcessTime::now(), Instant::now());
+    case.advance(gpu, &mut field)?;
+    let per_step = |time: Duration| time.as_secs_f64() * 1e3 / case.steps.max(1) as f64;
+    let (cpu_ms, wall_ms) = (per_step(cpu.elapsed()), per_step(wall.elapsed()));
+    Ok(Moved { values: case.values(gpu, &field)?, wall_ms, cpu_ms })
+}
 
-impl Case {
-    fn new(arguments: &Arguments) -> anyhow::Result<Self> {
-        let wind = Wind::new(arguments.wind, arguments.axis)?;
-        let tracer = match arguments.tracer_at {
-            Some(place) => Tracer::at(arguments.tracer, place)?,
-            None => Tracer::new(arguments.tracer, wind.tracer_rotation()),
-        };
-        let all = f64::from(arguments.steps) * f64::from(arguments.periods);
-        Ok(Self {
-            grid: CubedSphere::new(arguments.cells as usize)?,
-            wind,
-            tracer,
-            scheme: arguments.scheme,
-            steps_a_period: arguments.steps,
-            steps: (arguments.until * all).round() as u64,
-        })
+fn cells_csv(case: &Case, values: &[f64]) -> String {
+    let areas = case.grid.areas();
+    let mut text = String::from("x,y,z,area,value\n");
+    for (cell, value) in values.iter().enumerate() {
+        let at = case.grid.cell_direction(cell);
+        text.push_str(&format!("{},{},{},{},{value}\n", at.x, at.y, at.z, areas[cell]));
     }
+    text
+}
 
-    /// Time after so many steps.
-    fn time(&self, steps: u64) -> f64 {
-        PERIOD * steps as f64 / f64::from(self.steps_a_period)
-    }
-
-    fn initial(&self) -> Vec<f64> {
-        (0..self.grid.cells()).into_par_iter().map(|cell| self.tracer.value(self.grid.cell_direction(cell))).collect()
-    }
-
-    fn run(&self, gpu: &Gpu) -> Result<Moved, GpuError> {
-        let mut field = Field::new(gpu, self.grid);
-        let mut recorder = Recorder::new(gpu);
-        let initial: Vec<f32> = self.initial().iter().map(|value| *value as f32).collect();
-        field.seed(&mut recorder, &initial)?;
-        recorder.submit(&Default::default());
-        gpu.wait()?;
-        let (cpu, wall) = (ProcessTime::now(), Instant::now());
-        let interval = u64::from(self.scheme.interval(self.steps_a_period));
-        for first in (0..self.steps).step_by(STEPS_A_SUBMISSION as usize) {
-            let mut recorder = Recorder::new(gpu);
-            for step in first..(first + STEPS_A_SUBMISSION).min(self.steps) {
-                let wind = Step::wind(&self.wind, self.time(step), self.time(step + 1));
-                field.advance(&mut recorder, &wind, (step + 1) % interval == 0)?;
-            }
-            recorder.submit(&Default::default());
-            gpu.wait()?;
-        }
-        let per_step = |ms: f64| ms / self.steps.max(1) as f64;
-        let (cpu_ms, wall_ms) = (cpu.elapsed().as_secs_f64() * 1e3, wall.elapsed().as_secs_f64() * 1e3);
-        let mut recorder = Recorder::new(gpu);
-        let tracer = field.thickness(&mut recorder, None)?;
-        recorder.submit(&Default::default());
-        let padded: Vec<f32> =
-            bytemuck::pod_collect_to_vec(&Readback::of_buffer(gpu, tracer, tracer.size()).wait(gpu)?);
-        let values = field.inner(&padded).into_iter().map(f64::from).collect();
-        Ok(Moved {
-            values,
-            steps: self.steps,
-            remaps: self.steps / interval,
-            wall_ms: per_step(wall_ms),
-            cpu_ms: per_step(cpu_ms),
-        })
-    }
-
-    fn measure(&self, values: &[f64]) -> Measured {
-        let time = self.time(self.steps);
-        // Four times the steps of the run: the exact answer's own error is then far below the scheme's.
-        let steps = (4 * self.steps).clamp(400, 100_000) as u32;
-        let answer =
-            |cell: usize| exact(&self.wind, &self.tracer, Quantity::Ratio, self.grid.cell_direction(cell), time, steps);
-        let answers: Vec<f64> = (0..self.grid.cells()).into_par_iter().map(answer).collect();
-        measure(self.grid, values, &answers, &self.initial())
-    }
-
-    fn cells_csv(&self, values: &[f64]) -> String {
-        let areas = self.grid.areas();
-        let mut text = String::from("x,y,z,area,value\n");
-        for (cell, value) in values.iter().enumerate() {
-            let at = self.grid.cell_direction(cell);
-            text.push_str(&format!("{},{},{},{},{value}\n", at.x, at.y, at.z, areas[cell]));
-        }
-        text
-    }
-
-    fn json(&self, norms: &Measured, moved: &Moved, kind: Quantity, copy_ms: f64) -> serde_json::Value {
-        json!({
-            "l1": norms.l1,
-            "l2": norms.l2,
-            "linf": norms.linf,
-            "mass_drift": (kind == Quantity::Density).then_some(norms.mass_drift),
-            "min": norms.min,
-            "max": norms.max,
-            "steps": moved.steps,
-            "cells": self.grid.cells(),
-            "remaps": moved.remaps,
-            "scheme": self.scheme.name(),
-            "wall_ms_per_step": moved.wall_ms,
-            "cpu_ms_per_step": moved.cpu_ms,
-            "copy_ms_per_step": copy_ms,
-        })
-    }
+fn report(case: &Case, norms: &Measured, moved: &Moved, kind: Quantity, copy_ms: f64) -> serde_json::Value {
+    json!({
+        "l1": norms.l1,
+        "l2": norms.l2,
+        "linf": norms.linf,
+        "mass_drift": (kind == Quantity::Density).then_some(norms.mass_drift),
+        "min": norms.min,
+        "max": norms.max,
+        "steps": case.steps,
+        "cells": case.grid.cells(),
+        "remaps": case.remaps(),
+        "scheme": case.scheme.name(),
+        "wall_ms_per_step": moved.wall_ms,
+        "cpu_ms_per_step": moved.cpu_ms,
+        "copy_ms_per_step": copy_ms,
+    })
 }
 
 /// Wall time of a copy of what a step reads and writes, the map and the tracer: the floor under any step.

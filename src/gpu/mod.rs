@@ -15,6 +15,8 @@ pub mod renderer;
 pub mod shaders;
 pub mod timing;
 pub mod tonemap;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod transport_case;
 
 pub use device::{AdapterChoice, Gpu, GpuError};
 pub use renderer::Renderer;

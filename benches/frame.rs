@@ -1,0 +1,63 @@
+//! Frame timing: the whole frame and each pass by itself, bubble 80 % of the height, on the adapter that the program would use.
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use soapfilm::{
+    gpu::{AdapterChoice, Gpu, Renderer},
+    input::load_scene,
+    plan::{Have, Moment, Pace, Plan, Shot, Want, plan, want},
+};
+
+const SIZES: [[u32; 2]; 2] = [[1280, 720], [1920, 1080]];
+const PASSES: [&str; 6] = ["bake_table", "seed_field", "step_field", "show_field", "draw", "tonemap"];
+
+fn frame(criterion: &mut Criterion) {
+    let gpu = pollster::block_on(Gpu::headless(&AdapterChoice::default().or_env())).expect("an adapter to measure on");
+    println!("adapter: {}, {}", gpu.adapter_name(), gpu.driver());
+    let mut renderer = Renderer::new(gpu);
+    for size in SIZES {
+        let (bubble, mirror) = (wanted(size, false), wanted(size, true));
+        draw(&mut renderer, &bubble);
+        draw(&mut renderer, &mirror);
+        let mut group = criterion.benchmark_group(format!("{}x{}", size[0], size[1]));
+        group.sample_size(20);
+        for (name, want) in [("frame", &bubble), ("mirror_yardstick", &mirror)] {
+            group.bench_function(name, |bencher| bencher.iter(|| draw(&mut renderer, want)));
+        }
+        draw(&mut renderer, &bubble);
+        for pass in PASSES {
+            let only = only(&bubble, pass, renderer.have());
+            group.bench_function(BenchmarkId::new("pass", pass), |bencher| {
+                bencher.iter(|| {
+                    renderer.execute(&only).expect("a plan that ran before");
+                    renderer.gpu.wait().expect("a device that worked before");
+                });
+            });
+        }
+        group.finish();
+    }
+}
+
+/// The default scene one tick in, so that every pass has something to do.
+fn wanted(size: [u32; 2], yardstick: bool) -> Want {
+    let loaded = load_scene("default").expect("the preset");
+    let shot = Shot { size, moment: Moment::tick(1), full_precision: false, yardstick, pace: Pace::Whole };
+    want(&loaded.scene, &loaded.resources, &shot).expect("a scene that can be drawn")
+}
+
+/// One frame, everything but the bakes anew.
+fn draw(renderer: &mut Renderer, want: &Want) {
+    renderer.forget_picture();
+    renderer.bring(want).expect("a frame");
+    renderer.gpu.wait().expect("a device that works");
+}
+
+/// The part of a plan from nothing that has this name.
+fn only(want: &Want, name: &str, have: &Have) -> Plan {
+    let whole = plan(want, &Have::default());
+    let steps: Vec<_> = whole.steps.into_iter().filter(|(pass, _)| pass.name() == name).collect();
+    assert!(!steps.is_empty(), "no pass is named {name}");
+    Plan { steps, after: have.clone(), complete: true }
+}
+
+criterion_group!(benches, frame);
+criterion_main!(benches);
