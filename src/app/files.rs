@@ -183,7 +183,7 @@ mod tests {
     /// Files that tell by a channel when something has arrived.
     fn files() -> (Files, Receiver<()>) {
         let (sender, receiver) = channel();
-        (Files::new(move || drop(sender.send(()))), receiver)
+        (Files::new(move || sender.send(()).unwrap()), receiver)
     }
 
     const PATIENCE: Duration = Duration::from_secs(60);

@@ -101,7 +101,7 @@ mod tests {
     fn press(modifiers: Modifiers, key: Key) -> Vec<Action> {
         let ctx = egui::Context::default();
         let pressed_key = egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
-        let input = egui::RawInput { modifiers, events: vec![pressed_key], ..Default::default() };
+        let input = egui::RawInput { events: vec![pressed_key], ..Default::default() };
         let mut actions = Vec::new();
         ctx.run_ui(input, |ui| actions = pressed(ui.ctx())).drop_without_applying_deltas();
         actions

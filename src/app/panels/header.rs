@@ -10,10 +10,8 @@ use crate::{
 /// Shows the scene's name and what can be done with it.
 pub fn show(ui: &mut Ui, model: &mut Model) {
     ui.add_space(8.0);
-    let name = std::path::Path::new(&model.name)
-        .file_name()
-        .map_or(model.name.clone(), |name| name.to_string_lossy().into_owned());
-    ui.add(egui::Label::new(egui::RichText::new(name).heading()).truncate()).on_hover_text(&model.name);
+    let name = egui::RichText::new(file_name(&model.name)).heading();
+    ui.add(egui::Label::new(name).truncate()).on_hover_text(&model.name);
     ui.horizontal(|ui| {
         let ask = |requests: &mut Vec<Request>, target| requests.push(Request::Ask(target));
         ui.menu_button("Presets", |ui| presets(ui, &mut model.requests)).response.on_hover_text("Built-in scenes");
@@ -36,6 +34,11 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         }
     });
     ui.add_space(4.0);
+}
+
+/// The last part of a path.
+pub fn file_name(path: &str) -> &str {
+    std::path::Path::new(path).file_name().and_then(|name| name.to_str()).unwrap_or(path)
 }
 
 fn presets(ui: &mut Ui, requests: &mut Vec<Request>) {

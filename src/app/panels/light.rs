@@ -2,7 +2,10 @@
 
 use egui::Ui;
 
-use super::widgets::{choice, group, slider};
+use super::{
+    header,
+    widgets::{choice, group, slider},
+};
 use crate::{
     app::model::{Model, Request, Target},
     physics::colour::Illuminant,
@@ -52,17 +55,17 @@ fn environment(ui: &mut Ui, model: &mut Model) {
         if constant.on_hover_text("The same radiance from everywhere").clicked() && light.constant.is_none() {
             wanted = Some(Light { constant: Some(CONSTANT), ..light.clone() });
         }
-        let open =
-            ui.button("File…").on_hover_text("An equirectangular panorama, .exr or .hdr; or drop one on the window");
+    });
+    group(ui, "Panorama", |ui| {
+        let open = ui.button("Open…").on_hover_text("An equirectangular .exr or .hdr file; or drop one on the window");
         if open.clicked() {
             model.requests.push(Request::Ask(Target::OpenEnvironment));
         }
+        if let (Environment::File(path), None) = (&light.environment, light.constant) {
+            let name = egui::RichText::new(header::file_name(path)).weak();
+            ui.add(egui::Label::new(name).truncate()).on_hover_text(path);
+        }
     });
-    if let (Environment::File(path), None) = (&light.environment, light.constant) {
-        let name =
-            std::path::Path::new(path).file_name().map_or(path.clone(), |name| name.to_string_lossy().into_owned());
-        group(ui, "", |ui| ui.add(egui::Label::new(egui::RichText::new(name).weak()).truncate()).on_hover_text(path));
-    }
     model.requests.extend(wanted.map(Request::LoadLight));
 }
 

@@ -1,1 +1,242 @@
+//! Panels driven through their accessible names, without window or GPU.
 
+use egui::{Key, Modifiers, accesskit::Role, vec2};
+use egui_kittest::{Harness, kittest::Queryable};
+
+use super::Picture;
+use crate::{
+    app::model::{Model, Request, Target, tests::model},
+    scene::{Backdrop, FilmStateName, Flow},
+};
+
+struct State {
+    model: Model,
+    picture: Option<Picture>,
+}
+
+fn harness(model: Model, size: egui::Vec2) -> Harness<'static, State> {
+    let state = State { model, picture: None };
+    // Notes leave by time; nothing else moves, so a frame settles in a few steps.
+    Harness::builder()
+        .with_size(size)
+        .build_ui_state(|ui, state| state.picture = Some(super::show(ui, &mut state.model)), state)
+}
+
+/// A window on the furnace, whose film is made to vary and whose clock stands.
+fn window() -> Harness<'static, State> {
+    let mut model = model();
+    model.clock.running = false;
+    model.scene.bubbles[0].film.state = FilmStateName::Blown;
+    let mut window = harness(model, vec2(1280.0, 1200.0));
+    window.run();
+    window
+}
+
+fn click(window: &mut Harness<'static, State>, name: &str) {
+    window.get_by_label(name).click();
+    window.run();
+}
+
+fn set_slider(window: &mut Harness<'static, State>, name: &str, value: f64) {
+    window.get_by_role_and_label(Role::Slider, name).set_value_accesskit(value);
+    window.run();
+}
+
+#[test]
+fn sliders_change_what_they_are_called() {
+    let mut window = window();
+    for (name, value) in [
+        ("Radius", 20.0),
+        ("Thickness", 321.0),
+        ("Stratification", -1.0),
+        ("Strength", 2.5),
+        ("Speed", 0.5),
+        ("Rotation", 90.0),
+        ("Intensity", 3.0),
+        ("Exposure", -1.5),
+        ("Field of view", 50.0),
+        ("Distance", 0.5),
+    ] {
+        set_slider(&mut window, name, value);
+    }
+    let scene = &window.state().model.scene;
+    let bubble = &scene.bubbles[0];
+    assert_eq!((bubble.radius_mm, bubble.film.thickness_nm, bubble.film.stratification), (20.0, 321.0, -1.0));
+    assert_eq!((scene.motion.strength, scene.motion.speed), (2.5, 0.5));
+    assert_eq!((scene.light.rotation_deg, scene.light.intensity), (90.0, 3.0));
+    assert_eq!((scene.view.exposure_ev, scene.camera.fov_y_deg, scene.camera.distance_m), (-1.5, 50.0, 0.5));
+    assert_eq!(scene.validate(), Ok(()));
+}
+
+#[test]
+fn no_slider_leaves_the_ranges_of_a_scene() {
+    let mut window = window();
+    let names = ["Radius", "Thickness", "Stratification", "Strength", "Speed", "Rotation", "Intensity", "Exposure"];
+    let names: Vec<_> = names.into_iter().chain(["Field of view", "Distance"]).collect();
+    for extreme in [-1e12, 1e12] {
+        for name in &names {
+            set_slider(&mut window, name, extreme);
+        }
+        assert_eq!(window.state().model.scene.validate(), Ok(()), "after {extreme}");
+    }
+}
+
+#[test]
+fn another_film_starts_from_the_beginning() {
+    let mut window = window();
+    window.state_mut().model.clock.tick = 500;
+    // Film and flow both know a rest; the film's stands first.
+    window.get_all_by_label("rest").next().unwrap().click();
+    window.run();
+    let model = &window.state().model;
+    assert_eq!((model.scene.bubbles[0].film.state, model.clock.tick), (FilmStateName::Rest, 0));
+}
+
+#[test]
+fn a_flow_chosen_while_time_runs_is_an_event_that_can_be_taken_back() {
+    let mut window = window();
+    window.state_mut().model.clock.tick = 120;
+    click(&mut window, "stirred");
+    assert_eq!(window.state().model.motion().flow, Flow::Stirred);
+    assert_eq!(window.state().model.scene.events.len(), 1);
+    click(&mut window, "History (1)");
+    window.get_by_label_contains("2.00 s: stirred");
+    click(&mut window, "×");
+    assert_eq!(window.state().model.scene.events, []);
+}
+
+#[test]
+fn the_clock_obeys_buttons_and_keys() {
+    let mut window = window();
+    click(&mut window, "Step");
+    click(&mut window, "Step");
+    assert_eq!(window.state().model.clock.tick, 2);
+    click(&mut window, "Reset");
+    assert_eq!(window.state().model.clock.tick, 0);
+    click(&mut window, "Run");
+    assert!(window.state().model.clock.running);
+    window.key_press(Key::Space);
+    window.key_press(Key::Period);
+    window.run();
+    assert_eq!((window.state().model.clock.running, window.state().model.clock.tick), (false, 1));
+}
+
+#[test]
+fn files_and_lights_are_asked_for() {
+    let mut window = window();
+    click(&mut window, "Save…");
+    click(&mut window, "windows");
+    click(&mut window, "D50");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::P);
+    window.run();
+    click(&mut window, "Presets");
+    click(&mut window, "lamplight");
+    let requests = std::mem::take(&mut window.state_mut().model.requests);
+    assert_eq!(requests.len(), 5, "{requests:?}");
+    assert_eq!(requests[0], Request::Ask(Target::SaveScene));
+    assert!(matches!(&requests[1], Request::LoadLight(light) if light.constant.is_none()));
+    assert!(matches!(&requests[2], Request::LoadLight(light) if light.illuminant == "D50"));
+    assert_eq!(requests[3], Request::Ask(Target::SavePng));
+    assert_eq!(requests[4], Request::LoadScene("lamplight".to_owned()));
+}
+
+#[test]
+fn backdrop_and_dither_are_switched() {
+    let mut window = window();
+    let dither = window.state().model.scene.view.dither;
+    click(&mut window, "colour");
+    click(&mut window, "Dither");
+    let view = &window.state().model.scene.view;
+    assert!(matches!(view.backdrop, Backdrop::Radiance(_)));
+    assert_eq!(view.dither, !dither);
+}
+
+#[test]
+fn a_seed_can_be_drawn_anew() {
+    let mut window = window();
+    let before = window.state().model.scene.clone();
+    click(&mut window, "New film seed");
+    click(&mut window, "New flow seed");
+    let after = &window.state().model.scene;
+    assert_ne!(after.bubbles[0].film.seed, before.bubbles[0].film.seed);
+    assert_ne!(after.motion.seed, before.motion.seed);
+}
+
+#[test]
+fn problems_are_shown_until_they_are_dismissed() {
+    let mut window = window();
+    window.state_mut().model.messages.problem("hall.exr is damaged");
+    window.run();
+    window.get_by_label("hall.exr is damaged");
+    click(&mut window, "×");
+    assert!(window.query_by_label("hall.exr is damaged").is_none());
+}
+
+#[test]
+fn help_lists_the_keys_and_goes_again() {
+    let mut window = window();
+    window.key_press(Key::F1);
+    window.run();
+    window.get_by_label("Turn around the bubble");
+    window.key_press(Key::Escape);
+    window.run();
+    assert!(!window.state().model.shows_help);
+}
+
+#[test]
+fn hidden_panels_leave_the_window_to_the_picture() {
+    let mut window = window();
+    let narrow = window.state().picture.unwrap().rect.width();
+    window.key_press(Key::H);
+    window.run();
+    let wide = window.state().picture.unwrap().rect.width();
+    assert!(wide - narrow > 250.0, "{narrow} and {wide} points wide");
+}
+
+#[test]
+fn a_drag_on_the_picture_turns_and_a_wheel_zooms() {
+    let mut window = window();
+    let rect = window.state().picture.unwrap().rect;
+    let middle = rect.center();
+    window.drag_at(middle);
+    window.step();
+    window.hover_at(middle + vec2(60.0, 0.0));
+    window.step();
+    let turn = window.state().picture.unwrap().gesture.turn;
+    assert!((turn.x - 60.0 / f64::from(rect.height())).abs() < 1e-6 && turn.y == 0.0, "{turn}");
+    window.drop_at(middle);
+    window.step();
+    let unit = egui::MouseWheelUnit::Line;
+    window.event(egui::Event::MouseWheel {
+        unit,
+        delta: vec2(0.0, 1.0),
+        modifiers: Modifiers::NONE,
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+    });
+    window.step();
+    assert!(window.state().picture.unwrap().gesture.zoom > 0.0);
+}
+
+#[test]
+fn every_size_of_window_has_a_layout() {
+    for size in [vec2(1.0, 1.0), vec2(200.0, 150.0), vec2(320.0, 900.0), vec2(4000.0, 2500.0)] {
+        let mut model = model();
+        model.shows_help = true;
+        model.messages.problem("a problem with a long name that must find its place somewhere");
+        model.loading = Some("hall.exr".to_owned());
+        let mut window = harness(model, size);
+        window.step();
+        window.step();
+        assert!(window.state().picture.is_some());
+    }
+}
+
+#[test]
+fn a_scene_without_bubbles_has_panels_too() {
+    let mut model = model();
+    model.scene.bubbles.clear();
+    let mut window = harness(model, vec2(1280.0, 800.0));
+    window.run();
+    window.get_by_label("This scene has no bubble.");
+}

@@ -1,0 +1,239 @@
+//! The real window, driven as a person would: under a virtual X server, with pointer and keys, judged by screenshots.
+//!
+//! Needs Xvfb, xdotool and ImageMagick's `import`. Without them the test says that it was skipped, and fails where
+//! `SOAPFILM_REQUIRE_WINDOW=1` demands it.
+#![cfg(target_os = "linux")]
+
+use std::{
+    io::{BufRead, BufReader},
+    process::{Child, Command, Output, Stdio},
+    thread::sleep,
+    time::{Duration, Instant},
+};
+
+use image::RgbImage;
+
+/// What a software rasteriser on a busy machine may take for its first picture.
+const PATIENCE: Duration = Duration::from_secs(120);
+/// Time over which an idle window is watched.
+const WATCHED: Duration = Duration::from_secs(3);
+/// Processor time that an idle window may take of it: 5 %. The toolkit's own wake-ups need a tenth of that.
+const IDLE_JIFFIES: u64 = 15;
+
+/// A process that does not outlive its test.
+struct Guarded(Child);
+
+impl Drop for Guarded {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// A virtual screen, and the program on it.
+struct Screen {
+    display: String,
+    program: Guarded,
+    window: String,
+    _server: Guarded,
+}
+
+impl Screen {
+    fn open(arguments: &[&str]) -> Self {
+        let (server, display) = start_server();
+        let program = Command::new(env!("CARGO_BIN_EXE_soapfilm"))
+            .args(arguments)
+            .env("DISPLAY", &display)
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET")
+            .spawn()
+            .unwrap();
+        let mut screen = Self { display, program: Guarded(program), window: String::new(), _server: server };
+        screen.window = screen.wait_for("a window", |screen| {
+            let found = screen.tool(&["search", "--onlyvisible", "--name", "soapfilm"]);
+            String::from_utf8(found.stdout).ok()?.lines().next().map(str::to_owned)
+        });
+        screen
+    }
+
+    fn tool(&self, arguments: &[&str]) -> Output {
+        Command::new("xdotool").args(arguments).env("DISPLAY", &self.display).output().unwrap()
+    }
+
+    fn act(&self, arguments: &[&str]) {
+        let output = self.tool(arguments);
+        assert!(output.status.success(), "xdotool {arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        sleep(Duration::from_millis(60));
+    }
+
+    /// Presses a key in the window. There is no window manager that would give it the focus.
+    fn press(&self, key: &str) {
+        self.act(&["windowfocus", "--sync", &self.window]);
+        self.act(&["key", key]);
+    }
+
+    fn drag(&self, from: [i32; 2], by: [i32; 2]) {
+        let go = |x: i32, y: i32| self.act(&["mousemove", &x.to_string(), &y.to_string()]);
+        go(from[0], from[1]);
+        self.act(&["mousedown", "1"]);
+        for step in 1..=8 {
+            go(from[0] + by[0] * step / 8, from[1] + by[1] * step / 8);
+        }
+        self.act(&["mouseup", "1"]);
+    }
+
+    fn resize(&self, width: u32, height: u32) {
+        self.act(&["windowsize", &self.window, &width.to_string(), &height.to_string()]);
+    }
+
+    fn shot(&self) -> RgbImage {
+        let output =
+            Command::new("import").args(["-window", "root", "png:-"]).env("DISPLAY", &self.display).output().unwrap();
+        image::load_from_memory(&output.stdout).unwrap().into_rgb8()
+    }
+
+    /// Looks again and again until there is what is looked for.
+    fn wait_for<T>(&mut self, what: &str, look: impl Fn(&Self) -> Option<T>) -> T {
+        let start = Instant::now();
+        loop {
+            if let Some(status) = self.program.0.try_wait().unwrap() {
+                panic!("soapfilm ended ({status}) while {what} was awaited");
+            }
+            if let Some(found) = look(self) {
+                return found;
+            }
+            assert!(start.elapsed() < PATIENCE, "{what} did not come");
+            sleep(Duration::from_millis(200));
+        }
+    }
+
+    /// The screen once it shows a bubble and nothing moves any more.
+    fn settled(&mut self, what: &str) -> RgbImage {
+        self.wait_for(what, |screen| {
+            let first = screen.shot();
+            sleep(Duration::from_millis(600));
+            let second = screen.shot();
+            (colourfulness(&second) > 8.0 && first == second).then_some(second)
+        })
+    }
+
+    /// Processor time of all the program's threads so far, in jiffies.
+    fn jiffies(&self) -> u64 {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.program.0.id())).unwrap();
+        // The name in brackets may hold spaces; user and system time are the 12th and 13th field after it.
+        let fields = stat.rsplit_once(')').unwrap().1.split_whitespace().skip(11);
+        fields.take(2).map(|field| field.parse::<u64>().unwrap()).sum()
+    }
+
+    fn ends_well(&mut self) {
+        let start = Instant::now();
+        while start.elapsed() < Duration::from_secs(20) {
+            if let Some(status) = self.program.0.try_wait().unwrap() {
+                assert!(status.success(), "soapfilm ended with {status}");
+                return;
+            }
+            sleep(Duration::from_millis(50));
+        }
+        panic!("soapfilm does not end");
+    }
+}
+
+/// An X server on a display number that it finds free.
+fn start_server() -> (Guarded, String) {
+    let mut server = Command::new("Xvfb")
+        .args(["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .map(Guarded)
+        .unwrap();
+    let mut number = String::new();
+    BufReader::new(server.0.stdout.take().unwrap()).read_line(&mut number).unwrap();
+    (server, format!(":{}", number.trim()))
+}
+
+/// The middle of the picture, which stands left of the panels.
+fn middle(shot: &RgbImage) -> impl Iterator<Item = [u8; 3]> {
+    let (width, height) = (980, shot.height());
+    let region = image::imageops::crop_imm(shot, width / 4, height / 4, width / 2, height / 2).to_image();
+    region.pixels().map(|pixel| pixel.0).collect::<Vec<_>>().into_iter()
+}
+
+/// Mean difference between the largest and the smallest of a pixel's values.
+fn colourfulness(shot: &RgbImage) -> f64 {
+    let spread = |[r, g, b]: [u8; 3]| f64::from(r.max(g).max(b) - r.min(g).min(b));
+    middle(shot).map(spread).sum::<f64>() / middle(shot).count() as f64
+}
+
+/// Mean difference between two pictures' values.
+fn difference(a: &RgbImage, b: &RgbImage) -> f64 {
+    let apart = |(a, b): ([u8; 3], [u8; 3])| (0..3).map(|i| f64::from(a[i].abs_diff(b[i]))).sum::<f64>() / 3.0;
+    middle(a).zip(middle(b)).map(apart).sum::<f64>() / middle(a).count() as f64
+}
+
+fn tools_are_there() -> bool {
+    let missing: Vec<_> = ["Xvfb", "xdotool", "import"]
+        .into_iter()
+        .filter(|tool| {
+            let quiet = |command: &mut Command| command.stdout(Stdio::null()).stderr(Stdio::null()).status().is_err();
+            quiet(Command::new(tool).arg("-version"))
+        })
+        .collect();
+    if missing.is_empty() {
+        return true;
+    }
+    let demanded = std::env::var("SOAPFILM_REQUIRE_WINDOW").is_ok_and(|value| value == "1");
+    assert!(!demanded, "SOAPFILM_REQUIRE_WINDOW=1, but {} is not installed", missing.join(", "));
+    eprintln!("skipped: {} is not installed", missing.join(", "));
+    false
+}
+
+#[test]
+fn a_window_shows_a_bubble_obeys_and_rests() {
+    if !tools_are_there() {
+        return;
+    }
+    let mut screen = Screen::open(&["app", "windows"]);
+    screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 8.0).then_some(()));
+
+    screen.press("space");
+    screen.act(&["mousemove", "500", "400"]);
+    let paused = screen.settled("a paused picture");
+
+    let before = screen.jiffies();
+    sleep(WATCHED);
+    let used = screen.jiffies() - before;
+    assert!(used <= IDLE_JIFFIES, "{used} jiffies in {WATCHED:?} while nothing changed");
+
+    screen.drag([500, 400], [200, 60]);
+    let turned = screen.settled("a turned picture");
+    assert!(difference(&paused, &turned) > 2.0, "a drag must turn the view");
+
+    screen.press("h");
+    screen.wait_for("a picture without panels", |screen| {
+        // The header's text is gone: its corner is backdrop now.
+        let shot = screen.shot();
+        (0..60).all(|x| shot.get_pixel(1000 + x, 8) == turned.get_pixel(20, 8) || x % 7 != 0).then_some(())
+    });
+    screen.press("h");
+    screen.settled("the panels' return");
+
+    for (width, height) in [(200, 150), (1, 1), (1280, 800)] {
+        screen.resize(width, height);
+        sleep(Duration::from_millis(400));
+    }
+    let back = screen.settled("the size's return");
+    assert!(difference(&turned, &back) < 1.0, "the picture must come back as it was");
+
+    // Debug builds can lose their device at a key.
+    if cfg!(debug_assertions) {
+        screen.press("F12");
+        sleep(Duration::from_millis(400));
+        let recovered = screen.settled("a picture on the new device");
+        assert!(difference(&turned, &recovered) < 1.0, "nothing may be lost with the device");
+    }
+
+    screen.press("ctrl+q");
+    screen.ends_well();
+}
