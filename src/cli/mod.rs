@@ -7,6 +7,7 @@ mod colour;
 mod info;
 mod measure;
 mod parse;
+pub mod reference;
 mod render;
 mod transport;
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::{Context, bail};
 use clap::Args;
 
-use super::{AdapterArguments, measure, parse};
+use super::{AdapterArguments, measure, parse, reference};
 use crate::{
     gpu::{GpuError, Renderer},
     input::{LoadedScene, load_scene},
@@ -127,8 +127,15 @@ fn fits(renderer: &Renderer, [width, height]: [u32; 2]) -> Result<(), GpuError> 
     Ok(())
 }
 
-fn compute(_: &Arguments, _: &Want, _: Format) -> anyhow::Result<Picture> {
-    bail!("later")
+fn compute(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result<Picture> {
+    if arguments.explain || arguments.repeat > 0 || arguments.stats.is_some() {
+        bail!("--explain, --repeat and --stats tell of the GPU; leave them out with --quality reference");
+    }
+    let radiance = reference::radiance(&want.picture.draw)?;
+    Ok(match format {
+        Format::Png => reference::display(&want.picture, &radiance),
+        Format::Exr => reference::linear(arguments.size, &radiance),
+    })
 }
 
 fn metadata(arguments: &Arguments, loaded: &LoadedScene) -> Metadata {

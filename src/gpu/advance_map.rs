@@ -27,9 +27,12 @@ pub enum FlowKind {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct WindMoment {
-    shift_sin: f32,
-    shift_cos: f32,
-    reversal: f32,
+    /// Sine of the zonal shift 2πt / T.
+    pub shift_sin: f32,
+    /// Its cosine.
+    pub shift_cos: f32,
+    /// The reversal factor cos(πt / T).
+    pub reversal: f32,
     pad: f32,
 }
 

@@ -275,7 +275,7 @@ impl LawInForce {
     fn step(&mut self, key: &FieldKey, tick: u64, fraction: f64) -> Step {
         let law = key.law(tick);
         if self.0.as_ref().is_none_or(|(known, _)| *known != law) {
-            self.0 = Some((law, prescribed(law)));
+            self.0 = Some((law, law.prescribed()));
         }
         let dt_s = key.tick_s * fraction;
         let middle_s = key.tick_s * tick as f64 + 0.5 * dt_s;
@@ -283,14 +283,5 @@ impl LawInForce {
             Some((_, flow)) => Step::prescribed(&flow.frozen_at(middle_s), dt_s),
             None => Step::prescribed(&PrescribedFlow::default().frozen_at(middle_s), dt_s),
         }
-    }
-}
-
-fn prescribed(law: FlowLaw) -> PrescribedFlow {
-    match law {
-        FlowLaw::Rest => PrescribedFlow::default(),
-        FlowLaw::Sloshing { strength, seed } => PrescribedFlow::sloshing(seed, strength),
-        FlowLaw::Draught { strength, seed } => PrescribedFlow::draught(seed, strength),
-        FlowLaw::Stirred { strength, seed } => PrescribedFlow::stirred(seed, strength),
     }
 }

@@ -7,6 +7,7 @@ pub mod colour;
 pub mod environment;
 pub mod film;
 pub mod optics;
+pub mod picture;
 pub mod spectra;
 pub mod sphere;
 pub mod transport;

@@ -4,7 +4,12 @@ use std::{fmt, sync::Arc};
 
 use glam::{DVec2, DVec3};
 
-use crate::physics::{colour::Illuminant, environment::CubeMap, film::InitialFilm, optics::FilmIndex};
+use crate::physics::{
+    colour::Illuminant,
+    environment::CubeMap,
+    film::{InitialFilm, PrescribedFlow},
+    optics::FilmIndex,
+};
 
 /// The lookup table of film colours.
 #[derive(Clone, Debug)]
@@ -138,6 +143,19 @@ pub enum FlowLaw {
         /// Which of all such flows.
         seed: u32,
     },
+}
+
+impl FlowLaw {
+    /// The law as a velocity field.
+    #[must_use]
+    pub fn prescribed(self) -> PrescribedFlow {
+        match self {
+            Self::Rest => PrescribedFlow::default(),
+            Self::Sloshing { strength, seed } => PrescribedFlow::sloshing(seed, strength),
+            Self::Draught { strength, seed } => PrescribedFlow::draught(seed, strength),
+            Self::Stirred { strength, seed } => PrescribedFlow::stirred(seed, strength),
+        }
+    }
 }
 
 /// A law, and the tick from which it holds.

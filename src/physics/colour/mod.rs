@@ -6,6 +6,7 @@
 
 mod cie;
 mod delta_e;
+mod display;
 mod film;
 mod illuminant;
 mod spaces;
@@ -16,6 +17,7 @@ mod reference_tests;
 
 pub use cie::{ColourWeights, Observer};
 pub use delta_e::{Lab, ciede2000, xyz_to_lab};
+pub use display::Display;
 pub use film::{FilmOptics, Walls, m2_delta_e, m2_exposure};
 pub use illuminant::{Illuminant, UnknownIlluminant};
 pub use spaces::{BT709, BT2020, DISPLAY_P3, RgbSpace, bt709_to_bt2020, bt2020_to_bt709, srgb_decode, srgb_encode};

@@ -29,9 +29,12 @@ pub struct FlowMap {
 impl FlowMap {
     /// A tracer at rest.
     pub fn new(grid: CubedSphere, tracer: impl Fn(DVec3) -> f64 + Sync) -> Self {
-        let halo = HaloTable::new(grid);
-        let tracer = PaddedField::sample(grid, &halo, tracer);
-        Self { halo, tracer, map: None }
+        Self::from_field(PaddedField::sample(grid, &HaloTable::new(grid), tracer))
+    }
+
+    /// A tracer at rest, by its values on a grid.
+    pub fn from_field(tracer: PaddedField<f64>) -> Self {
+        Self { halo: HaloTable::new(tracer.grid()), tracer, map: None }
     }
 
     /// Moves the fluid by one step from time `t` to `t + dt`.

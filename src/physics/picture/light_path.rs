@@ -1,0 +1,127 @@
+//! One ray through one bubble: the hits on the film, and how much of the light each direction contributes.
+
+use glam::DVec3;
+
+use crate::physics::{
+    colour::{BT2020, FilmOptics},
+    optics::{Incidence, Polarised, REFERENCE_NM, amplitudes},
+    spectra::wavelength_nm,
+};
+
+/// Inner reflections followed at most; only rays within a hair of the rim have more to give.
+const MAX_INNER: usize = 12;
+/// What may be left to the last direction before following it further is pointless.
+const NEGLIGIBLE: f64 = 1e-6;
+
+/// A film under an illuminant, ready to have rays traced through bubbles of it.
+pub(super) struct LightPath<'a> {
+    optics: &'a FilmOptics,
+    /// Share of each wavelength in the linear BT.2020 colour of reflected light, where a perfect mirror is (1, 1, 1).
+    shares: Vec<DVec3>,
+}
+
+/// What comes along a ray: for each direction, the factor on the radiance from there.
+pub(super) struct Arrivals {
+    /// On what stands straight behind the bubble.
+    pub straight: DVec3,
+    /// On the surroundings in a direction: the outer reflection, if there is one, then each inner one.
+    pub reflected: Vec<(DVec3, DVec3)>,
+}
+
+impl<'a> LightPath<'a> {
+    pub fn new(optics: &'a FilmOptics) -> Self {
+        let to_bt2020 = BT2020.from_xyz();
+        let white = to_bt2020 * optics.weights().white();
+        let shares = optics.weights().as_slice().iter().map(|weight| to_bt2020 * *weight / white).collect();
+        Self { optics, shares }
+    }
+
+    /// Follows a ray (a unit vector) from an eye in units of the radius, the sphere's centre at the origin; nothing if it misses.
+    pub fn trace(&self, eye: DVec3, ray: DVec3, thickness_nm: &dyn Fn(DVec3) -> f64) -> Option<Arrivals> {
+        let along = eye.dot(ray);
+        let foot = eye - along * ray;
+        let inside = eye.length_squared() <= 1.0;
+        if foot.length_squared() >= 1.0 || (!inside && along >= 0.0) {
+            return None;
+        }
+        let cos_theta = (1.0 - foot.length_squared()).sqrt();
+        let hits = Hits::new(foot, ray, cos_theta, self.inner_reflections(cos_theta));
+        let thickness_nm: Vec<f64> = hits.points.iter().map(|point| thickness_nm(*point)).collect();
+        let factors = self.factors(cos_theta, &thickness_nm, inside);
+        let first = usize::from(inside);
+        let reflected = hits.directions.into_iter().zip(factors.reflected).skip(first).collect();
+        Some(Arrivals { straight: factors.straight, reflected })
+    }
+
+    /// How many inner reflections to follow, by the most that any film reflects at this angle.
+    fn inner_reflections(&self, cos_theta: f64) -> usize {
+        let r2 = amplitudes(self.optics.film().n(REFERENCE_NM), cos_theta).s.powi(2);
+        let most = 4.0 * r2 / (1.0 + r2).powi(2);
+        let needed = NEGLIGIBLE.ln() / most.ln();
+        // `most` is 1 at the very rim, where no number of reflections is enough.
+        if needed.is_finite() && needed > 0.0 { (needed.ceil() as usize).clamp(1, MAX_INNER) } else { MAX_INNER }
+    }
+
+    fn factors(&self, cos_theta: f64, thickness_nm: &[f64], inside: bool) -> Factors {
+        let mut factors = Factors { straight: DVec3::ZERO, reflected: vec![DVec3::ZERO; thickness_nm.len()] };
+        for (i, (share, n)) in self.shares.iter().zip(self.optics.indices()).enumerate() {
+            let incidence = Incidence::new(*n, cos_theta);
+            let wall = |thickness_nm: &f64| incidence.reflectance(*thickness_nm, wavelength_nm(i));
+            factors.add(*share, thickness_nm.iter().map(wall), inside);
+        }
+        factors
+    }
+}
+
+/// Factors of a ray's directions, summed over wavelengths and polarisations.
+struct Factors {
+    straight: DVec3,
+    /// Outer reflection first, then each inner one.
+    reflected: Vec<DVec3>,
+}
+
+impl Factors {
+    /// Adds one wavelength, by the reflectances of its hits in order.
+    fn add(&mut self, share: DVec3, mut walls: impl Iterator<Item = Polarised>, inside: bool) {
+        let [front, back] = [walls.next(), walls.next()].map(|wall| wall.unwrap_or(Polarised { s: 0.0, p: 0.0 }));
+        self.reflected[0] += share * front.mean();
+        // What is inside and heads for the back wall, half of it s and half p.
+        let entered = if inside { [1.0, 1.0] } else { [1.0 - front.s, 1.0 - front.p] };
+        let [s, p] = [0.5 * entered[0], 0.5 * entered[1]];
+        self.straight += share * (s * (1.0 - back.s) + p * (1.0 - back.p));
+        let (mut s, mut p) = (s * back.s, p * back.p);
+        let last = self.reflected.len() - 1;
+        for (k, factor) in self.reflected.iter_mut().enumerate().skip(1) {
+            // The last direction followed keeps all that is left.
+            let exit = if k == last { None } else { walls.next() }.unwrap_or(Polarised { s: 0.0, p: 0.0 });
+            *factor += share * (s * (1.0 - exit.s) + p * (1.0 - exit.p));
+            (s, p) = (s * exit.s, p * exit.p);
+        }
+    }
+}
+
+/// Where a ray meets the unit sphere, and where it goes from there.
+struct Hits {
+    /// The front wall, then each point on the inside that the ray comes to.
+    points: Vec<DVec3>,
+    /// The outer reflection, then the direction after each inner one.
+    directions: Vec<DVec3>,
+}
+
+impl Hits {
+    /// With the foot of the perpendicular from the centre on the ray; every chord has the length 2 cos θ.
+    fn new(foot: DVec3, ray: DVec3, cos_theta: f64, inner: usize) -> Self {
+        let chord = 2.0 * cos_theta;
+        let front = foot - cos_theta * ray;
+        let mut points = vec![front];
+        let mut directions = vec![ray + chord * front];
+        let (mut point, mut direction) = (foot + cos_theta * ray, ray);
+        for _ in 0..inner {
+            points.push(point);
+            direction -= chord * point;
+            directions.push(direction);
+            point += chord * direction;
+        }
+        Self { points, directions }
+    }
+}

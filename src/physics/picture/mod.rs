@@ -1,0 +1,105 @@
+//! The picture that the shaders approximate: the same light path in f64, wavelength by wavelength, with no table and no field of f32.
+//!
+//! A ray that meets a bubble meets its film again and again at the same angle and in the same plane of incidence (a property of spheres), so
+//! s and p light never mix and each hit multiplies them separately. With Rₖ and Tₖ = 1 − Rₖ of hit k, each at its own thickness,
+//!
+//! ```text
+//! L = R₀ E(v₀) + T₀ T₁ B(v) + T₀ R₁ T₂ E(v₁) + T₀ R₁ R₂ T₃ E(v₂) + …
+//! ```
+//!
+//! where v is the ray, v₀ its outer reflection and vₖ its direction after k inner reflections; what is left after the last direction
+//! followed is given to that direction, so that no energy is lost. From inside the bubble the sum starts at hit 1.
+//!
+//! What is and is not exact: the products of walls are formed at each of 421 wavelengths, and only their sum becomes a colour, which is then
+//! multiplied with the surroundings' RGB. For neutral light that is the full spectral answer; saturated lights stand for no spectrum here.
+//! Rays are straight (refraction shifts them by less than the film's thickness). A bubble behind another is not seen through it.
+
+mod light_path;
+mod view;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::colour::FilmOptics;
+use light_path::LightPath;
+pub use view::PictureCamera;
+
+/// A bubble.
+pub struct FilmSphere<'a> {
+    /// Centre in metres.
+    pub centre_m: DVec3,
+    /// Radius in metres.
+    pub radius_m: f64,
+    /// Film thickness in nm in the direction of a unit vector from the centre.
+    pub thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a>,
+}
+
+/// All that a picture is computed from. Radiance is linear BT.2020.
+pub struct PictureScene<'a> {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Where the picture is taken from.
+    pub camera: PictureCamera,
+    /// The film and the illuminant.
+    pub optics: &'a FilmOptics,
+    /// The bubbles, farthest first: where two overlap the later one hides the earlier.
+    pub spheres: Vec<FilmSphere<'a>>,
+    /// Radiance that arrives from a direction; it already includes the colour of the illuminant.
+    pub surroundings: &'a (dyn Fn(DVec3) -> DVec3 + Sync),
+    /// Radiance straight behind the bubbles, or nothing where that is the surroundings.
+    pub backdrop: Option<DVec3>,
+    /// Samples along each side of a pixel, 1 or more. Pixels that an outline crosses take [`RIM_SAMPLES`] at least.
+    pub samples: u32,
+}
+
+/// Samples along each side of a pixel that a bubble's outline crosses: coverage is then right to about 1 / 32.
+pub const RIM_SAMPLES: u32 = 8;
+
+impl PictureScene<'_> {
+    /// Radiance of each pixel, linear BT.2020, row by row from the top left: the mean over the pixel's samples.
+    #[must_use]
+    pub fn radiance(&self) -> Vec<DVec3> {
+        let [width, height] = self.size;
+        let paths = LightPath::new(self.optics);
+        (0..width * height).into_par_iter().map(|k| self.pixel(&paths, [k % width, k / width])).collect()
+    }
+
+    fn pixel(&self, paths: &LightPath, corner: [u32; 2]) -> DVec3 {
+        let corner = DVec2::new(f64::from(corner[0]), f64::from(corner[1]));
+        let side = if self.meets_outline(corner + 0.5) { self.samples.max(RIM_SAMPLES) } else { self.samples.max(1) };
+        let offset = |k: u32| (f64::from(k) + 0.5) / f64::from(side);
+        let samples = (0..side * side).map(|k| corner + DVec2::new(offset(k % side), offset(k / side)));
+        let total: DVec3 = samples.map(|position| self.sample(paths, self.camera.ray(self.size, position))).sum();
+        total / f64::from(side * side)
+    }
+
+    /// Whether a bubble's outline passes within a pixel of a position.
+    fn meets_outline(&self, position: DVec2) -> bool {
+        let ray = self.camera.ray(self.size, position);
+        self.spheres.iter().any(|sphere| {
+            let offset = sphere.centre_m - self.camera.eye_m;
+            let limb = (sphere.radius_m / offset.length()).asin();
+            // Not a number inside the bubble, which has no outline: the comparison is then false.
+            (ray.angle_between(offset) - limb).abs() < self.camera.pixel_height_m
+        })
+    }
+
+    fn sample(&self, paths: &LightPath, ray: DVec3) -> DVec3 {
+        let hit = self.spheres.iter().rev().find_map(|sphere| {
+            let eye = (self.camera.eye_m - sphere.centre_m) / sphere.radius_m;
+            paths.trace(eye, ray, &*sphere.thickness_nm)
+        });
+        let behind = || self.backdrop.unwrap_or_else(|| (self.surroundings)(ray));
+        match hit {
+            None => behind(),
+            Some(arrivals) => {
+                let reflected =
+                    arrivals.reflected.iter().map(|(direction, colour)| *colour * (self.surroundings)(*direction));
+                arrivals.straight * behind() + reflected.sum::<DVec3>()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

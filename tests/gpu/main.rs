@@ -1,0 +1,12 @@
+//! Tests of what the GPU computes against what is true, and of the crate's own rules. See `support` for the adapter they run on.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod layers;
+mod layouts;
+mod optics;
+mod passes;
+mod pictures;
+mod shaders;
+mod transport;

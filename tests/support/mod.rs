@@ -1,0 +1,83 @@
+//! What the integration tests share: an adapter, and pictures of scenes.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use glam::DVec3;
+use soapfilm::{
+    gpu::{AdapterChoice, Gpu, Renderer},
+    input::{LoadedScene, load_scene},
+    plan::{Moment, Pace, Shot, Want, want},
+};
+
+/// Part of the name of the adapter that must be there; without it a machine that has none skips the tests that need one.
+pub const REQUIRE_ADAPTER: &str = "SOAPFILM_REQUIRE_ADAPTER";
+
+/// The adapter to test on, or nothing where none is required and none is there.
+pub fn gpu() -> Option<Gpu> {
+    let required = std::env::var(REQUIRE_ADAPTER).ok().filter(|name| !name.is_empty());
+    let choice = AdapterChoice { name: required.clone(), backend: None }.or_env();
+    match (pollster::block_on(Gpu::headless(&choice)), required) {
+        (Ok(gpu), Some(name)) => {
+            let found = gpu.adapter_name();
+            assert!(found.contains(&name), "{REQUIRE_ADAPTER}={name}, but the adapter is {found}");
+            Some(gpu)
+        }
+        (Ok(gpu), None) => Some(gpu),
+        (Err(error), Some(name)) => panic!("{REQUIRE_ADAPTER}={name}, but {error}"),
+        (Err(error), None) => {
+            eprintln!("skipped: {error}");
+            None
+        }
+    }
+}
+
+/// A renderer on the adapter to test on.
+pub fn renderer() -> Option<Renderer> {
+    gpu().map(Renderer::new)
+}
+
+/// A preset with all it names.
+pub fn load(preset: &str) -> LoadedScene {
+    load_scene(preset).unwrap()
+}
+
+/// What a still picture of a scene needs, all at once and in f32.
+pub fn still(loaded: &LoadedScene, size: [u32; 2], time_s: f64) -> Want {
+    let moment = Moment::of_time(time_s, loaded.scene.motion.tick_s);
+    let shot = Shot { size, moment, full_precision: true, yardstick: false, pace: Pace::Whole };
+    want(&loaded.scene, &loaded.resources, &shot).unwrap()
+}
+
+/// Radiance of each pixel, linear BT.2020.
+pub fn radiance(renderer: &mut Renderer, want: &Want) -> Vec<DVec3> {
+    assert!(renderer.bring(want).unwrap().complete);
+    let bytes = renderer.read_radiance().unwrap().wait(&renderer.gpu).unwrap();
+    let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+    pixels.into_iter().map(|[r, g, b, _]| DVec3::new(r.into(), g.into(), b.into())).collect()
+}
+
+/// Bytes of each pixel, sRGB and alpha.
+pub fn display(renderer: &mut Renderer, want: &Want) -> Vec<u8> {
+    assert!(renderer.bring(want).unwrap().complete);
+    renderer.read_picture().unwrap().wait(&renderer.gpu).unwrap()
+}
+
+/// Numbers in [0, 1) that look random and are the same on every machine (SplitMix64, Steele, Lea & Flood 2014).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// Mean and maximum of some numbers; fails if there are none, or if one is no number.
+pub fn mean_and_max(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let values: Vec<f64> = values.into_iter().collect();
+    assert!(!values.is_empty(), "nothing was compared");
+    assert!(values.iter().all(|value| value.is_finite()), "not a number among {} values", values.len());
+    (values.iter().sum::<f64>() / values.len() as f64, values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+}
