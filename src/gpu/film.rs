@@ -10,6 +10,7 @@ use bytemuck::{Pod, Zeroable};
 use super::{
     Gpu, GpuError,
     advance_map::{MapBuffers, Step, advance_map},
+    compose_map::compose_map,
     pipelines::ComputeKey,
     timing::Recorder,
 };
@@ -32,8 +33,9 @@ pub struct Field {
     sphere: CubedSphere,
     grid: wgpu::Buffer,
     tangents: wgpu::Buffer,
-    /// Halo cells beyond an edge, then those beyond a corner, which read the edges.
-    halo: [HaloList; 2],
+    halo: Halo,
+    /// Where smooth flows are traced.
+    flow: FlowGrid,
     /// The map, and where its next step goes.
     map: [wgpu::Buffer; 2],
     map_is_identity: bool,
@@ -43,9 +45,56 @@ pub struct Field {
     film: wgpu::Texture,
 }
 
+/// Halo cells beyond an edge, then those beyond a corner, which read the edges.
+struct Halo([HaloList; 2]);
+
 struct HaloList {
     entries: wgpu::Buffer,
     count: u32,
+}
+
+impl Halo {
+    fn new(gpu: &Gpu, sphere: CubedSphere) -> Self {
+        let table = HaloTable::new(sphere);
+        let list =
+            |entries: &[HaloEntry]| HaloList { entries: gpu.storage("halo", entries), count: entries.len() as u32 };
+        Self([list(&table.edges), list(&table.corners)])
+    }
+}
+
+/// A grid four times coarser than the film, on which a step's backtrace is made: its cells are still a fraction of the smallest eddy,
+/// and cubic interpolation of one step's displacement errs by less than f32 rounds.
+struct FlowGrid {
+    cells: u32,
+    tangents: wgpu::Buffer,
+    halo: Halo,
+    step_map: wgpu::Buffer,
+}
+
+impl FlowGrid {
+    /// Cells along a panel's edge at least: 1.4° each.
+    const MIN_CELLS: u32 = 64;
+
+    fn new(gpu: &Gpu, film: CubedSphere) -> Self {
+        let film_cells = film.n() as u32;
+        let cells = film_cells.div_ceil(4).max(Self::MIN_CELLS).min(film_cells);
+        // No finer than the film's own grid, which is one.
+        let sphere = CubedSphere::new(cells as usize).unwrap_or(film);
+        let usage = wgpu::BufferUsages::STORAGE;
+        Self {
+            cells,
+            tangents: gpu.storage("flow tangents", &tangents(cells)),
+            halo: Halo::new(gpu, sphere),
+            step_map: gpu.buffer("step map", sphere.padded_len() as u64 * 16, usage),
+        }
+    }
+
+    /// Traces one step back from every cell.
+    fn trace(&self, recorder: &mut Recorder<'_>, name: &'static str, step: &Step) -> Result<(), GpuError> {
+        let map = MapBuffers { cells: self.cells, tangents: &self.tangents, before: None, after: &self.step_map };
+        advance_map(recorder, name, step, &map)?;
+        fill_halo(recorder, &self.halo, name, HaloOf::Map(&self.step_map))
+    }
 }
 
 impl Field {
@@ -55,14 +104,12 @@ impl Field {
         let cells = sphere.n() as u32;
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
         let padded = sphere.padded_len() as u64;
-        let table = HaloTable::new(sphere);
-        let list =
-            |entries: &[HaloEntry]| HaloList { entries: gpu.storage("halo", entries), count: entries.len() as u32 };
         Self {
             sphere,
             grid: gpu.uniform("grid", &GridUniform { cells, pad: [0; 3] }),
             tangents: gpu.storage("tangents", &tangents(cells)),
-            halo: [list(&table.edges), list(&table.corners)],
+            halo: Halo::new(gpu, sphere),
+            flow: FlowGrid::new(gpu, sphere),
             map: ["map", "next map"].map(|label| gpu.buffer(label, padded * 16, usage)),
             map_is_identity: true,
             tracer: ["tracer", "next tracer"].map(|label| gpu.buffer(label, padded * 4, usage)),
@@ -103,6 +150,11 @@ impl Field {
     fn advance_into_spare(&self, recorder: &mut Recorder<'_>, name: &'static str, step: &Step) -> Result<(), GpuError> {
         let before = (!self.map_is_identity).then_some(&self.map[0]);
         let map = MapBuffers { cells: self.cells(), tangents: &self.tangents, before, after: &self.map[1] };
+        recorder.counts.cells_stepped += self.sphere.cells() as u64;
+        if step.may_be_coarse() && self.flow.cells < self.cells() {
+            self.flow.trace(recorder, name, step)?;
+            return compose_map(recorder, name, (self.flow.cells, &self.flow.step_map), &map);
+        }
         advance_map(recorder, name, step, &map)
     }
 
@@ -231,19 +283,14 @@ enum HaloOf<'a> {
     Tracer(&'a wgpu::Buffer),
 }
 
-fn fill_halo(
-    recorder: &mut Recorder<'_>,
-    lists: &[HaloList],
-    name: &'static str,
-    of: HaloOf<'_>,
-) -> Result<(), GpuError> {
+fn fill_halo(recorder: &mut Recorder<'_>, halo: &Halo, name: &'static str, of: HaloOf<'_>) -> Result<(), GpuError> {
     let gpu = recorder.gpu;
     let (entry, buffer) = match of {
         HaloOf::Map(buffer) => ("fill_map", buffer),
         HaloOf::Tracer(buffer) => ("fill_tracer", buffer),
     };
     let pipeline = gpu.pipelines.compute(gpu, &ComputeKey { pass: "fill_halo", entry, constants: vec![] })?;
-    for list in lists {
+    for list in &halo.0 {
         let bindings =
             gpu.bind(&pipeline.get_bind_group_layout(0), &[&list.entries, buffer].map(wgpu::Buffer::as_entire_binding));
         recorder.dispatch(name, &pipeline, &bindings, [list.count.div_ceil(64), 1, 1]);

@@ -4,6 +4,7 @@
 
 pub mod advance_map;
 pub mod bake_table;
+pub mod compose_map;
 pub mod device;
 pub mod draw;
 pub mod environment;

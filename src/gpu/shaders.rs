@@ -27,6 +27,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "pass/backdrop",
     "pass/bake_table",
     "pass/bubble",
+    "pass/compose_map",
     "pass/fill_halo",
     "pass/pack_film",
     "pass/probe_colour",

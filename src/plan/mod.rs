@@ -186,7 +186,7 @@ const ROWS_A_DISPATCH: u32 = 512;
 /// How much coarser than the wanted table the first one is that a waiting window gets.
 const COARSE: u32 = 16;
 /// Cells stepped a frame while a window waits for a film to catch up.
-const CELLS_A_FRAME: u64 = 1_600_000;
+const CELLS_A_FRAME: u64 = 800_000;
 
 /// The passes that lead from what is there to what is wanted.
 #[must_use]

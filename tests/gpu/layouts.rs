@@ -6,6 +6,7 @@ use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 use soapfilm::{
     gpu::{
         advance_map::{StepUniform, WindMoment},
+        compose_map::ComposeUniform,
         bake_table::{BakeUniform, SpectralSample, TableAxes},
         draw::{BubbleUniform, LightUniform, ViewUniform},
         film::GridUniform,
@@ -96,6 +97,13 @@ fn mirrors() -> Vec<Mirror> {
             exposure = exposure,
             dither_seed = dither_seed,
             dither_steps = dither_steps
+        ),
+        mirror!(
+            "Compose",
+            ComposeUniform,
+            cells = cells,
+            step_cells = step_cells,
+            map_is_identity = map_is_identity
         ),
         mirror!("Grid", GridUniform, cells = cells),
         mirror!("HaloEntry", HaloEntry, cell = target, sources = source, weights = weights),
