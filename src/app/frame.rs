@@ -25,7 +25,7 @@ use crate::{
 };
 
 /// Time between two looks at the clock while nothing but its reading changes.
-const READING: Duration = Duration::from_millis(100);
+const READING: Duration = Duration::from_millis(400);
 /// Time until a surface that had no frame is asked again.
 const ASK_AGAIN: Duration = Duration::from_millis(50);
 /// Time between two looks at a picture that is being brought back.
@@ -103,8 +103,9 @@ impl View {
         }
         self.recover(model)?;
         let mut due = Due { now: Instant::now(), at: None };
-        let first_tick = self.pass_time(model, due.now);
         let mut output = self.run_panels(event_loop, model, &mut due);
+        // After the panels: what is changed there happens at the tick that its user sees.
+        let first_tick = self.pass_time(model, due.now);
         let moves = self.draw_picture(model, first_tick, &mut due);
         self.fetch(model, files, &mut due);
         self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
@@ -267,6 +268,7 @@ impl View {
         match renderer.gpu.pipelines.reload(&renderer.gpu, library) {
             Ok(()) => {
                 renderer.forget_picture();
+                model.messages.withdraw("shader ");
                 model.messages.note("Shaders read again");
             }
             Err(error) => model.messages.problem(error.to_string()),

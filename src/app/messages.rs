@@ -39,6 +39,7 @@ impl Messages {
     }
 
     fn push(&mut self, text: String, kind: Kind) {
+        let text = plain(&text);
         if !self.0.iter().any(|known| known.text == text) {
             self.0.push(Message { text, kind, until_s: None });
         }
@@ -66,15 +67,39 @@ impl Messages {
         }
     }
 
+    /// Takes away what begins like this, because it is no longer so.
+    pub fn withdraw(&mut self, beginning: &str) {
+        self.0.retain(|message| !message.text.starts_with(beginning));
+    }
+
     /// Takes all messages away, and tells whether there were any.
     pub fn clear(&mut self) -> bool {
         !std::mem::take(&mut self.0).is_empty()
     }
 }
 
+/// One line without the frames that compilers draw around code, which have no letters here.
+fn plain(text: &str) -> String {
+    let is_frame = |character: char| ('\u{2500}'..='\u{257f}').contains(&character);
+    text.split(|character: char| character.is_whitespace() || is_frame(character))
+        .filter(|word| !word.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn messages_are_plain_lines_and_can_be_withdrawn() {
+        let mut messages = Messages::default();
+        messages.problem("shader a.wgsl:1: found \"{\"\n ┌─ wgsl:60:12\n │ fn");
+        assert_eq!(messages.at(0.0)[0].text, "shader a.wgsl:1: found \"{\" wgsl:60:12 fn");
+        messages.note("saved");
+        messages.withdraw("shader ");
+        assert_eq!(messages.at(0.0).len(), 1);
+    }
 
     #[test]
     fn notes_go_and_problems_stay() {

@@ -14,7 +14,10 @@ pub fn show(ctx: &Context, shows_help: &mut bool) {
         ui.add_space(6.0);
         egui::ScrollArea::vertical().show(ui, |ui| {
             Grid::new("keys").num_columns(2).spacing([28.0, 5.0]).show(ui, |ui| {
-                let keys = BINDINGS.iter().map(|binding| (ctx.format_shortcut(&binding.shortcut), binding.help));
+                let mut bindings: Vec<_> = BINDINGS.iter().collect();
+                // Of two keys that do the same, one will do.
+                bindings.dedup_by_key(|binding| binding.action);
+                let keys = bindings.iter().map(|binding| (ctx.format_shortcut(&binding.shortcut), binding.help));
                 let pointer = POINTER.iter().map(|(what, help)| ((*what).to_owned(), *help));
                 for (what, help) in pointer.chain(keys) {
                     ui.strong(what);
