@@ -95,6 +95,12 @@ impl Moment {
         Self { tick, fraction: 0.0 }
     }
 
+    /// The first tick that has no part in this moment.
+    #[must_use]
+    pub fn end_tick(&self) -> u64 {
+        self.tick + u64::from(self.fraction > 0.0)
+    }
+
     /// The moment of a time, for a tick's length. A time within a billionth of a tick counts as the tick.
     #[must_use]
     pub fn of_time(time_s: f64, tick_s: f64) -> Self {
@@ -178,7 +184,7 @@ pub struct FieldKey {
     pub tick_s: f64,
     /// Ticks from one remap of the flow map to the next.
     pub remap_ticks: u32,
-    /// Laws in the order of their ticks; the first holds from tick 0.
+    /// Laws in the order of their ticks, as far as the moment has seen them; the first holds from tick 0.
     pub flows: Vec<FlowSegment>,
     /// The moment.
     pub moment: Moment,
@@ -212,7 +218,7 @@ impl FieldKey {
     /// Whether anything that shaped the other film up to its moment is different in this one.
     #[must_use]
     pub fn law_differs_until(&self, other: &Self) -> bool {
-        let end = other.moment.tick + u64::from(other.moment.fraction > 0.0);
+        let end = other.moment.end_tick();
         let past = |key: &Self| key.flows.iter().filter(|segment| segment.from_tick < end).copied().collect::<Vec<_>>();
         (self.cells, self.initial, self.tick_s, self.remap_ticks)
             != (other.cells, other.initial, other.tick_s, other.remap_ticks)

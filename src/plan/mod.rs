@@ -334,3 +334,6 @@ fn changed<K: PartialEq>(have: Option<&K>, want: &K, difference: impl Fn(&K, &K)
         Some(have) => Some(Reason::Changed(difference(have, want))),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -170,13 +170,16 @@ fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
             InitialFilm::Blown { thickness_nm, stratification: film.stratification, seed: fold_seed(film.seed) }
         }
     };
-    let flows = flows(scene);
+    let mut flows = flows(scene);
+    let moment = last_moved(&flows, moment);
+    // Laws that come into force later leave the film as it is: a key holds what its product depends on.
+    flows.retain(|segment| segment.from_tick < moment.end_tick());
     FilmKey::Field(FieldKey {
         cells: film.cells,
         initial,
         tick_s: scene.motion.tick_s,
         remap_ticks: scene.motion.remap_ticks,
-        moment: last_moved(&flows, moment),
+        moment,
         flows,
     })
 }

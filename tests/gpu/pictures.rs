@@ -255,50 +255,77 @@ fn small_bubbles_do_not_twinkle() {
     assert!(max > 0.0 && spread <= 0.005, "{energies:?}");
 }
 
-/// How far the GPU's picture is from the f64 one, in units of the f64 picture's brightest decile: mean, and 99th percentile.
-fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedScene, time_s: f64) -> (f64, f64) {
-    let want = still(loaded, [96, 54], time_s);
+/// Pixels on either side of the outline that count as the rim: light grazes the film there, thick films have fringes as narrow as pixels,
+/// and reflections squeeze the room together.
+const RIM_PIXELS: f64 = 4.0;
+
+/// How far the GPU's picture is from the f64 one, in units of the f64 picture's brightest decile.
+struct Distance {
+    mean: f64,
+    /// Largest difference of pixels that the bubble's outline stays clear of.
+    inside_max: f64,
+    /// Largest difference of the others.
+    rim_max: f64,
+}
+
+fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedScene, time_s: f64) -> Distance {
+    let size = [160, 90];
+    let want = still(loaded, size, time_s);
     let seen = radiance(renderer, &want);
     let truth = reference::radiance(&want.picture.draw).unwrap();
     let mut levels: Vec<f64> = truth.iter().map(|pixel| pixel.max_element()).collect();
     levels.sort_by(f64::total_cmp);
     let scale = levels[levels.len() * 9 / 10];
-    let mut errors: Vec<f64> = seen.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element() / scale).collect();
-    errors.sort_by(f64::total_cmp);
-    let (mean, max) = mean_and_max(errors.iter().copied());
-    let p99 = errors[errors.len() * 99 / 100];
-    eprintln!(
-        "measured: GPU - f64 picture, {name}: mean {mean:.5}, p99 {p99:.4}, max {max:.4} of the brightest decile"
-    );
-    (mean, p99)
+    let errors: Vec<f64> = seen.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element() / scale).collect();
+    let eye = camera(&want);
+    let limb = (0.05 / eye.eye_m.length()).asin();
+    let at_rim = |k: usize| {
+        let position = DVec2::new((k % 160) as f64 + 0.5, (k / 160) as f64 + 0.5);
+        // Not a number, and so never at the rim, with the camera inside.
+        (eye.ray(size, position).angle_between(-eye.eye_m) - limb).abs() < RIM_PIXELS * eye.pixel_height_m
+    };
+    let part = |rim: bool| {
+        let errors = errors.iter().enumerate().filter(|(k, _)| at_rim(*k) == rim).map(|(_, error)| *error);
+        errors.fold(0.0, f64::max)
+    };
+    let (mean, _) = mean_and_max(errors.iter().copied());
+    let distance = Distance { mean, inside_max: part(false), rim_max: part(true) };
+    let Distance { mean, inside_max, rim_max } = distance;
+    eprintln!("measured: GPU - f64 picture, {name}: mean {mean:.5}, max {inside_max:.4}, at the rim {rim_max:.4}");
+    distance
 }
 
-/// In even light without any detail what remains is the optics: the products of walls in RGB (mean ΔE near 1, a per cent or two of the
-/// film's light where colours are saturated), reflections after the second inner one, and the outline's analytic coverage.
+/// In even light what remains is the optics. Inside the outline: products of walls in RGB (mean ΔE near 1, some per cent of the light where
+/// colours are saturated), and light of the third inner reflection on given to the second, which is the same light here. At the outline:
+/// one analytic coverage and one ray a pixel against 64 rays, where the film turns from 10 % to 100 % of reflectance within a pixel.
 #[test]
 fn the_picture_in_even_light_is_the_f64_one() {
     let Some(mut renderer) = renderer() else { return };
-    let mut loaded = uniform(320.0, even_light());
-    loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
-    let (mean, p99) = distance_from_reference(&mut renderer, "uniform 320 nm, even light, black card", &loaded, 0.0);
-    assert!(mean <= 0.01 && p99 <= 0.06, "mean {mean}, p99 {p99}");
+    let mut still_film = uniform(320.0, even_light());
+    still_film.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
     let mut moving = load("default");
     moving.resources.environment = Arc::new(even_light());
     moving.scene.bubbles[0].film.cells = 64;
-    let (mean, p99) = distance_from_reference(&mut renderer, "default film at 0.51 s, even light", &moving, 0.51);
-    assert!(mean <= 0.01 && p99 <= 0.06, "mean {mean}, p99 {p99}");
+    let (loaded, name) =
+        ([&still_film, &moving], ["uniform 320 nm, even light, black card", "default film at 0.51 s, even light"]);
+    for (loaded, name) in loaded.into_iter().zip(name) {
+        let distance = distance_from_reference(&mut renderer, name, loaded, 0.51);
+        assert!(distance.mean <= 0.01 && distance.inside_max <= 0.05 && distance.rim_max <= 0.3, "{name}");
+    }
 }
 
-/// With a room around it, filtered lookups of the environment stand against averages over samples: edges of lamps differ by a part
-/// of their contrast, within a pixel.
+/// With a tent around it, filtered lookups of the environment stand against averages over samples: edges of lamps differ by a part of
+/// their contrast within a pixel, and most where the rim squeezes them.
 #[test]
 fn the_pictures_of_presets_are_the_f64_ones() {
     let Some(mut renderer) = renderer() else { return };
-    for (name, mean_limit, p99_limit) in [("default", 0.02, 0.12), ("inside", 0.02, 0.2), ("lamplight", 0.02, 0.12)] {
+    let tent = load("default").resources.environment;
+    for name in ["default", "inside", "lamplight"] {
         let mut loaded = load(name);
+        loaded.resources.environment = tent.clone();
         loaded.scene.bubbles[0].film.cells = 64;
-        let (mean, p99) = distance_from_reference(&mut renderer, name, &loaded, 0.0);
-        assert!(mean <= mean_limit && p99 <= p99_limit, "{name}: mean {mean}, p99 {p99}");
+        let distance = distance_from_reference(&mut renderer, name, &loaded, 0.0);
+        assert!(distance.mean <= 0.012 && distance.inside_max <= 0.15 && distance.rim_max <= 0.4, "{name}");
     }
 }
 
@@ -317,13 +344,17 @@ fn equal_history_gives_equal_bits() {
     assert!(display(&mut second, &want(1.01)) == at_once);
 }
 
-/// Every preset draws, and shows something.
+/// Every preset draws, and shows something: but for the furnace, whose bubble must not be seen.
 #[test]
 fn every_preset_draws() {
     let Some(mut renderer) = renderer() else { return };
-    for name in preset_names() {
-        let rgba = display(&mut renderer, &still(&load(name), [96, 54], 0.1));
-        let distinct: std::collections::BTreeSet<_> = rgba.chunks_exact(4).map(|pixel| &pixel[..3]).collect();
-        assert!(distinct.len() > if name == "furnace" { 1 } else { 20 }, "{name}: {} colours", distinct.len());
+    for name in preset_names().filter(|name| *name != "furnace") {
+        let mut loaded = load(name);
+        loaded.scene.bubbles.iter_mut().for_each(|bubble| bubble.film.cells = 32);
+        let rgba = display(&mut renderer, &still(&loaded, [96, 54], 0.1));
+        let levels =
+            || rgba.chunks_exact(4).map(|pixel| u32::from(pixel[0]) + u32::from(pixel[1]) + u32::from(pixel[2]));
+        let (darkest, brightest) = (levels().min().unwrap(), levels().max().unwrap());
+        assert!(brightest > darkest + 60, "{name}: from {darkest} to {brightest}");
     }
 }
