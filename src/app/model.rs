@@ -225,7 +225,7 @@ pub(super) mod tests {
 
     #[test]
     fn another_film_begins_anew_and_an_index_is_everyones() {
-        let mut model = Model::new(load_scene("family").unwrap());
+        let mut model = Model::new(load_scene("trio").unwrap());
         model.clock.tick = 50;
         let film = Film { index: FilmIndexName::Constant(1.5), ..model.scene.bubbles[2].film.clone() };
         model.change_film(2, film);

@@ -15,7 +15,10 @@ use std::{ffi::OsString, process::ExitCode};
 
 use clap::{Args, Parser, Subcommand, error::ErrorKind};
 
-use crate::gpu::{AdapterChoice, Gpu, GpuError};
+use crate::{
+    gpu::{AdapterChoice, Gpu, GpuError},
+    input::{LoadedScene, load_scene},
+};
 
 /// Soap bubbles with correct thin-film interference and a film that flows.
 #[derive(Parser)]
@@ -79,14 +82,17 @@ impl AdapterArguments {
     }
 }
 
-/// Runs the program with its arguments, the program's own name first.
-pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Opens the window on a scene and returns when it is closed.
+pub type OpenWindow = fn(LoadedScene, &AdapterChoice) -> anyhow::Result<()>;
+
+/// Runs the program with its arguments, the program's own name first. The window belongs to another layer, so it is handed in.
+pub fn main(arguments: impl IntoIterator<Item = OsString>, open_window: OpenWindow) -> ExitCode {
     env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("off")).init();
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => return explain(&error),
     };
-    match run(arguments) {
+    match run(arguments, open_window) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {}", one_line(&format!("{error:#}")));
@@ -95,9 +101,12 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-fn run(arguments: Arguments) -> anyhow::Result<()> {
+fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
     match arguments.command.unwrap_or(Command::App(arguments.app)) {
-        Command::App(arguments) => open_window(&arguments),
+        Command::App(arguments) => {
+            let scene = load_scene(arguments.scene.as_deref().unwrap_or("default"))?;
+            open_window(scene, &arguments.adapter.choice())
+        }
         Command::Render(arguments) => render::run(&arguments),
         Command::Colour(arguments) => colour::run(&arguments),
         Command::Transport(arguments) => transport::run(&arguments),
@@ -120,15 +129,4 @@ fn explain(error: &clap::Error) -> ExitCode {
 
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-#[cfg(feature = "gui")]
-fn open_window(arguments: &AppArguments) -> anyhow::Result<()> {
-    let scene = arguments.scene.as_deref().unwrap_or("default");
-    Ok(crate::app::run(crate::input::load_scene(scene)?, &arguments.adapter.choice())?)
-}
-
-#[cfg(not(feature = "gui"))]
-fn open_window(_: &AppArguments) -> anyhow::Result<()> {
-    anyhow::bail!("this build has no window: build it with the feature `gui`, or use `soapfilm render`")
 }

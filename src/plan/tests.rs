@@ -158,13 +158,13 @@ fn a_window_catches_up_with_a_film_in_portions() {
 
 #[test]
 fn another_past_seeds_anew_and_another_future_does_not() {
-    let mut stirred_at_3 = default_scene();
-    stirred_at_3.events.push(event(3, Flow::Stirred));
-    let mut stirred_at_30 = default_scene();
-    stirred_at_30.events.push(event(30, Flow::Stirred));
-    assert!(between((&default_scene(), 10), (&stirred_at_3, 10)).contains(&"seed_field"));
-    assert_eq!(between((&default_scene(), 10), (&stirred_at_30, 10)), [] as [&str; 0]);
-    assert_eq!(between((&default_scene(), 10), (&stirred_at_30, 40)), ["step_field", "show_field", "draw", "tonemap"]);
+    let mut sloshing_at_3 = default_scene();
+    sloshing_at_3.events.push(event(3, Flow::Sloshing));
+    let mut sloshing_at_30 = default_scene();
+    sloshing_at_30.events.push(event(30, Flow::Sloshing));
+    assert!(between((&default_scene(), 10), (&sloshing_at_3, 10)).contains(&"seed_field"));
+    assert_eq!(between((&default_scene(), 10), (&sloshing_at_30, 10)), [] as [&str; 0]);
+    assert_eq!(between((&default_scene(), 10), (&sloshing_at_30, 40)), ["step_field", "show_field", "draw", "tonemap"]);
 }
 
 #[test]

@@ -6,8 +6,8 @@ use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 use soapfilm::{
     gpu::{
         advance_map::{StepUniform, WindMoment},
-        compose_map::ComposeUniform,
         bake_table::{BakeUniform, SpectralSample, TableAxes},
+        compose_map::ComposeUniform,
         draw::{BubbleUniform, LightUniform, ViewUniform},
         film::GridUniform,
         probe_colour::ProbePoint,
@@ -98,13 +98,7 @@ fn mirrors() -> Vec<Mirror> {
             dither_seed = dither_seed,
             dither_steps = dither_steps
         ),
-        mirror!(
-            "Compose",
-            ComposeUniform,
-            cells = cells,
-            step_cells = step_cells,
-            map_is_identity = map_is_identity
-        ),
+        mirror!("Compose", ComposeUniform, cells = cells, step_cells = step_cells, map_is_identity = map_is_identity),
         mirror!("Grid", GridUniform, cells = cells),
         mirror!("HaloEntry", HaloEntry, cell = target, sources = source, weights = weights),
         mirror!(

@@ -68,7 +68,7 @@ fn the_middle_pixel_sums_the_series_of_reflections() {
 
 #[test]
 fn a_bubble_without_film_shows_what_is_behind_it() {
-    let sky = |direction: DVec3| direction.abs();
+    let sky = |direction: DVec3| DVec3::splat(0.5) + 0.5 * direction;
     let with = radiance(&Illuminant::default(), camera(4.0, 0.6), 0.0, &sky, None);
     let without: Vec<DVec3> = (0..81)
         .map(|k| sky(camera(4.0, 0.6).ray(SIZE, DVec2::new(f64::from(k % 9) + 0.5, f64::from(k / 9) + 0.5))))
