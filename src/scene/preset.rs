@@ -8,8 +8,19 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 11] =
-    presets!["default", "fresh", "bands", "black", "windows", "bright", "lamplight", "trio", "inside", "far", "furnace",];
+const PRESETS: [(&str, &str); 11] = presets![
+    "default",
+    "fresh",
+    "bands",
+    "black",
+    "windows",
+    "bright",
+    "lamplight",
+    "trio",
+    "inside",
+    "far",
+    "furnace",
+];
 
 /// The names of the presets, `default` first.
 pub fn preset_names() -> impl ExactSizeIterator<Item = &'static str> {

@@ -22,7 +22,7 @@ use compare::Comparison;
 
 /// Presets, and moments in seconds at which each shows what it is for.
 const GOLDENS: [(&str, f64); 6] =
-    [("default", 1.0), ("windows", 0.0), ("fresh", 1.0), ("black", 0.5), ("family", 0.25), ("inside", 0.0)];
+    [("default", 1.0), ("windows", 0.0), ("fresh", 1.0), ("black", 0.5), ("trio", 0.25), ("inside", 0.0)];
 const SIZE: [u32; 2] = [320, 180];
 /// Limits where another adapter or driver draws.
 const MAX_STEPS: u8 = 1;
