@@ -11,6 +11,7 @@
 //! |---|---|---|
 //! | [`cli`], [`app`] | who asks: the command line, and the window | each other |
 //! | [`output`], [`input`] | files: pictures, tables and reports out; environments and spectra in | windows, GPUs |
+//! | [`verify`] | whether it is right: measurements against references | windows, files |
 //! | [`gpu`] | HOW: one module for each pass, named like its shader, and the executor that walks a plan | windows, files |
 //! | [`plan`] | WHEN: a pure function from what is wanted and what is there to the passes in between | wgpu, windows, files |
 //! | [`scene`] | WHAT is shown: plain data, TOML, presets, events | everything else |
@@ -30,3 +31,5 @@ pub mod output;
 pub mod physics;
 pub mod plan;
 pub mod scene;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod verify;

@@ -10,6 +10,7 @@ mod parse;
 pub mod reference;
 mod render;
 mod transport;
+mod verify;
 
 use std::{ffi::OsString, process::ExitCode};
 
@@ -45,6 +46,8 @@ enum Command {
     Colour(colour::Arguments),
     /// Run a published test of transport on the sphere
     Transport(transport::Arguments),
+    /// Measure this machine's GPU against the references
+    Verify(verify::Arguments),
     /// List the graphics adapters and what soapfilm uses of them
     Info(info::Arguments),
 }
@@ -110,6 +113,7 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
         Command::Render(arguments) => render::run(&arguments),
         Command::Colour(arguments) => colour::run(&arguments),
         Command::Transport(arguments) => transport::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
 }

@@ -8,9 +8,10 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("scene", &[]),
     ("plan", &["scene", "physics"]),
     ("gpu", &["plan", "scene", "physics"]),
+    ("verify", &["gpu", "plan", "scene", "physics"]),
     ("input", &["plan", "scene", "physics"]),
     ("output", &["plan", "scene", "physics"]),
-    ("cli", &["output", "input", "gpu", "plan", "scene", "physics"]),
+    ("cli", &["output", "input", "verify", "gpu", "plan", "scene", "physics"]),
     ("app", &["output", "input", "gpu", "plan", "scene", "physics"]),
 ];
 

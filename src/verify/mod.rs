@@ -1,0 +1,91 @@
+//! Whether this machine's GPU tells the truth: each part measures what the program computes against an independent reference, and holds it
+//! to a limit.
+
+mod transport;
+
+use std::time::Instant;
+
+use crate::gpu::{Gpu, GpuError};
+
+/// One measurement and its limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Check {
+    /// What was measured, and its unit where it has one.
+    pub name: String,
+    /// The measured value.
+    pub measured: f64,
+    /// The largest value that is right.
+    pub limit: f64,
+}
+
+impl Check {
+    /// A value that must not exceed a limit.
+    #[must_use]
+    pub fn at_most(name: impl Into<String>, measured: f64, limit: f64) -> Self {
+        Self { name: name.into(), measured, limit }
+    }
+
+    /// Whether the value keeps to the limit. A value that is no number does not.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        self.measured <= self.limit
+    }
+}
+
+/// What can be verified.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Tracers moved by published winds, against exact answers.
+    Transport,
+}
+
+impl Part {
+    /// All parts, in the order in which they run.
+    pub const ALL: &'static [Self] = &[Self::Transport];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Transport => "transport",
+        }
+    }
+}
+
+/// How much to verify, and who hears of each check as it is done.
+pub struct Run<'a> {
+    /// The device.
+    pub gpu: &'a Gpu,
+    /// Whether checks that take longer than minutes run too.
+    pub long: bool,
+    /// Hears of each check.
+    pub report: &'a mut dyn FnMut(Check),
+}
+
+impl Run<'_> {
+    /// Measures a part.
+    pub fn part(&mut self, part: Part) -> Result<(), GpuError> {
+        let started = Instant::now();
+        match part {
+            Part::Transport => transport::run(self),
+        }?;
+        log::info!("{} verified in {:.0} s", part.name(), started.elapsed().as_secs_f64());
+        Ok(())
+    }
+
+    fn at_most(&mut self, name: impl Into<String>, measured: f64, limit: f64) {
+        (self.report)(Check::at_most(name, measured, limit));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_check_can_fail() {
+        assert!(Check::at_most("at the limit", 1.0, 1.0).passed());
+        assert!(!Check::at_most("beyond", 1.1, 1.0).passed());
+        assert!(!Check::at_most("no number", f64::NAN, 1.0).passed());
+    }
+}
