@@ -12,13 +12,13 @@ use soapfilm::{
         bake_table::Table,
         probe_colour::{ProbePoint, probe_colours},
         timing::Recorder,
-        transport_case::{Case, Scheme},
+        transport_case::{Case, values},
     },
     physics::{
         colour::{BT2020, FilmOptics, Illuminant, Walls, m2_delta_e},
         optics::FilmIndex,
         sphere::CubedSphere,
-        transport::{Tracer, TracerKind, Wind, WindKind},
+        transport::{Quantity, Scheme, Tracer, TracerKind, Wind, WindKind},
     },
     plan::TableKey,
 };
@@ -112,9 +112,9 @@ fn transport(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
             let case = transport_case(scheme, cells, steps)?;
             let mut field = case.seed(gpu)?;
             let ((), cpu_ms, wall_ms) = timed(|| case.advance(gpu, &mut field))?;
-            let l2 = case.measure(&case.values(gpu, &field)?).l2;
+            let l2 = case.measure(&values(gpu, &mut field)?).l2;
             let steps = f64::from(steps);
-            let interval = f64::from(scheme.interval(case.steps_a_period));
+            let interval = f64::from(u8::from(scheme.keeps_map()));
             report.row(&[interval, cells as f64, steps, cpu_ms / steps, wall_ms / steps, l2]);
         }
     }
@@ -125,7 +125,16 @@ fn transport(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
 fn transport_case(scheme: Scheme, cells: usize, steps: u32) -> anyhow::Result<Case> {
     let wind = Wind::new(WindKind::NonDivergent, None)?;
     let tracer = Tracer::new(TracerKind::CosineBells, wind.tracer_rotation());
-    Ok(Case { grid: CubedSphere::new(cells)?, wind, tracer, scheme, steps_a_period: steps, steps: u64::from(steps) })
+    Ok(Case {
+        grid: CubedSphere::new(cells)?,
+        wind,
+        tracer,
+        quantity: Quantity::Density,
+        scheme,
+        limiter: false,
+        steps_a_period: steps,
+        steps: u64::from(steps),
+    })
 }
 
 /// The result of some work, its process CPU time and its wall time in milliseconds.

@@ -1,6 +1,6 @@
 // The test winds of the transport literature, in radians a second on the unit sphere. The f64 truth is src/physics/transport.
 
-// Which velocity field a pipeline is made for: see `FlowKind` in src/gpu/film.rs.
+// Which velocity field a pipeline is made for: see `FlowKind` in src/gpu/trace_step.rs.
 override FLOW: u32;
 const FLOW_PRESCRIBED: u32 = 0u;
 const FLOW_SOLID_BODY: u32 = 1u;
@@ -22,11 +22,7 @@ fn wind_velocity(x: vec3f, moment: WindMoment, turn_rad_s: f32) -> vec3f {
     if (FLOW == FLOW_SOLID_BODY) {
         return background;
     }
-    let p = vec3f(
-        moment.shift_cos * x.x + moment.shift_sin * x.y,
-        moment.shift_cos * x.y - moment.shift_sin * x.x,
-        x.z,
-    );
+    let p = turned(x, moment);
     let rho = length(p.xy);
     var d: vec3f;
     if (FLOW == FLOW_NON_DIVERGENT) {
@@ -41,4 +37,18 @@ fn wind_velocity(x: vec3f, moment: WindMoment, turn_rad_s: f32) -> vec3f {
         moment.shift_cos * d.y + moment.shift_sin * d.x,
         d.z,
     );
+}
+
+// The position in the frame that turns with the background wind.
+fn turned(x: vec3f, moment: WindMoment) -> vec3f {
+    return vec3f(moment.shift_cos * x.x + moment.shift_sin * x.y, moment.shift_cos * x.y - moment.shift_sin * x.x, x.z);
+}
+
+// Divergence of a test wind at x in its own frame, 1/s: only the divergent wind has any.
+fn wind_divergence(x: vec3f, moment: WindMoment) -> f32 {
+    if (FLOW != FLOW_DIVERGENT) {
+        return 0.0;
+    }
+    let p = turned(x, moment);
+    return -3.0 * p.y * p.z * length(p.xy) * moment.reversal;
 }

@@ -2,15 +2,19 @@
 // wall with the thickness at its own hit; what is left after the last wall goes to the last direction, so no energy is lost.
 
 import package::camera::view::{View, pixel_angle, view_plane};
+import package::film::control::{Balance, balanced, is_finite};
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
 import package::optics::film_colour::{Polarised, film_colour};
 import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{product, scaled, sum, transmitted, unpolarised};
 import package::sphere::cubed::{HALO, locate};
+import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
 // 1: the film has one thickness everywhere, and no field is read.
 override UNIFORM_FILM: u32;
+// 1: cells are larger than pixels, and the film is looked up through its flow map at each of them.
+override MAGNIFIED: u32;
 // Samples along each side of a pixel: 1, or more for bubbles of a few pixels, whose film is finer than a pixel.
 override SAMPLES: u32;
 
@@ -22,8 +26,14 @@ struct Bubble {
     bounds: vec4f,
     // Thickness of a uniform film, in nm.
     thickness_nm: f32,
-    // Cells along a panel's edge.
+    // Cells along a panel's edge, of the film and of its tracer.
     cells: u32,
+    tracer_cells: u32,
+    // What has evaporated from the whole film, in nm, and the thickness at which that ends.
+    thinned_nm: f32,
+    // Takes directions of the world to the film, which may turn as a whole.
+    to_film: mat3x3f,
+    black_nm: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -35,6 +45,9 @@ struct Bubble {
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;
 @group(0) @binding(8) var film: texture_2d_array<f32>;
+@group(0) @binding(9) var<uniform> film_balance: Balance;
+@group(0) @binding(10) var<storage, read> film_map: array<vec4f>;
+@group(0) @binding(11) var<storage, read> film_tracer: array<f32>;
 
 @vertex
 fn bounding_quad(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -47,11 +60,8 @@ fn film_texel(texel: vec2i, panel: u32) -> f32 {
     return textureLoad(film, texel, panel, 0).r;
 }
 
-// Thickness at a point of the unit sphere, bilinear between cell centres.
-fn thickness_nm(direction: vec3f) -> f32 {
-    if (UNIFORM_FILM == 1u) {
-        return bubble.thickness_nm;
-    }
+// The shown film, bilinear between cell centres.
+fn film_at(direction: vec3f) -> f32 {
     let at = locate(direction, bubble.cells);
     let base = floor(at.cell);
     let t = at.cell - base;
@@ -60,6 +70,35 @@ fn thickness_nm(direction: vec3f) -> f32 {
     let low = mix(film_texel(first, at.panel), film_texel(first + vec2i(1, 0), at.panel), t.x);
     let high = mix(film_texel(first + vec2i(0, 1), at.panel), film_texel(first + vec2i(1, 1), at.panel), t.x);
     return mix(low, high, t.y);
+}
+
+fn map_value(unused: u32, place: u32) -> vec4f {
+    return film_map[place];
+}
+
+fn tracer_value(place: u32) -> f32 {
+    return film_tracer[place];
+}
+
+// The tracer of the last remap, through the flow map: as sharp as what is known of the film.
+fn film_through_map(direction: vec3f) -> f32 {
+    let origin = map_at(0u, direction, bubble.cells).xyz;
+    let looked = tracer_at(origin, bubble.tracer_cells);
+    return balanced(select(looked.otherwise, looked.value, is_finite(looked.value)), film_balance);
+}
+
+// Thickness at a point of the unit sphere.
+fn thickness_nm(point: vec3f) -> f32 {
+    var thickness_nm = bubble.thickness_nm;
+    if (UNIFORM_FILM == 0u) {
+        let direction = bubble.to_film * point;
+        if (MAGNIFIED == 1u) {
+            thickness_nm = film_through_map(direction);
+        } else {
+            thickness_nm = film_at(direction);
+        }
+    }
+    return max(thickness_nm - bubble.thinned_nm, min(thickness_nm, bubble.black_nm));
 }
 
 fn wall(point: vec3f, cos_theta: f32) -> Polarised {

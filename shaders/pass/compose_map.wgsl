@@ -1,55 +1,64 @@
-// Advances the flow map by a step whose backtrace was made on a coarser grid: flows are smooth, and tracing them is what costs.
-// One invocation a cell of the fine grid.
+// Composes the film's flow map with a step: map(x) = where the liquid now at x was when the tracer was last remapped, and what it has
+// gathered since. One invocation a cell, halo included. The step may have been traced on a coarser grid: flows are smooth.
 
-import package::sphere::cubed::{HALO, cubic_stencil, locate, padded_index, panel_direction};
+import package::film::control::{Control, all_finite};
+import package::sphere::cubed::{HALO, cell_place, panel_direction};
+import package::sphere::lookup::map_at;
+
+// 1: the step was traced on the map's own grid.
+override SAME_GRID: u32;
+// 0: there is no map yet, and the step is all there is.
+override HAS_MAP: u32;
 
 // Mirrors `ComposeUniform` in src/gpu/compose_map.rs.
 struct Compose {
     // Cells along a panel's edge, of the map and of the step.
     cells: u32,
     step_cells: u32,
-    // 1 right after a remap, when the map is the identity and there is nothing to look up.
-    map_is_identity: u32,
 }
 
 @group(0) @binding(0) var<uniform> compose: Compose;
-// tan(alpha) of each cell coordinate of the fine grid, halo included.
+// tan(alpha) of each cell coordinate, halo included.
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
-// Where the liquid at a cell of the coarse grid was one step ago.
-@group(0) @binding(2) var<storage, read> step_map: array<vec4f>;
-@group(0) @binding(3) var<storage, read> map_before: array<vec4f>;
-@group(0) @binding(4) var<storage, read_write> map_after: array<vec4f>;
+@group(0) @binding(2) var<storage, read_write> control: Control;
+@group(0) @binding(3) var<storage, read> step_map: array<vec4f>;
+@group(0) @binding(4) var<storage, read> map_before: array<vec4f>;
+@group(0) @binding(5) var<storage, read_write> map_after: array<vec4f>;
 
-fn step_row(row: u32, w: vec4f) -> vec3f {
-    return w.x * step_map[row].xyz + w.y * step_map[row + 1u].xyz + w.z * step_map[row + 2u].xyz + w.w * step_map[row + 3u].xyz;
+const STEP_MAP: u32 = 0u;
+const MAP_BEFORE: u32 = 1u;
+
+fn map_value(map: u32, place: u32) -> vec4f {
+    if (map == STEP_MAP) {
+        return step_map[place];
+    }
+    return map_before[place];
 }
 
-fn step_at(x: vec3f) -> vec3f {
-    let at = cubic_stencil(locate(x, compose.step_cells), compose.step_cells);
-    return normalize(at.wj.x * step_row(at.first, at.wi) + at.wj.y * step_row(at.first + at.stride, at.wi) +
-        at.wj.z * step_row(at.first + 2u * at.stride, at.wi) + at.wj.w * step_row(at.first + 3u * at.stride, at.wi));
-}
-
-fn map_row(row: u32, w: vec4f) -> vec3f {
-    return w.x * map_before[row].xyz + w.y * map_before[row + 1u].xyz + w.z * map_before[row + 2u].xyz +
-        w.w * map_before[row + 3u].xyz;
-}
-
-fn map_at(x: vec3f) -> vec3f {
-    let at = cubic_stencil(locate(x, compose.cells), compose.cells);
-    return normalize(at.wj.x * map_row(at.first, at.wi) + at.wj.y * map_row(at.first + at.stride, at.wi) +
-        at.wj.z * map_row(at.first + 2u * at.stride, at.wi) + at.wj.w * map_row(at.first + 3u * at.stride, at.wi));
+// No tracer is looked up here.
+fn tracer_value(place: u32) -> f32 {
+    return 0.0;
 }
 
 @compute @workgroup_size(64)
 fn compose_map(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= compose.cells) {
+    if (id.x >= compose.cells + 2u * HALO) {
         return;
     }
-    let tangent = vec2f(tangents[id.x + HALO], tangents[id.y + HALO]);
-    var origin = step_at(panel_direction(id.z, tangent));
-    if (compose.map_is_identity == 0u) {
-        origin = map_at(origin);
+    let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
+    var origin: vec4f;
+    if (SAME_GRID == 1u) {
+        origin = step_map[cell_place(id, compose.cells)];
+    } else {
+        origin = map_at(STEP_MAP, x, compose.step_cells);
     }
-    map_after[padded_index(id.z, i32(id.x), i32(id.y), compose.cells)] = vec4f(origin, 0.0);
+    if (HAS_MAP == 1u) {
+        let before = map_at(MAP_BEFORE, origin.xyz, compose.cells);
+        origin = vec4f(before.xyz, origin.w + before.w);
+    }
+    if (!all_finite(origin)) {
+        atomicAdd(&control.healed, 1u);
+    }
+    origin = select(vec4f(x, 0.0), origin, all_finite(origin));
+    map_after[cell_place(id, compose.cells)] = origin;
 }

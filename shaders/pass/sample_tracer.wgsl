@@ -1,29 +1,86 @@
-// Looks the tracer up through the flow map: the thickness that is at x now is the one that was at map(x) at the last remap.
-// Into the shown film it is what the picture colours; into the tracer itself it is a remap. One invocation a cell.
+// Looks the tracer up through the flow map: what is at x now is what was at map(x) at the last remap, and what was gathered since.
+// Shown, it is what the picture colours; settled, it is a remap. One invocation a cell, halo included.
 
-import package::sphere::cubed::{cubic_stencil, locate, padded_index};
+import package::film::control::{Control, is_finite};
+import package::sphere::cubed::{HALO, cell_place, panel_direction};
+import package::sphere::lookup::{map_at, tracer_at};
 
-// Mirrors `GridUniform` in src/gpu/film.rs.
-struct Grid {
+// What the map's fourth number means: see `Gathered` in src/gpu/sample_tracer.rs.
+override GATHERED: u32;
+const GATHERED_NOTHING: u32 = 0u;
+// The logarithm of the area ratio, for a density in a wind that diverges.
+const GATHERED_LOG_AREA: u32 = 1u;
+// An amount to be added.
+const GATHERED_AMOUNT: u32 = 2u;
+
+// Whether what is written is on the map's grid, and on the tracer's.
+override ON_MAP_GRID: u32;
+override ON_TRACER_GRID: u32;
+// 0: there is no map, and the tracer is where it is.
+override HAS_MAP: u32;
+
+// Mirrors `SampleUniform` in src/gpu/sample_tracer.rs.
+struct Sample {
+    // Cells along a panel's edge: of what is written, of the map, and of the tracer.
     cells: u32,
+    map_cells: u32,
+    tracer_cells: u32,
 }
 
-@group(0) @binding(0) var<uniform> grid: Grid;
-@group(0) @binding(1) var<storage, read> map: array<vec4f>;
-@group(0) @binding(2) var<storage, read> tracer: array<f32>;
-@group(0) @binding(3) var<storage, read_write> sampled: array<f32>;
+@group(0) @binding(0) var<uniform> sample: Sample;
+// tan(alpha) of each cell coordinate of the grid that is written, halo included.
+@group(0) @binding(1) var<storage, read> tangents: array<f32>;
+@group(0) @binding(2) var<storage, read_write> control: Control;
+@group(0) @binding(3) var<storage, read> map: array<vec4f>;
+@group(0) @binding(4) var<storage, read> tracer: array<f32>;
+@group(0) @binding(5) var<storage, read_write> sampled: array<f32>;
+
+// There is but one map here.
+fn map_value(unused: u32, place: u32) -> vec4f {
+    return map[place];
+}
+
+fn tracer_value(place: u32) -> f32 {
+    return tracer[place];
+}
+
+fn with_gathered(value: f32, gathered: f32) -> f32 {
+    if (GATHERED == GATHERED_LOG_AREA) {
+        return value * exp(gathered);
+    }
+    if (GATHERED == GATHERED_AMOUNT) {
+        return value + gathered;
+    }
+    return value;
+}
 
 @compute @workgroup_size(64)
 fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= grid.cells) {
+    if (id.x >= sample.cells + 2u * HALO) {
         return;
     }
-    let cell = padded_index(id.z, i32(id.x), i32(id.y), grid.cells);
-    let stencil = cubic_stencil(locate(map[cell].xyz, grid.cells), grid.cells);
-    var total = 0.0;
-    for (var j = 0u; j < 4u; j++) {
-        let row = stencil.first + j * stencil.stride;
-        total += stencil.wj[j] * dot(stencil.wi, vec4f(tracer[row], tracer[row + 1u], tracer[row + 2u], tracer[row + 3u]));
+    let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
+    let place = cell_place(id, sample.cells);
+    var origin = vec4f(x, 0.0);
+    if (HAS_MAP == 1u) {
+        if (ON_MAP_GRID == 1u) {
+            origin = map[place];
+        } else {
+            origin = map_at(0u, x, sample.map_cells);
+        }
     }
-    sampled[cell] = total;
+    var value: f32;
+    var otherwise = 0.0;
+    if (HAS_MAP == 0u && ON_TRACER_GRID == 1u) {
+        value = tracer[place];
+    } else {
+        let looked = tracer_at(origin.xyz, sample.tracer_cells);
+        value = with_gathered(looked.value, origin.w);
+        otherwise = looked.otherwise;
+    }
+    if (!is_finite(value)) {
+        atomicAdd(&control.healed, 1u);
+    }
+    value = select(otherwise, value, is_finite(value));
+    sampled[place] = value;
 }

@@ -1,7 +1,7 @@
 // The equiangular cubed sphere: six panels of cells x cells values at cell centres, stored with a halo around each panel.
 // The f64 truth, and the table of panel axes that this file mirrors, is src/physics/sphere.
 
-// Cells of halo on each side of a panel: a cubic stencil reaches two beyond the edge.
+// Cells of halo on each side of a panel: a quintic stencil reaches three beyond the edge.
 override HALO: u32;
 
 const QUARTER_PI: f32 = 0.785398163;
@@ -66,27 +66,16 @@ fn padded_index(panel: u32, i: i32, j: i32, cells: u32) -> u32 {
     return (panel * side + u32(j + i32(HALO))) * side + u32(i + i32(HALO));
 }
 
+// Place in padded storage of an invocation of a pass over all cells, those of the halo included.
+fn cell_place(id: vec3u, cells: u32) -> u32 {
+    let side = cells + 2u * HALO;
+    return (id.z * side + id.y) * side + id.x;
+}
+
 // Weights of the four-point Lagrange interpolation at -1, 0, 1, 2 for a fraction t in [0, 1].
 fn cubic_weights(t: f32) -> vec4f {
     let a = t + 1.0;
     let b = t - 1.0;
     let c = t - 2.0;
     return vec4f(-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0);
-}
-
-// The 4 x 4 cells around a point: padded index of the first, and weights along i and j.
-struct CubicStencil {
-    first: u32,
-    stride: u32,
-    wi: vec4f,
-    wj: vec4f,
-}
-
-fn cubic_stencil(at: CubePoint, cells: u32) -> CubicStencil {
-    // Rounding must not carry a point on the panel's edge past the halo.
-    let cell = clamp(at.cell, vec2f(-0.5), vec2f(f32(cells) - 0.5));
-    let base = floor(cell);
-    let t = cell - base;
-    let first = padded_index(at.panel, i32(base.x) - 1, i32(base.y) - 1, cells);
-    return CubicStencil(first, cells + 2u * HALO, cubic_weights(t.x), cubic_weights(t.y));
 }

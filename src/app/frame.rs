@@ -303,8 +303,9 @@ fn hold_clock(model: &mut Model, want: &Want, have: &Have, first_tick: u64) {
     let mut missing = 0;
     for bubble in &want.picture.draw.bubbles {
         if let (FilmKey::Field(film), Some(Some(field))) = (&bubble.film, have.fields.get(bubble.index)) {
-            reached = reached.max(field.state.moment.tick);
-            missing = missing.max(film.moment.tick.saturating_sub(field.state.moment.tick));
+            let shown = field.shown.unwrap_or(field.state.moment).tick;
+            reached = reached.max(shown);
+            missing = missing.max(film.moment.tick.saturating_sub(shown));
         }
     }
     if missing > 0 {

@@ -16,13 +16,12 @@ fn merge(known: &mut MotionChange, newer: &MotionChange) {
     known.flow = newer.flow.or(known.flow);
     known.strength = newer.strength.or(known.strength);
     known.seed = newer.seed.or(known.seed);
+    known.spin_deg_s = newer.spin_deg_s.or(known.spin_deg_s);
+    known.evaporation_nm_s = newer.evaporation_nm_s.or(known.evaporation_nm_s);
 }
 
 fn begin(scene: &mut Scene, change: &MotionChange) {
-    let motion = &mut scene.motion;
-    motion.flow = change.flow.unwrap_or(motion.flow);
-    motion.strength = change.strength.unwrap_or(motion.strength);
-    motion.seed = change.seed.unwrap_or(motion.seed);
+    scene.motion = change.applied_to(scene.motion.clone());
 }
 
 /// What happens at an event, in a line for people.
@@ -33,6 +32,8 @@ pub fn describe(event: &Event, tick_s: f64) -> String {
         change.flow.map(|flow| flow_name(flow).to_owned()),
         change.strength.map(|strength| format!("strength {strength}")),
         change.seed.map(|seed| format!("seed {seed}")),
+        change.spin_deg_s.map(|[x, y, z]| format!("spin {x}, {y}, {z} °/s")),
+        change.evaporation_nm_s.map(|rate| format!("evaporation {rate} nm/s")),
     ];
     let parts = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
     format!("{:.2} s: {parts}", event.tick as f64 * tick_s)

@@ -7,10 +7,12 @@ use crate::{
     physics::{
         colour::{Display, FilmOptics, bt2020_to_bt709},
         picture::{FilmSphere, PictureCamera, PictureScene},
-        sphere::{CubedSphere, GridError, HaloTable, PaddedField},
+        sphere::{CubedSphere, GridError},
         transport::FlowMap,
     },
-    plan::{BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, LightKey, TonemapKey},
+    plan::{
+        BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey, TonemapKey,
+    },
 };
 
 /// Radiance of each pixel, linear BT.2020.
@@ -73,42 +75,50 @@ fn turned(light: &LightKey, direction: DVec3) -> DVec3 {
 }
 
 fn sphere(key: &BubbleKey) -> Result<FilmSphere<'static>, GridError> {
-    let thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync> = match &key.film {
+    let field: Box<dyn Fn(DVec3) -> f64 + Send + Sync> = match &key.film {
         FilmKey::Uniform(thickness_nm) => {
             let thickness_nm = *thickness_nm;
             Box::new(move |_| thickness_nm)
         }
         FilmKey::Field(field) => {
-            let field = thickness_field(field)?;
-            Box::new(move |direction| field.bicubic(direction))
+            let film = film(field)?;
+            Box::new(move |direction| film.value(direction))
         }
     };
+    let (to_film, thinned_nm) = (key.to_film, key.thinned_nm);
+    let thickness_nm = Box::new(move |direction: DVec3| {
+        let thickness_nm = field(to_film * direction);
+        (thickness_nm - thinned_nm).max(thickness_nm.min(BLACK_FILM_NM))
+    });
     Ok(FilmSphere { centre_m: key.centre_m, radius_m: key.radius_m, thickness_nm })
 }
 
-/// A film's thickness at its moment, in nm: the scheme of the GPU in f64, remapped at the same ticks, with the flow followed through each
-/// tick instead of frozen at its middle.
-pub fn thickness_field(key: &FieldKey) -> Result<PaddedField<f64>, GridError> {
-    let grid = CubedSphere::new(key.cells as usize)?;
-    let initial = key.initial.sample(grid);
-    let halo = HaloTable::new(grid);
-    let start = PaddedField::from_cells(grid, &halo, |cell| f64::from(initial[cell]));
-    let mut film = FlowMap::from_field(start);
-    for tick in 0..key.moment.tick {
-        advance(&mut film, key, tick, 1.0);
-        if (tick + 1) % u64::from(key.remap_ticks) == 0 {
+/// A film at its moment: the scheme of the GPU in f64 by the same steps, remapped when as many ticks have passed as there are at most.
+pub fn film(key: &FieldKey) -> Result<FlowMap, GridError> {
+    let mut film = FlowMap::new(CubedSphere::new(key.cells as usize)?, key.scheme, key.initial.profile())?;
+    let mut since_remap = 0;
+    for step in key.steps_from(0) {
+        let ticks = step.end - step.start;
+        advance(&mut film, key, step.start, ticks as f64);
+        since_remap += ticks;
+        if since_remap >= u64::from(key.remap_ticks) || !key.scheme.keeps_map() {
             film.remap();
+            since_remap = 0;
         }
     }
-    if key.moment.fraction > 0.0 {
-        advance(&mut film, key, key.moment.tick, key.moment.fraction);
+    let state = key.state_tick();
+    let ahead = (key.moment.tick - state) as f64 + key.moment.fraction;
+    if ahead > 0.0 {
+        advance(&mut film, key, state, ahead);
     }
-    let values = film.values();
-    Ok(PaddedField::from_cells(grid, &halo, |cell| values[cell]))
+    Ok(film)
 }
 
-/// Moves a film by a part of a tick, from its start.
-fn advance(film: &mut FlowMap, key: &FieldKey, tick: u64, fraction: f64) {
-    let flow = key.law(tick).prescribed();
-    film.step(key.tick_s * tick as f64, key.tick_s * fraction, |x, t| flow.velocity(x, t));
+/// Moves a film by so many ticks.
+fn advance(film: &mut FlowMap, key: &FieldKey, tick: u64, ticks: f64) {
+    let law = key.law(tick);
+    if law != FlowLaw::Rest {
+        let flow = law.prescribed();
+        film.step(key.tick_s * tick as f64, key.tick_s * ticks, |x, t| flow.velocity(x, t));
+    }
 }

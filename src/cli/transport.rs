@@ -16,12 +16,12 @@ use crate::{
         Gpu, GpuError,
         film::Field,
         timing::Recorder,
-        transport_case::{Case, Scheme},
+        transport_case::{Case, values},
     },
     output::write_text,
     physics::{
         sphere::CubedSphere,
-        transport::{Measured, Quantity, Tracer, TracerKind, Wind, WindKind},
+        transport::{Measured, Quantity, Scheme, Tracer, TracerKind, Wind, WindKind},
     },
 };
 
@@ -56,8 +56,8 @@ pub struct Arguments {
     /// What the tracer stands for: `density` or `ratio`; they differ in the divergent wind
     #[arg(long, value_name = "density|ratio", default_value = "density")]
     kind: Quantity,
-    /// How the tracer is moved: the flow map remapped rarely, or at each step
-    #[arg(long, value_name = "map|bicubic", default_value = "map", value_parser = scheme)]
+    /// How the tracer is moved: the flow map remapped rarely, the same with a finer tracer, or at each step
+    #[arg(long, value_name = "bilinear|bicubic|bfecc|map|map-accurate", default_value = "map")]
     scheme: Scheme,
     /// Limiter of over- and undershoots
     #[arg(long, value_name = "on|off", default_value = "off")]
@@ -78,27 +78,12 @@ enum Switch {
     Off,
 }
 
-fn scheme(text: &str) -> Result<Scheme, String> {
-    match text {
-        "bicubic" => Ok(Scheme::Bicubic),
-        "map" => Ok(Scheme::Map),
-        "bilinear" | "bfecc" | "map-accurate" => {
-            Err(format!("scheme `{text}` is not built yet; use `map` or `bicubic`"))
-        }
-        _ => Err("use `map` or `bicubic`".to_owned()),
-    }
-}
-
 fn fraction(text: &str) -> Result<f64, String> {
     let value = parse::finite(text)?;
     if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a part lies between 0 and 1".to_owned()) }
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    anyhow::ensure!(arguments.limiter == Switch::Off, "the limiter is not built yet; use --limiter off");
-    if arguments.wind == WindKind::Divergent && arguments.kind == Quantity::Density {
-        anyhow::bail!("a density in the divergent wind is not built yet; use --kind ratio");
-    }
     let case = case(arguments)?;
     let gpu = arguments.adapter.open()?;
     let moved = advance(&gpu, &case)?;
@@ -107,7 +92,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         "{} steps of {}, {} remaps: l1 {:.6}, l2 {:.6}, linf {:.6}, range {:.6} to {:.6}",
         case.steps,
         case.scheme.name(),
-        case.remaps(),
+        moved.remaps,
         norms.l1,
         norms.l2,
         norms.linf,
@@ -136,7 +121,9 @@ fn case(arguments: &Arguments) -> anyhow::Result<Case> {
         grid: CubedSphere::new(arguments.cells as usize)?,
         wind,
         tracer,
+        quantity: arguments.kind,
         scheme: arguments.scheme,
+        limiter: arguments.limiter == Switch::On,
         steps_a_period: arguments.steps,
         steps: (arguments.until * all).round() as u64,
     })
@@ -145,6 +132,7 @@ fn case(arguments: &Arguments) -> anyhow::Result<Case> {
 /// What a run left, and what a step of it cost.
 struct Moved {
     values: Vec<f64>,
+    remaps: u64,
     wall_ms: f64,
     cpu_ms: f64,
 }
@@ -155,7 +143,7 @@ fn advance(gpu: &Gpu, case: &Case) -> Result<Moved, GpuError> {
     case.advance(gpu, &mut field)?;
     let per_step = |time: Duration| time.as_secs_f64() * 1e3 / case.steps.max(1) as f64;
     let (cpu_ms, wall_ms) = (per_step(cpu.elapsed()), per_step(wall.elapsed()));
-    Ok(Moved { values: case.values(gpu, &field)?, wall_ms, cpu_ms })
+    Ok(Moved { remaps: case.remaps(gpu, &field)?, values: values(gpu, &mut field)?, wall_ms, cpu_ms })
 }
 
 fn cells_csv(case: &Case, values: &[f64]) -> String {
@@ -178,7 +166,7 @@ fn report(case: &Case, norms: &Measured, moved: &Moved, kind: Quantity, copy_ms:
         "max": norms.max,
         "steps": case.steps,
         "cells": case.grid.cells(),
-        "remaps": case.remaps(),
+        "remaps": moved.remaps,
         "scheme": case.scheme.name(),
         "wall_ms_per_step": moved.wall_ms,
         "cpu_ms_per_step": moved.cpu_ms,
@@ -189,7 +177,7 @@ fn report(case: &Case, norms: &Measured, moved: &Moved, kind: Quantity, copy_ms:
 /// Wall time of a copy of what a step reads and writes, the map and the tracer: the floor under any step.
 fn copy_ms_per_step(gpu: &Gpu, case: &Case) -> Result<f64, GpuError> {
     const COPIES: u32 = 16;
-    let field = Field::new(gpu, case.grid);
+    let field = Field::new(gpu, case.grid, case.rules())?;
     let copies = || {
         let mut recorder = Recorder::new(gpu);
         for _ in 0..COPIES {

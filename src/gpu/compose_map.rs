@@ -1,8 +1,13 @@
-//! Advances the flow map by a step that was traced on a coarser grid.
+//! Composes a film's flow map with a step.
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{GpuError, advance_map::MapBuffers, pipelines::ComputeKey, timing::Recorder};
+use super::{
+    GpuError,
+    film::Grid,
+    pipelines::ComputeKey,
+    timing::Recorder,
+};
 
 /// See `shaders/pass/compose_map.wgsl`.
 #[repr(C)]
@@ -12,29 +17,46 @@ pub struct ComposeUniform {
     pub cells: u32,
     /// The same of the grid that the step was traced on.
     pub step_cells: u32,
-    /// 1 right after a remap.
-    pub map_is_identity: u32,
-    pad: u32,
+    pad: [u32; 2],
 }
 
-/// Records the composition of the map with a step, which is given with its halo.
-pub fn compose_map(
-    recorder: &mut Recorder<'_>,
-    name: &'static str,
-    (step_cells, step_map): (u32, &wgpu::Buffer),
-    map: &MapBuffers<'_>,
-) -> Result<(), GpuError> {
-    let gpu = recorder.gpu;
-    let key = ComputeKey { pass: "compose_map", entry: "compose_map", constants: vec![] };
-    let pipeline = gpu.pipelines.compute(gpu, &key)?;
-    let map_is_identity = u32::from(map.before.is_none());
-    let uniform = gpu.uniform("compose", &ComposeUniform { cells: map.cells, step_cells, map_is_identity, pad: 0 });
-    // Where the map is the identity nothing is read from it, and any buffer of the right kind will do.
-    let before = map.before.unwrap_or(step_map);
-    let bindings = gpu.bind(
-        &pipeline.get_bind_group_layout(0),
-        &[&uniform, map.tangents, step_map, before, map.after].map(wgpu::Buffer::as_entire_binding),
-    );
-    recorder.dispatch(name, &pipeline, &bindings, [map.cells.div_ceil(64), map.cells, 6]);
-    Ok(())
+/// What a composition reads and writes.
+pub struct Composition<'a> {
+    /// The map's grid.
+    pub grid: &'a Grid,
+    /// Cells along a panel's edge of the grid that the step was traced on.
+    pub step_cells: u32,
+    /// The step.
+    pub step_map: &'a wgpu::Buffer,
+    /// The map before it, if there is one.
+    pub before: Option<&'a wgpu::Buffer>,
+    /// The film's control block.
+    pub control: &'a wgpu::Buffer,
+    /// The map after it.
+    pub after: &'a wgpu::Buffer,
+}
+
+/// Records one composition.
+pub fn compose_map(recorder: &mut Recorder<'_>, name: &'static str, maps: &Composition<'_>) -> Result<(), GpuError> {
+    let Composition { grid, step_cells, before, .. } = *maps;
+    let uniform = ComposeUniform { cells: grid.cells, step_cells, pad: [0; 2] };
+    let uniform = recorder.gpu.uniform("compose", &uniform);
+    let resources = [
+        uniform.as_entire_binding(),
+        grid.tangents.as_entire_binding(),
+        maps.control.as_entire_binding(),
+        maps.step_map.as_entire_binding(),
+        // Where there is no map nothing is read from it, and any of the right kind will do.
+        before.unwrap_or(maps.step_map).as_entire_binding(),
+        maps.after.as_entire_binding(),
+    ];
+    let constants = vec![
+        ("SAME_GRID", u32::from(step_cells == grid.cells)),
+        ("HAS_MAP", u32::from(before.is_some())),
+        // A map is looked up alike whatever the tracer's stencil.
+        ("TAPS", 6),
+        ("LIMITER", 0),
+    ];
+    let key = ComputeKey { pass: "compose_map", entry: "compose_map", constants };
+    recorder.compute(name, &key, &resources, grid.padded_groups().into())
 }

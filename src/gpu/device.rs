@@ -198,6 +198,18 @@ impl Gpu {
         self.uploaded_bytes.fetch_add(bytes as u64, Ordering::Relaxed);
     }
 
+    /// Writes to a texture.
+    pub fn upload_texture(
+        &self,
+        to: wgpu::TexelCopyTextureInfo<'_>,
+        bytes: &[u8],
+        layout: wgpu::TexelCopyBufferLayout,
+        size: wgpu::Extent3d,
+    ) {
+        self.count_upload(bytes.len());
+        self.queue.write_texture(to, bytes, layout, size);
+    }
+
     /// Writes plain data to the start of a buffer.
     pub fn upload<T: bytemuck::NoUninit>(&self, buffer: &wgpu::Buffer, data: &[T]) {
         let bytes: &[u8] = bytemuck::cast_slice(data);
@@ -237,9 +249,22 @@ impl Gpu {
     /// A bind group of resources numbered from 0.
     #[must_use]
     pub fn bind(&self, layout: &wgpu::BindGroupLayout, resources: &[wgpu::BindingResource<'_>]) -> wgpu::BindGroup {
-        let resources = resources.iter().cloned().enumerate();
-        let entries: Vec<_> =
-            resources.map(|(binding, resource)| wgpu::BindGroupEntry { binding: binding as u32, resource }).collect();
+        let places: Vec<_> = (0..).zip(resources.iter().cloned()).collect();
+        self.bind_at(layout, &places)
+    }
+
+    /// A bind group of resources, each with its number.
+    #[must_use]
+    pub fn bind_at(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        resources: &[(u32, wgpu::BindingResource<'_>)],
+    ) -> wgpu::BindGroup {
+        let entry = |(binding, resource): &(u32, _)| wgpu::BindGroupEntry {
+            binding: *binding,
+            resource: wgpu::BindingResource::clone(resource),
+        };
+        let entries: Vec<_> = resources.iter().map(entry).collect();
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
     }
 

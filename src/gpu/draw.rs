@@ -7,11 +7,14 @@ use super::{
     Gpu, GpuError,
     bake_table::{Table, table_sampler},
     environment::{Environment, texel_angle},
-    film::no_film,
+    film::{NoFilm, Shown},
     pipelines::RenderKey,
     timing::Recorder,
 };
-use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmKey};
+use crate::{
+    physics::transport::Scheme,
+    plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmKey},
+};
 
 /// The camera: see `shaders/camera/view.wgsl`.
 #[repr(C)]
@@ -69,7 +72,15 @@ pub struct BubbleUniform {
     pub thickness_nm: f32,
     /// Cells along a panel's edge.
     pub cells: u32,
-    pad: [u32; 2],
+    /// The same of its tracer.
+    pub tracer_cells: u32,
+    /// What has evaporated, in nm.
+    pub thinned_nm: f32,
+    /// Columns take directions of the world to the film; the fourth number of each is padding.
+    pub to_film: [[f32; 4]; 3],
+    /// Thickness at which evaporation ends, in nm.
+    pub black_nm: f32,
+    pad: [u32; 3],
 }
 
 /// What a draw reads that other passes left.
@@ -78,8 +89,8 @@ pub struct DrawInputs<'a> {
     pub environment: &'a Environment,
     /// The table.
     pub table: Option<&'a Table>,
-    /// Shown thickness of a film, by its index.
-    pub film: &'a dyn Fn(usize) -> Option<wgpu::TextureView>,
+    /// What a film shows, by its index.
+    pub film: &'a dyn Fn(usize) -> Option<Shown<'a>>,
 }
 
 /// Pixels that one submission draws at most, so that none runs long.
@@ -121,16 +132,20 @@ impl DrawPass {
         let mut pass = Self { backdrop: (pipeline, bindings), bubbles: Vec::new(), width: key.size[0] };
         let Some(table) = inputs.table else { return Ok(pass) };
         let sampler = table_sampler(gpu);
+        let no_film = NoFilm::new(gpu);
         for bubble in &key.bubbles {
             let pipeline = gpu.pipelines.render(gpu, &bubble_pipeline(key, bubble))?;
             let uniform = gpu.uniform("bubble", &bubble_uniform(bubble));
-            let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film(gpu));
+            let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let own = [
                 uniform.as_entire_binding(),
                 table.axes.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&table.view),
                 wgpu::BindingResource::Sampler(&sampler),
-                wgpu::BindingResource::TextureView(&film),
+                wgpu::BindingResource::TextureView(film.film),
+                film.balance.as_entire_binding(),
+                film.map.as_entire_binding(),
+                film.tracer.as_entire_binding(),
             ];
             // The yardstick reads no film: its layout ends with the bubble itself.
             let own = if key.yardstick { &own[..1] } else { &own[..] };
@@ -191,7 +206,14 @@ fn bubble_pipeline(key: &DrawKey, bubble: &BubbleKey) -> RenderKey {
         vertex: "bounding_quad",
         fragment: if key.yardstick { "shade_mirror" } else { "shade" },
         format: radiance_format(key.full_precision),
-        constants: vec![("UNIFORM_FILM", u32::from(uniform)), ("SAMPLES", bubble.samples)],
+        constants: vec![
+            ("UNIFORM_FILM", u32::from(uniform)),
+            ("MAGNIFIED", u32::from(bubble.magnified)),
+            ("SAMPLES", bubble.samples),
+            // A film in a scene is moved as a flow map where it is looked up through one, and always limited.
+            ("TAPS", Scheme::Map.taps()),
+            ("LIMITER", 1),
+        ],
     }
 }
 
@@ -233,16 +255,21 @@ fn light_uniform(key: &DrawKey) -> LightUniform {
 
 fn bubble_uniform(bubble: &BubbleKey) -> BubbleUniform {
     let [low, high] = bubble.bounds.map(|corner| corner.as_vec2());
-    let (thickness_nm, cells) = match &bubble.film {
-        FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0),
-        FilmKey::Field(field) => (0.0, field.cells),
+    let (thickness_nm, cells, tracer_cells) = match &bubble.film {
+        FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0, 0),
+        FilmKey::Field(field) => (0.0, field.cells, field.cells * field.scheme.tracer_refinement() as u32),
     };
+    let column = |axis: DVec3| (bubble.to_film * axis).extend(0.0).as_vec4().to_array();
     BubbleUniform {
         centre_m: floats(bubble.centre_m),
         radius_m: bubble.radius_m as f32,
         bounds: [low.x, low.y, high.x, high.y],
         thickness_nm,
         cells,
-        pad: [0; 2],
+        tracer_cells,
+        thinned_nm: bubble.thinned_nm as f32,
+        to_film: DVec3::AXES.map(column),
+        black_nm: BLACK_FILM_NM as f32,
+        pad: [0; 3],
     }
 }

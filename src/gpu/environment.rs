@@ -48,9 +48,8 @@ impl Environment {
 }
 
 fn write_face(gpu: &Gpu, texture: &wgpu::Texture, level: u32, face: u32, texels: &[u8]) {
-    gpu.count_upload(texels.len());
     let width = (texture.width() >> level).max(1);
-    gpu.queue.write_texture(
+    gpu.upload_texture(
         wgpu::TexelCopyTextureInfo {
             texture,
             mip_level: level,

@@ -2,20 +2,28 @@
 //!
 //! Nothing here decides whether a pass runs: a pass is recorded from its key alone, and the plan says which.
 
-pub mod advance_map;
 pub mod bake_table;
 pub mod compose_map;
+pub mod conserve;
+pub mod correct_error;
+pub mod decide_remap;
 pub mod device;
 pub mod draw;
 pub mod environment;
 pub mod film;
 pub mod pipelines;
 pub mod probe_colour;
+pub mod read_film;
 pub mod readback;
 pub mod renderer;
+pub mod reset_map;
+pub mod sample_tracer;
+pub mod settle_tracer;
 pub mod shaders;
+pub mod show_film;
 pub mod timing;
 pub mod tonemap;
+pub mod trace_step;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod transport_case;
 

@@ -4,14 +4,15 @@ use glam::DVec3;
 
 use super::{
     Gpu, GpuError,
-    advance_map::Step,
     bake_table::Table,
     draw::{DrawInputs, DrawPass, pixels_shaded, radiance_format, strips},
     environment::Environment,
-    film::Field,
+    film::{Field, Rules},
     readback::Readback,
+    sample_tracer::Gathered,
     timing::{Counts, Recorder, TimeLog},
     tonemap::{PICTURE_FORMAT, tonemap},
+    trace_step::Step,
 };
 use crate::{
     physics::{environment::CubeMap, film::PrescribedFlow, sphere::CubedSphere},
@@ -195,39 +196,39 @@ impl Renderer {
         }
         let sphere = CubedSphere::new(key.cells as usize).map_err(|error| GpuError::Refused(error.to_string()))?;
         let slot = &mut self.products.fields[film];
-        if slot.as_ref().is_none_or(|field| field.cells() != key.cells) {
-            *slot = Some(Field::new(&self.gpu, sphere));
-        }
-        let Some(field) = slot else { return Ok(()) };
-        let values = key.initial.sample(sphere);
+        let mut field = match slot.take() {
+            Some(field) if (field.sphere(), field.rules()) == (sphere, rules(key)) => field,
+            _ => Field::new(&self.gpu, sphere, rules(key))?,
+        };
         let mut recorder = Recorder::new(&self.gpu);
-        field.seed(&mut recorder, &values)?;
+        field.seed(&mut recorder, key.initial.profile())?;
+        *slot = Some(field);
         Self::submit(&self.times, &mut self.counts, recorder);
         Ok(())
     }
 
     fn step(&mut self, film: usize, key: &FieldKey, ticks: std::ops::Range<u64>) -> Result<(), GpuError> {
         let Some(Some(field)) = self.products.fields.get_mut(film) else { return Ok(()) };
-        let per_submission = (CELLS_A_SUBMISSION / key.cell_count()).max(1);
+        let per_submission = (CELLS_A_SUBMISSION / key.cell_count()).max(1) as usize;
         let mut flow = LawInForce::default();
-        let mut first = ticks.start;
-        while first < ticks.end {
-            let last = (first + per_submission).min(ticks.end);
+        let moving = |step: &std::ops::Range<u64>| key.law(step.start) != FlowLaw::Rest;
+        let mut steps = key.steps_from(ticks.start).filter(moving).peekable();
+        while steps.peek().is_some() {
             let mut recorder = Recorder::new(&self.gpu);
-            for tick in first..last {
-                let remap = (tick + 1) % u64::from(key.remap_ticks) == 0;
-                field.advance(&mut recorder, &flow.step(key, tick, 1.0), remap)?;
+            for step in steps.by_ref().take(per_submission) {
+                let length = u32::try_from(step.end - step.start).unwrap_or(u32::MAX);
+                field.advance(&mut recorder, &flow.step(key, step.start, length.into()), length)?;
             }
             Self::submit(&self.times, &mut self.counts, recorder);
-            first = last;
         }
         Ok(())
     }
 
     fn show(&mut self, film: usize, key: &FieldKey) -> Result<(), GpuError> {
-        let Some(Some(field)) = self.products.fields.get(film) else { return Ok(()) };
-        let moment = key.moment;
-        let ahead = (moment.fraction > 0.0).then(|| LawInForce::default().step(key, moment.tick, moment.fraction));
+        let Some(Some(field)) = self.products.fields.get_mut(film) else { return Ok(()) };
+        let (state, moment) = (key.state_tick(), key.moment);
+        let ticks = (moment.tick - state) as f64 + moment.fraction;
+        let ahead = (ticks > 0.0).then(|| LawInForce::default().step(key, state, ticks));
         let mut recorder = Recorder::new(&self.gpu);
         field.show(&mut recorder, ahead.as_ref())?;
         Self::submit(&self.times, &mut self.counts, recorder);
@@ -243,7 +244,7 @@ impl Renderer {
             .environment
             .get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant(DVec3::ZERO)));
         let fields = &self.products.fields;
-        let film = |film: usize| fields.get(film).and_then(Option::as_ref).map(Field::film);
+        let film = |film: usize| fields.get(film).and_then(Option::as_ref).map(Field::shown);
         let inputs = DrawInputs { environment, table: self.products.table.as_ref(), film: &film };
         let pass = DrawPass::new(&self.gpu, key, &inputs)?;
         for rows in strips(key.size) {
@@ -266,22 +267,33 @@ impl Renderer {
     }
 }
 
+/// How a scene's film is moved: always limited and conserved, for a film has a thickness and an amount of liquid.
+fn rules(key: &FieldKey) -> Rules {
+    Rules {
+        scheme: key.scheme,
+        limiter: true,
+        gathered: Gathered::Nothing,
+        conserved: true,
+        latest_ticks: key.remap_ticks,
+        coarse_flow: true,
+    }
+}
+
 /// The law that drives a film, made into a flow once for as long as it holds.
 #[derive(Default)]
 struct LawInForce(Option<(FlowLaw, PrescribedFlow)>);
 
 impl LawInForce {
-    /// A part of one tick, from its start.
-    fn step(&mut self, key: &FieldKey, tick: u64, fraction: f64) -> Step {
+    /// A step of so many ticks.
+    fn step(&mut self, key: &FieldKey, tick: u64, ticks: f64) -> Step {
         let law = key.law(tick);
         if self.0.as_ref().is_none_or(|(known, _)| *known != law) {
             self.0 = Some((law, law.prescribed()));
         }
-        let dt_s = key.tick_s * fraction;
-        let middle_s = key.tick_s * tick as f64 + 0.5 * dt_s;
+        let [from_s, to_s] = [tick as f64, tick as f64 + ticks].map(|tick| key.tick_s * tick);
         match &self.0 {
-            Some((_, flow)) => Step::prescribed(&flow.frozen_at(middle_s), dt_s),
-            None => Step::prescribed(&PrescribedFlow::default().frozen_at(middle_s), dt_s),
+            Some((_, flow)) => Step::prescribed(flow, from_s, to_s),
+            None => Step::prescribed(&PrescribedFlow::default(), from_s, to_s),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::Gpu;
+use super::{Gpu, GpuError, pipelines::ComputeKey};
 
 /// Passes that one submission can time; later ones run untimed.
 const SLOTS: u32 = 64;
@@ -14,6 +14,21 @@ pub struct PassTime {
     pub name: &'static str,
     /// Milliseconds, or nothing where the adapter cannot tell or told nonsense.
     pub gpu_ms: Option<f64>,
+}
+
+/// Workgroups of a dispatch.
+#[derive(Clone, Copy, Debug)]
+pub enum Groups<'a> {
+    /// So many.
+    Count([u32; 3]),
+    /// As many as the device has written at an offset of a buffer.
+    From(&'a wgpu::Buffer, u64),
+}
+
+impl From<[u32; 3]> for Groups<'_> {
+    fn from(groups: [u32; 3]) -> Self {
+        Self::Count(groups)
+    }
 }
 
 /// Counts of the work that was submitted.
@@ -64,13 +79,40 @@ impl<'g> Recorder<'g> {
         (slot < SLOTS).then_some(2 * slot)
     }
 
+    /// One dispatch of a compute pass whose resources are bound from 0 on.
+    pub fn compute(
+        &mut self,
+        name: &'static str,
+        key: &ComputeKey,
+        resources: &[wgpu::BindingResource<'_>],
+        groups: Groups<'_>,
+    ) -> Result<(), GpuError> {
+        let places: Vec<_> = (0..).zip(resources.iter().cloned()).collect();
+        self.compute_at(name, key, &places, groups)
+    }
+
+    /// The same with the places that resources are bound at: entry points of one file need not read all of its bindings.
+    pub fn compute_at(
+        &mut self,
+        name: &'static str,
+        key: &ComputeKey,
+        resources: &[(u32, wgpu::BindingResource<'_>)],
+        groups: Groups<'_>,
+    ) -> Result<(), GpuError> {
+        let gpu = self.gpu;
+        let pipeline = gpu.pipelines.compute(gpu, key)?;
+        let bindings = gpu.bind_at(&pipeline.get_bind_group_layout(0), resources);
+        self.dispatch(name, &pipeline, &bindings, groups);
+        Ok(())
+    }
+
     /// One dispatch of a compute pipeline.
-    pub fn dispatch(
+    pub fn dispatch<'a>(
         &mut self,
         name: &'static str,
         pipeline: &wgpu::ComputePipeline,
         bindings: &wgpu::BindGroup,
-        groups: [u32; 3],
+        groups: impl Into<Groups<'a>>,
     ) {
         let slot = self.slot(name);
         let timestamp_writes =
@@ -83,7 +125,10 @@ impl<'g> Recorder<'g> {
             self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes });
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, bindings, &[]);
-        pass.dispatch_workgroups(groups[0], groups[1], groups[2]);
+        match groups.into() {
+            Groups::Count([x, y, z]) => pass.dispatch_workgroups(x, y, z),
+            Groups::From(arguments, offset) => pass.dispatch_workgroups_indirect(arguments, offset),
+        }
         self.counts.dispatches += 1;
     }
 

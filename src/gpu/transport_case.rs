@@ -2,40 +2,18 @@
 
 use rayon::prelude::*;
 
-use super::{Gpu, GpuError, advance_map::Step, film::Field, readback::Readback, timing::Recorder};
+use super::{
+    Gpu, GpuError,
+    film::{ControlBlock, Field, Rules},
+    readback::Readback,
+    sample_tracer::Gathered,
+    timing::Recorder,
+    trace_step::Step,
+};
 use crate::physics::{
     sphere::CubedSphere,
-    transport::{Measured, PERIOD, Quantity, Tracer, Wind, exact, measure},
+    transport::{Measured, PERIOD, Quantity, Scheme, Tracer, Wind, WindKind, exact, measure},
 };
-
-/// How often the flow map is remapped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scheme {
-    /// At each step: semi-Lagrangian, bicubic.
-    Bicubic,
-    /// Five times a period.
-    Map,
-}
-
-impl Scheme {
-    /// Its name on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Bicubic => "bicubic",
-            Self::Map => "map",
-        }
-    }
-
-    /// Steps from one remap to the next.
-    #[must_use]
-    pub fn interval(self, steps_a_period: u32) -> u32 {
-        match self {
-            Self::Bicubic => 1,
-            Self::Map => (steps_a_period / 5).max(1),
-        }
-    }
-}
 
 /// One test.
 #[derive(Clone, Debug)]
@@ -46,13 +24,20 @@ pub struct Case {
     pub wind: Wind,
     /// The tracer at the start.
     pub tracer: Tracer,
+    /// What its values mean.
+    pub quantity: Quantity,
     /// The scheme.
     pub scheme: Scheme,
+    /// Whether the limiter is on.
+    pub limiter: bool,
     /// Steps in one period of the wind.
     pub steps_a_period: u32,
     /// Steps in all.
     pub steps: u64,
 }
+
+/// Remaps a period at least: fewer would let a test that undoes itself within a period undo the error too.
+const REMAPS_A_PERIOD: u32 = 4;
 
 /// Steps in one submission, so that none runs long.
 const STEPS_A_SUBMISSION: u64 = 16;
@@ -64,10 +49,18 @@ impl Case {
         PERIOD * steps as f64 / f64::from(self.steps_a_period)
     }
 
-    /// Remaps in all.
+    /// How the tracer is moved.
     #[must_use]
-    pub fn remaps(&self) -> u64 {
-        self.steps / u64::from(self.scheme.interval(self.steps_a_period))
+    pub fn rules(&self) -> Rules {
+        let stretches = self.wind.kind() == WindKind::Divergent && self.quantity == Quantity::Density;
+        Rules {
+            scheme: self.scheme,
+            limiter: self.limiter,
+            gathered: if stretches { Gathered::LogArea } else { Gathered::Nothing },
+            conserved: self.quantity == Quantity::Density,
+            latest_ticks: (self.steps_a_period / REMAPS_A_PERIOD).max(1),
+            coarse_flow: false,
+        }
     }
 
     /// The tracer at the start, in the grid's order.
@@ -78,23 +71,20 @@ impl Case {
 
     /// A field with the tracer at the start.
     pub fn seed(&self, gpu: &Gpu) -> Result<Field, GpuError> {
-        let mut field = Field::new(gpu, self.grid);
+        let mut field = Field::new(gpu, self.grid, self.rules())?;
         let mut recorder = Recorder::new(gpu);
-        let initial: Vec<f32> = self.initial().iter().map(|value| *value as f32).collect();
-        field.seed(&mut recorder, &initial)?;
+        field.seed(&mut recorder, |x| self.tracer.value(x))?;
         recorder.submit(&Default::default());
-        gpu.wait()?;
         Ok(field)
     }
 
     /// Takes all steps.
     pub fn advance(&self, gpu: &Gpu, field: &mut Field) -> Result<(), GpuError> {
-        let interval = u64::from(self.scheme.interval(self.steps_a_period));
         for first in (0..self.steps).step_by(STEPS_A_SUBMISSION as usize) {
             let mut recorder = Recorder::new(gpu);
             for step in first..(first + STEPS_A_SUBMISSION).min(self.steps) {
                 let wind = Step::wind(&self.wind, self.time(step), self.time(step + 1));
-                field.advance(&mut recorder, &wind, (step + 1) % interval == 0)?;
+                field.advance(&mut recorder, &wind, 1)?;
             }
             recorder.submit(&Default::default());
             gpu.wait()?;
@@ -102,25 +92,34 @@ impl Case {
         Ok(())
     }
 
-    /// The tracer as it is now, in the grid's order.
-    pub fn values(&self, gpu: &Gpu, field: &Field) -> Result<Vec<f64>, GpuError> {
-        let mut recorder = Recorder::new(gpu);
-        let tracer = field.thickness(&mut recorder, None)?;
-        recorder.submit(&Default::default());
-        let padded: Vec<f32> =
-            bytemuck::pod_collect_to_vec(&Readback::of_buffer(gpu, tracer, tracer.size()).wait(gpu)?);
-        Ok(field.inner(&padded).into_iter().map(f64::from).collect())
+    /// Remaps so far.
+    pub fn remaps(&self, gpu: &Gpu, field: &Field) -> Result<u64, GpuError> {
+        if !self.scheme.keeps_map() {
+            return Ok(self.steps);
+        }
+        let control: Vec<ControlBlock> = bytemuck::pod_collect_to_vec(&field.read_control(gpu).wait(gpu)?);
+        Ok(control.iter().map(|block| u64::from(block.remaps)).sum())
     }
 
-    /// Compares values with the exact answer for a ratio, which is a density's too where the wind does not diverge.
+    /// Compares values with the exact answer.
     #[must_use]
     pub fn measure(&self, values: &[f64]) -> Measured {
         let time = self.time(self.steps);
         // Four times the steps of the run: the exact answer's own error is then far below the scheme's.
         let steps = (4 * self.steps).clamp(400, 100_000) as u32;
         let answer =
-            |cell: usize| exact(&self.wind, &self.tracer, Quantity::Ratio, self.grid.cell_direction(cell), time, steps);
+            |cell: usize| exact(&self.wind, &self.tracer, self.quantity, self.grid.cell_direction(cell), time, steps);
         let answers: Vec<f64> = (0..self.grid.cells()).into_par_iter().map(answer).collect();
         measure(self.grid, values, &answers, &self.initial())
     }
+}
+
+/// A field's values as they are now, in the grid's order.
+pub fn values(gpu: &Gpu, field: &mut Field) -> Result<Vec<f64>, GpuError> {
+    let mut recorder = Recorder::new(gpu);
+    field.show(&mut recorder, None)?;
+    let values = field.read(&mut recorder)?;
+    recorder.submit(&Default::default());
+    let values: Vec<f32> = bytemuck::pod_collect_to_vec(&Readback::of_buffer(gpu, &values, values.size()).wait(gpu)?);
+    Ok(values.into_iter().map(f64::from).collect())
 }

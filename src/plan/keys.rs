@@ -1,14 +1,16 @@
 //! The keys of products: for each, exactly what its pass reads.
 
-use std::{fmt, sync::Arc};
+use std::{fmt, ops::Range, sync::Arc};
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use crate::physics::{
     colour::Illuminant,
     environment::CubeMap,
     film::{InitialFilm, PrescribedFlow},
     optics::FilmIndex,
+    sphere::CubedSphere,
+    transport::Scheme,
 };
 
 /// The lookup table of film colours.
@@ -162,6 +164,24 @@ impl FlowLaw {
             Self::Stirred { strength, seed } => PrescribedFlow::stirred(seed, strength),
         }
     }
+
+    fn strength(self) -> f64 {
+        match self {
+            Self::Rest => 0.0,
+            Self::Sloshing { strength, .. } | Self::Draught { strength, .. } | Self::Stirred { strength, .. } => strength,
+        }
+    }
+
+    /// Ticks in a step of the film, for a tick's length and the angle between cells: as many as keep the step accurate, and more where
+    /// even those would move nothing by a thousandth of a cell.
+    #[must_use]
+    pub fn ticks_a_step(self, tick_s: f64, cell_angle: f64) -> u64 {
+        // At strength 1 the fastest vortices turn by a quarter of a radian in 0.1 s, where a Runge-Kutta step errs by 1e-5 of that; the
+        // swings of 2 s and more are followed by its three moments.
+        let accurate_s = (0.1 / self.strength()).min(0.2);
+        let still_s = 1e-3 * cell_angle / self.prescribed().max_speed_bound();
+        (accurate_s.max(still_s) / tick_s).max(1.0) as u64
+    }
 }
 
 /// A law, and the tick from which it holds.
@@ -182,7 +202,9 @@ pub struct FieldKey {
     pub initial: InitialFilm,
     /// Length of a tick in seconds.
     pub tick_s: f64,
-    /// Ticks from one remap of the flow map to the next.
+    /// How the liquid is moved.
+    pub scheme: Scheme,
+    /// The most ticks from one remap of the flow map to the next.
     pub remap_ticks: u32,
     /// Laws in the order of their ticks, as far as the moment has seen them; the first holds from tick 0.
     pub flows: Vec<FlowSegment>,
@@ -209,10 +231,47 @@ impl FieldKey {
         self.flows.iter().rev().find(|segment| segment.from_tick <= tick).map_or(FlowLaw::Rest, |segment| segment.law)
     }
 
+    /// The last tick until the moment at which a step ends: where the film's state stands. What the moment is beyond it, the shown
+    /// thickness alone is ahead of the state, so that steps are the same however a history is cut into frames.
+    #[must_use]
+    pub fn state_tick(&self) -> u64 {
+        self.step_at(self.moment.tick).start
+    }
+
+    /// Ticks of the whole steps from the end of one until the moment, in order.
+    pub fn steps_from(&self, tick: u64) -> impl Iterator<Item = Range<u64>> {
+        let mut next = tick;
+        std::iter::from_fn(move || {
+            let step = self.step_at(next);
+            next = step.end;
+            (step.end <= self.moment.tick).then_some(step)
+        })
+    }
+
+    /// The step that a tick lies in. Steps begin with each law and are cut where the next one comes into force; a law of rest is one step.
+    fn step_at(&self, tick: u64) -> Range<u64> {
+        let after = self.flows.partition_point(|segment| segment.from_tick <= tick);
+        let end = self.flows.get(after).map_or(u64::MAX, |next| next.from_tick);
+        let Some(segment) = self.flows[..after].last().filter(|segment| segment.law != FlowLaw::Rest) else {
+            return tick..end;
+        };
+        let length = segment.law.ticks_a_step(self.tick_s, self.cell_angle());
+        let start = tick - (tick - segment.from_tick) % length;
+        start..start.saturating_add(length).min(end)
+    }
+
+    /// Angle between neighbouring cells, in radians; that of the coarsest grid for a size that no grid has.
+    #[must_use]
+    pub fn cell_angle(&self) -> f64 {
+        CubedSphere::new(self.cells as usize).map_or(std::f64::consts::FRAC_PI_2 / 8.0, CubedSphere::cell_angle)
+    }
+
     /// Whether this film's past, up to the other's moment, is the other's: then it can go on from there.
     #[must_use]
     pub fn continues(&self, past: &Self) -> bool {
-        past.moment.tick <= self.moment.tick && !self.law_differs_until(past)
+        past.moment.tick <= self.moment.tick
+            && !self.law_differs_until(past)
+            && self.step_at(past.moment.tick).start == past.moment.tick
     }
 
     /// Whether anything that shaped the other film up to its moment is different in this one.
@@ -220,11 +279,14 @@ impl FieldKey {
     pub fn law_differs_until(&self, other: &Self) -> bool {
         let end = other.moment.end_tick();
         let past = |key: &Self| key.flows.iter().filter(|segment| segment.from_tick < end).copied().collect::<Vec<_>>();
-        (self.cells, self.initial, self.tick_s, self.remap_ticks)
-            != (other.cells, other.initial, other.tick_s, other.remap_ticks)
+        (self.cells, self.initial, self.tick_s, self.scheme, self.remap_ticks)
+            != (other.cells, other.initial, other.tick_s, other.scheme, other.remap_ticks)
             || past(self) != past(other)
     }
 }
+
+/// Thickness of black film, in nm, at which evaporation ends: common black films are 10 to 30 nm thick.
+pub const BLACK_FILM_NM: f64 = 10.0;
 
 /// What a bubble's film is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -246,8 +308,14 @@ pub struct BubbleKey {
     pub radius_m: f64,
     /// Bounding rectangle in clip coordinates, lower left and upper right.
     pub bounds: [DVec2; 2],
+    /// Takes directions of the world to the film, which may turn as a whole.
+    pub to_film: DMat3,
+    /// What has evaporated from the whole film, in nm.
+    pub thinned_nm: f64,
     /// Samples along each side of a pixel.
     pub samples: u32,
+    /// Whether the film is looked up through its flow map at each pixel: where cells are larger than pixels.
+    pub magnified: bool,
     /// The film.
     pub film: FilmKey,
 }

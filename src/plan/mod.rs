@@ -10,7 +10,7 @@ mod want;
 use std::{fmt, ops::Range};
 
 pub use keys::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey,
+    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey,
     Moment, TableKey, TonemapKey,
 };
 pub use want::{Resources, Shot, WantError, want};
@@ -286,7 +286,7 @@ impl Planner {
             FieldHave { state: start, shown: None }
         });
         let end = self.step(film, wanted, &have.state);
-        let moment = if end == wanted.moment.tick { wanted.moment } else { Moment::tick(end) };
+        let moment = if end == wanted.state_tick() { wanted.moment } else { Moment::tick(end) };
         let shown = wanted.at(moment);
         if have.shown != Some(moment) || before.is_none_or(|before| before.state.law_differs_until(&shown)) {
             let reason = if have.shown.is_none() { Reason::Missing } else { Reason::Changed("the moment") };
@@ -298,15 +298,15 @@ impl Planner {
         shown
     }
 
-    /// Plans a film's ticks and returns where they end.
+    /// Plans a film's steps and returns the tick at which they end.
     fn step(&mut self, film: usize, wanted: &FieldKey, state: &FieldKey) -> u64 {
         let first = state.moment.tick;
-        let mut end = wanted.moment.tick;
-        if self.pace == Pace::Frame {
-            let most = (CELLS_A_FRAME / wanted.cell_count()).max(1);
-            end = end.min(first + most);
-            self.complete &= end == wanted.moment.tick;
-        }
+        let most = match self.pace {
+            Pace::Frame => (CELLS_A_FRAME / wanted.cell_count()).max(1) as usize,
+            Pace::Whole => usize::MAX,
+        };
+        let end = wanted.steps_from(first).take(most).last().map_or(first, |step| step.end);
+        self.complete &= end == wanted.state_tick();
         if first < end {
             let reason = Reason::Changed("the moment");
             self.push(Pass::StepField { film, key: wanted.at(Moment::tick(end)), ticks: first..end }, reason);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey,
@@ -14,8 +14,9 @@ use crate::{
         environment::CubeMap,
         film::InitialFilm,
         optics::{FilmIndex, FilmIndexError},
+        transport::Scheme,
     },
-    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Scene},
+    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Motion, Scene, TransportScheme},
 };
 
 /// What a scene names and somebody has loaded.
@@ -146,7 +147,54 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         FilmKey::Field(_) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(bubble.film.thickness_nm),
         film => film,
     };
-    Some(BubbleKey { index, centre_m, radius_m, bounds, samples: samples(radius_pixels), film })
+    let (turn, thinned_nm) = turned_and_thinned(scene, shot.moment);
+    Some(BubbleKey {
+        index,
+        centre_m,
+        radius_m,
+        bounds,
+        // A film of one thickness looks the same however it is turned.
+        to_film: if matches!(film, FilmKey::Uniform(_)) { DMat3::IDENTITY } else { DMat3::from_quat(turn.inverse()) },
+        thinned_nm,
+        samples: samples(radius_pixels),
+        magnified: is_magnified(&film, radius_m, radius_pixels, centre_m.distance(camera.eye_m)),
+        film,
+    })
+}
+
+/// Pixels that a cell of a film must span for the film to be looked up at each pixel: below that, a cell is interpolated well enough.
+const MAGNIFIED_CELL_PIXELS: f64 = 3.0;
+
+fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f64) -> bool {
+    let FilmKey::Field(field) = film else { return false };
+    // From inside, and for the nearest point from outside, the film is nearer than the centre.
+    let nearest_m = (distance_m - radius_m).abs().max(1e-3 * radius_m);
+    let magnification = (distance_m.max(radius_m) / nearest_m).min(16.0);
+    field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
+}
+
+/// How far all films have turned as a whole, and what has evaporated from them, in nm.
+fn turned_and_thinned(scene: &Scene, moment: Moment) -> (DQuat, f64) {
+    let end = moment.tick as f64 + moment.fraction;
+    let ticks = std::iter::once(0).chain(scene.events.iter().map(|event| event.tick)).filter(|tick| *tick as f64 <= end);
+    let starts: Vec<u64> = ticks.collect();
+    let ends = starts.iter().skip(1).map(|tick| *tick as f64).chain(std::iter::once(end));
+    starts.iter().zip(ends).fold((DQuat::IDENTITY, 0.0), |(turn, thinned_nm), (start, end)| {
+        let motion: Motion = scene.motion_at(*start);
+        let seconds = (end - *start as f64).max(0.0) * motion.tick_s;
+        let spin = DVec3::from(motion.spin_deg_s) * (std::f64::consts::PI / 180.0);
+        (DQuat::from_scaled_axis(spin * seconds) * turn, thinned_nm + motion.evaporation_nm_s * seconds)
+    })
+}
+
+fn scheme(motion: &Motion) -> Scheme {
+    match motion.scheme {
+        TransportScheme::Bilinear => Scheme::Bilinear,
+        TransportScheme::Bicubic => Scheme::Bicubic,
+        TransportScheme::Bfecc => Scheme::Bfecc,
+        TransportScheme::Map => Scheme::Map,
+        TransportScheme::MapAccurate => Scheme::MapAccurate,
+    }
 }
 
 /// Samples along a pixel's side: bubbles of few pixels need more, for their film and their reflections are finer than a pixel.
@@ -178,6 +226,7 @@ fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
         cells: film.cells,
         initial,
         tick_s: scene.motion.tick_s,
+        scheme: scheme(&scene.motion),
         remap_ticks: scene.motion.remap_ticks,
         moment,
         flows,

@@ -41,7 +41,13 @@ fn check_version(document: &DeTable, text: &str) -> Result<(), Located> {
 
 /// Every key a scene can have, as the TOML of a scene where nothing is absent. A key forgotten here fails the round trip of random scenes.
 pub(super) fn every_key() -> Table {
-    let everything = MotionChange { flow: Some(Flow::Rest), strength: Some(1.0), seed: Some(1) };
+    let everything = MotionChange {
+        flow: Some(Flow::Rest),
+        strength: Some(1.0),
+        seed: Some(1),
+        spin_deg_s: Some([0.0; 3]),
+        evaporation_nm_s: Some(0.0),
+    };
     let scene = Scene {
         bubbles: vec![Bubble::default()],
         light: Light { constant: Some([0.0; 3]), ..Light::default() },

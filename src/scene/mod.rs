@@ -21,7 +21,7 @@ pub use bubble::{Bubble, Film, FilmIndexName, FilmStateName};
 pub use camera::Camera;
 pub use error::{Problem, SceneError};
 pub use light::{Backdrop, Environment, Light, View};
-pub use motion::{Change, Event, Flow, Motion, MotionChange};
+pub use motion::{Change, Event, Flow, Motion, MotionChange, TransportScheme};
 pub use preset::{preset, preset_names, preset_toml};
 
 use check::{Checked, Fault};

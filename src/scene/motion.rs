@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 const STRENGTH: RangeInclusive<f64> = 0.0..=10.0;
+const SPIN_DEG_S: RangeInclusive<f64> = -3600.0..=3600.0;
+const EVAPORATION_NM_S: RangeInclusive<f64> = 0.0..=1000.0;
 
 /// The clock and the flow of the films: `[motion]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,7 +20,13 @@ pub struct Motion {
     pub strength: f64,
     /// Seed of the flow. Default: 1.
     pub seed: u64,
-    /// Ticks between two remaps of the flow map; 1 ..= 1000. Default: 20.
+    /// Turn of all films as a whole, degrees a second about the three axes of the world; -3600 ..= 3600. Default: [0, 0, 0].
+    pub spin_deg_s: [f64; 3],
+    /// What evaporates from the whole film, nm of thickness a second, down to 10 nm of black film; 0 ..= 1000. Default: 0.
+    pub evaporation_nm_s: f64,
+    /// How the liquid is moved. Default: `map`.
+    pub scheme: TransportScheme,
+    /// Most ticks between two remaps of the flow map, which is remapped before where it is too distorted; 1 ..= 1000. Default: 120.
     pub remap_ticks: u32,
     /// Film time that passes in a second of the window's clock, s; 0.01 ..= 100. Default: 1.
     pub speed: f64,
@@ -26,7 +34,17 @@ pub struct Motion {
 
 impl Default for Motion {
     fn default() -> Self {
-        Self { tick_s: 1.0 / 60.0, flow: Flow::Stirred, strength: 0.5, seed: 1, remap_ticks: 20, speed: 1.0 }
+        Self {
+            tick_s: 1.0 / 60.0,
+            flow: Flow::Stirred,
+            strength: 0.5,
+            seed: 1,
+            spin_deg_s: [0.0; 3],
+            evaporation_nm_s: 0.0,
+            scheme: TransportScheme::Map,
+            remap_ticks: 120,
+            speed: 1.0,
+        }
     }
 }
 
@@ -34,6 +52,8 @@ impl Motion {
     pub(super) fn check(&self) -> Checked {
         check::in_range("tick_s", self.tick_s, 1e-4..=0.1)?;
         check::in_range("strength", self.strength, STRENGTH)?;
+        self.spin_deg_s.iter().try_for_each(|rate| check::in_range("spin_deg_s", *rate, SPIN_DEG_S))?;
+        check::in_range("evaporation_nm_s", self.evaporation_nm_s, EVAPORATION_NM_S)?;
         check::in_range("remap_ticks", self.remap_ticks, 1..=1000)?;
         check::in_range("speed", self.speed, 0.01..=100.0)
     }
@@ -51,6 +71,22 @@ pub enum Flow {
     Draught,
     /// Many turning vortices, as after a stir.
     Stirred,
+}
+
+/// How the liquid of a film is moved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TransportScheme {
+    /// Semi-Lagrangian, bilinear: for comparison.
+    Bilinear,
+    /// Semi-Lagrangian, bicubic: for comparison.
+    Bicubic,
+    /// Back and forth error compensation: for comparison.
+    Bfecc,
+    /// A flow map.
+    Map,
+    /// A flow map with the thickness on a grid twice as fine.
+    MapAccurate,
 }
 
 /// Something that happens at a tick and lasts from then on: one `[[event]]`.
@@ -87,23 +123,34 @@ pub struct MotionChange {
     pub strength: Option<f64>,
     /// New [`Motion::seed`].
     pub seed: Option<u64>,
+    /// New [`Motion::spin_deg_s`]; -3600 ..= 3600.
+    pub spin_deg_s: Option<[f64; 3]>,
+    /// New [`Motion::evaporation_nm_s`]; 0 ..= 1000.
+    pub evaporation_nm_s: Option<f64>,
 }
 
 impl MotionChange {
-    pub(super) fn applied_to(&self, motion: Motion) -> Motion {
+    /// A motion with these changes.
+    #[must_use]
+    pub fn applied_to(&self, motion: Motion) -> Motion {
         Motion {
             flow: self.flow.unwrap_or(motion.flow),
             strength: self.strength.unwrap_or(motion.strength),
             seed: self.seed.unwrap_or(motion.seed),
+            spin_deg_s: self.spin_deg_s.unwrap_or(motion.spin_deg_s),
+            evaporation_nm_s: self.evaporation_nm_s.unwrap_or(motion.evaporation_nm_s),
             ..motion
         }
     }
 
     fn check(&self) -> Checked {
         if *self == Self::default() {
-            return Err(Fault::new("kind", "is \"motion\" but nothing changes; set `flow`, `strength` or `seed`"));
+            return Err(Fault::new("kind", "is \"motion\" but nothing changes; set `flow` or another key of [motion]"));
         }
-        self.strength.map_or(Ok(()), |strength| check::in_range("strength", strength, STRENGTH))
+        self.strength.map_or(Ok(()), |strength| check::in_range("strength", strength, STRENGTH))?;
+        let spin = self.spin_deg_s.iter().flatten();
+        spin.copied().try_for_each(|rate| check::in_range("spin_deg_s", rate, SPIN_DEG_S))?;
+        self.evaporation_nm_s.map_or(Ok(()), |rate| check::in_range("evaporation_nm_s", rate, EVAPORATION_NM_S))
     }
 }
 
@@ -117,6 +164,8 @@ struct Entry {
     flow: Option<Flow>,
     strength: Option<f64>,
     seed: Option<u64>,
+    spin_deg_s: Option<[f64; 3]>,
+    evaporation_nm_s: Option<f64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -126,9 +175,11 @@ enum Kind {
 }
 
 impl From<Entry> for Event {
-    fn from(Entry { tick, kind, flow, strength, seed }: Entry) -> Self {
+    fn from(Entry { tick, kind, flow, strength, seed, spin_deg_s, evaporation_nm_s }: Entry) -> Self {
         let change = match kind {
-            Kind::Motion => Change::Motion(MotionChange { flow, strength, seed }),
+            Kind::Motion => {
+                Change::Motion(MotionChange { flow, strength, seed, spin_deg_s, evaporation_nm_s })
+            }
         };
         Self { tick, change }
     }
@@ -136,8 +187,8 @@ impl From<Entry> for Event {
 
 impl From<Event> for Entry {
     fn from(Event { tick, change }: Event) -> Self {
-        let Change::Motion(MotionChange { flow, strength, seed }) = change;
-        Self { tick, kind: Kind::Motion, flow, strength, seed }
+        let Change::Motion(MotionChange { flow, strength, seed, spin_deg_s, evaporation_nm_s }) = change;
+        Self { tick, kind: Kind::Motion, flow, strength, seed, spin_deg_s, evaporation_nm_s }
     }
 }
 

@@ -9,4 +9,4 @@ mod states;
 pub use flow::{
     FlowError, FrozenFlow, FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Vortex, Wave,
 };
-pub use states::InitialFilm;
+pub use states::{InitialFilm, Profile};

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use glam::DVec3;
 use thiserror::Error;
 
-/// Cells of padding around each panel: what a 4×4 stencil reads beyond the edge, and no more.
-pub const HALO: usize = 2;
+/// Cells of padding around each panel: what a 6×6 stencil reads beyond the edge, and no more.
+pub const HALO: usize = 3;
 
 /// The axes `[f, r, u]` of the six panels: a panel looks along `f`, its index i grows along `r` and j along `u`.
 pub const PANELS: [[DVec3; 3]; 6] = [
@@ -130,6 +130,14 @@ impl CubedSphere {
         let width = self.padded_width();
         let [i, j] = [i, j].map(|k| (k + HALO as isize) as usize);
         (panel * width + j) * width + i
+    }
+
+    /// The unit vector at a place in padded storage, the inverse of [`Self::padded_index`].
+    pub fn padded_direction(self, index: usize) -> DVec3 {
+        let width = self.padded_width();
+        let (row, i) = (index / width, index % width);
+        let [x, y] = [i, row % width].map(|k| k as f64 - HALO as f64);
+        self.direction(PanelPoint { panel: row / width, x, y })
     }
 
     /// Tangent of the angle from the panel's middle at a fractional cell coordinate.

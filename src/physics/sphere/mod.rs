@@ -19,5 +19,5 @@ mod padded;
 
 pub use grid::{CubedSphere, GridError, HALO, PANELS, PanelPoint};
 pub use halo::{HaloEntry, HaloTable};
-pub use lagrange::cubic_weights;
+pub use lagrange::{cubic_weights, quintic_weights};
 pub use padded::{FieldValue, PaddedField};

@@ -5,7 +5,7 @@ use std::ops::{Add, Mul};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{CubedSphere, HaloEntry, HaloTable, cubic_weights};
+use super::{CubedSphere, HaloEntry, HaloTable, cubic_weights, quintic_weights};
 
 /// What a field may hold: values that can be weighted and added, `f64` and [`DVec3`] among them. The default is zero.
 pub trait FieldValue: Copy + Default + Send + Sync + Add<Output = Self> + Mul<f64, Output = Self> {}
@@ -34,9 +34,17 @@ impl<T: FieldValue> PaddedField<T> {
         field
     }
 
-    /// The field that samples a function of direction at the cell centres.
-    pub fn sample(grid: CubedSphere, halo: &HaloTable, value: impl Fn(DVec3) -> T + Sync) -> Self {
-        Self::from_cells(grid, halo, |cell| value(grid.cell_direction(cell)))
+    /// The field that samples a function of direction at the cell centres, those of the halo included: they are places on the sphere like
+    /// any other.
+    pub fn sample(grid: CubedSphere, value: impl Fn(DVec3) -> T + Sync) -> Self {
+        let values = (0..grid.padded_len()).into_par_iter().map(|index| value(grid.padded_direction(index))).collect();
+        Self { grid, values }
+    }
+
+    /// The field of these values by padded index, one for each of [`CubedSphere::padded_len`]; missing ones are zero.
+    pub fn from_padded(grid: CubedSphere, mut values: Vec<T>) -> Self {
+        values.resize(grid.padded_len(), T::default());
+        Self { grid, values }
     }
 
     /// The grid.
@@ -61,6 +69,11 @@ impl<T: FieldValue> PaddedField<T> {
     /// Cubic interpolation in both coordinates, 4×4 Lagrange: exact at cell centres, error O(D⁴).
     pub fn bicubic(&self, direction: DVec3) -> T {
         self.interpolate(direction, -1, cubic_weights)
+    }
+
+    /// Quintic interpolation in both coordinates, 6×6 Lagrange: exact at cell centres, error O(D⁶).
+    pub fn biquintic(&self, direction: DVec3) -> T {
+        self.interpolate(direction, -2, quintic_weights)
     }
 
     /// Linear interpolation in both coordinates: exact at cell centres, error O(D²), never leaves the range of the values.
@@ -98,32 +111,30 @@ fn weighted<T: FieldValue>(terms: impl Iterator<Item = (f64, T)>) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::sphere::{HALO, PanelPoint};
 
     fn smooth(x: DVec3) -> f64 {
         (2.0 * x.x - x.y).sin() + x.z * x.y
     }
 
     fn field(n: usize) -> PaddedField<f64> {
+        PaddedField::sample(CubedSphere::new(n).unwrap(), smooth)
+    }
+
+    /// The same with its halo interpolated from the cells.
+    fn filled(n: usize) -> PaddedField<f64> {
         let grid = CubedSphere::new(n).unwrap();
-        PaddedField::sample(grid, &HaloTable::new(grid), smooth)
+        PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| smooth(grid.cell_direction(cell)))
     }
 
     /// The largest error over the halo cells.
     fn halo_error(n: usize) -> f64 {
-        let field = field(n);
-        let span = -(HALO as isize)..(n + HALO) as isize;
-        let cells =
-            (0..6).flat_map(|panel| span.clone().flat_map(move |j| (-2..n as isize + 2).map(move |i| (panel, i, j))));
-        cells.fold(0.0, |worst: f64, (panel, i, j)| {
-            let exact = smooth(field.grid.direction(PanelPoint { panel, x: i as f64, y: j as f64 }));
-            worst.max((field.values[field.grid.padded_index(panel, i, j)] - exact).abs())
-        })
+        let (filled, exact) = (filled(n), field(n));
+        filled.values.iter().zip(&exact.values).fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs()))
     }
 
     /// The largest interpolation error over directions that include edges and corners.
     fn lookup_error(n: usize, lookup: fn(&PaddedField<f64>, DVec3) -> f64) -> f64 {
-        let field = field(n);
+        let field = filled(n);
         let probe = CubedSphere::new(37).unwrap();
         let corners = [1.0, -1.0].map(|s| DVec3::new(1.0, s, -1.0).normalize());
         let near_corners = corners.map(|c| (c + DVec3::new(1e-3, 0.0, 2e-3)).normalize());
@@ -138,6 +149,18 @@ mod tests {
             assert!(fine < 1e-5, "{fine:e}");
             assert!(coarse / fine > 12.0, "ideal 16, less the mixture of positions: {coarse:e} / {fine:e}");
         }
+    }
+
+    #[test]
+    fn biquintic_lookup_converges_at_sixth_order() {
+        let error = |n| {
+            let (field, probe) = (field(n), CubedSphere::new(37).unwrap());
+            (0..probe.cells()).map(|cell| probe.cell_direction(cell)).fold(0.0, |worst: f64, x| {
+                worst.max((field.biquintic(x) - smooth(x)).abs())
+            })
+        };
+        let (coarse, fine) = (error(20), error(40));
+        assert!(fine < 1e-7 && coarse / fine > 45.0, "ideal 64: {coarse:e} / {fine:e}");
     }
 
     #[test]
@@ -162,9 +185,9 @@ mod tests {
     fn constants_and_vectors_survive() {
         let grid = CubedSphere::new(15).unwrap();
         let halo = HaloTable::new(grid);
-        let constant = PaddedField::sample(grid, &halo, |_| 0.7);
+        let constant = PaddedField::from_cells(grid, &halo, |_| 0.7);
         assert!(constant.padded().iter().all(|v| (v - 0.7).abs() < 1e-15));
-        let identity = PaddedField::sample(grid, &halo, |x| x);
+        let identity = PaddedField::from_cells(grid, &halo, |cell| grid.cell_direction(cell));
         let x = DVec3::new(0.99, 1.0, 0.98).normalize();
         assert!(identity.bicubic(x).distance(x) < 1e-4);
     }

@@ -13,7 +13,7 @@ mod wind;
 
 pub use errors::{Measured, measure};
 pub use exact::{Departure, Quantity, departure, exact};
-pub use scheme::{FlowMap, backtrace};
+pub use scheme::{FlowMap, Scheme, backtrace};
 pub use tracer::{Tracer, TracerKind};
 pub use wind::{PERIOD, Wind, WindKind};
 

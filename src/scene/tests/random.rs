@@ -71,23 +71,37 @@ fn flow() -> impl Strategy<Value = Flow> {
 }
 
 fn motion() -> impl Strategy<Value = Motion> {
-    (1e-4..0.1, flow(), 0.0..10.0, any::<u64>(), 1u32..=1000, 0.01..100.0).prop_map(
-        |(tick_s, flow, strength, seed, remap_ticks, speed)| Motion {
+    let spins = (spin(), 0.0..1000.0, scheme());
+    (1e-4..0.1, flow(), 0.0..10.0, any::<u64>(), spins, 1u32..=1000, 0.01..100.0).prop_map(
+        |(tick_s, flow, strength, seed, (spin_deg_s, evaporation_nm_s, scheme), remap_ticks, speed)| Motion {
             tick_s,
             flow,
             strength,
             seed,
+            spin_deg_s,
+            evaporation_nm_s,
+            scheme,
             remap_ticks,
             speed,
         },
     )
 }
 
+fn spin() -> impl Strategy<Value = [f64; 3]> {
+    [-3600.0..3600.0, -3600.0..3600.0, -3600.0..3600.0]
+}
+
+fn scheme() -> impl Strategy<Value = TransportScheme> {
+    use TransportScheme::{Bfecc, Bicubic, Bilinear, Map, MapAccurate};
+    prop_oneof![Just(Bilinear), Just(Bicubic), Just(Bfecc), Just(Map), Just(MapAccurate)]
+}
+
 fn event() -> impl Strategy<Value = Event> {
-    (any::<u64>(), prop::option::of(flow()), prop::option::of(0.0..10.0), any::<u64>()).prop_map(
-        |(tick, flow, strength, seed)| Event {
+    let spins = (prop::option::of(spin()), prop::option::of(0.0..1000.0));
+    (any::<u64>(), prop::option::of(flow()), prop::option::of(0.0..10.0), any::<u64>(), spins).prop_map(
+        |(tick, flow, strength, seed, (spin_deg_s, evaporation_nm_s))| Event {
             tick,
-            change: Change::Motion(MotionChange { flow, strength, seed: Some(seed) }),
+            change: Change::Motion(MotionChange { flow, strength, seed: Some(seed), spin_deg_s, evaporation_nm_s }),
         },
     )
 }

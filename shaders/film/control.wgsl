@@ -1,0 +1,28 @@
+// What the device itself knows of a film and decides about it. Mirrors `ControlBlock` in src/gpu/film/control.rs.
+struct Control {
+    ticks_since_remap: u32,
+    remaps: u32,
+    // The map's distortion over the limit, as the bits of a float that is not negative: they sort like the floats.
+    distortion: atomic<u32>,
+    // Values that were not finite and have been replaced.
+    healed: atomic<u32>,
+}
+
+// A correction of a film's values, h + offset + slope h, that restores its amount of liquid. Mirrors `BalanceBlock`.
+struct Balance {
+    offset: f32,
+    slope: f32,
+}
+
+fn balanced(value: f32, balance: Balance) -> f32 {
+    return value + (balance.offset + balance.slope * value);
+}
+
+// By its bits: compilers may assume that what is no number does not occur.
+fn is_finite(x: f32) -> bool {
+    return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
+}
+
+fn all_finite(v: vec4f) -> bool {
+    return all((bitcast<vec4u>(v) & vec4u(0x7f800000u)) != vec4u(0x7f800000u));
+}

@@ -1,0 +1,83 @@
+// How far a film's amount of liquid is from what it must be, and the smallest correction that restores it. What is summed is the
+// area-weighted difference from the mean, pairwise: the parts cancel on the way up, so that nothing large is rounded.
+
+import package::film::control::{Balance, is_finite};
+import package::sphere::cubed::padded_index;
+
+const SPHERE: f32 = 12.566370614;
+
+// Mirrors `ConserveUniform` in src/gpu/conserve.rs.
+struct Conserve {
+    cells: u32,
+    // Workgroups that `sum_parts` runs, 256 at most.
+    parts: u32,
+    // The mean to restore, in two parts: the second is what rounding the first left over.
+    mean: f32,
+    mean_rest: f32,
+    // Bounds that a corrected value must keep; they count where `bounded` is 1.
+    low: f32,
+    high: f32,
+    bounded: u32,
+}
+
+@group(0) @binding(0) var<uniform> conserve: Conserve;
+// Solid angles of a panel's cells; the panels are alike.
+@group(0) @binding(1) var<storage, read> areas: array<f32>;
+@group(0) @binding(2) var<storage, read> field: array<f32>;
+@group(0) @binding(3) var<storage, read_write> partial_sums: array<f32, 256>;
+@group(0) @binding(4) var<storage, read_write> balance: Balance;
+
+var<workgroup> sums: array<f32, 256>;
+
+// The sum over the workgroup; all invocations must call it.
+fn workgroup_sum(value: f32, local: u32) -> f32 {
+    sums[local] = value;
+    for (var half = 128u; half > 0u; half >>= 1u) {
+        workgroupBarrier();
+        if (local < half) {
+            sums[local] += sums[local + half];
+        }
+    }
+    workgroupBarrier();
+    return sums[0];
+}
+
+@compute @workgroup_size(256)
+fn sum_parts(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
+    let panel_cells = conserve.cells * conserve.cells;
+    var sum = 0.0;
+    for (var cell = group.x * 256u + local; cell < 6u * panel_cells; cell += conserve.parts * 256u) {
+        let place = cell % panel_cells;
+        let i = i32(place % conserve.cells);
+        let j = i32(place / conserve.cells);
+        let value = field[padded_index(cell / panel_cells, i, j, conserve.cells)];
+        if (is_finite(value)) {
+            sum += areas[place] * ((value - conserve.mean) - conserve.mean_rest);
+        }
+    }
+    let total = workgroup_sum(sum, local);
+    if (local == 0u) {
+        partial_sums[group.x] = total;
+    }
+}
+
+@compute @workgroup_size(256)
+fn balance_sum(@builtin(local_invocation_index) local: u32) {
+    var sum = 0.0;
+    if (local < conserve.parts) {
+        sum = partial_sums[local];
+    }
+    let excess = workgroup_sum(sum, local);
+    if (local != 0u) {
+        return;
+    }
+    if (conserve.bounded == 0u) {
+        balance = Balance(-excess / SPHERE, 0.0);
+        return;
+    }
+    // Liquid is taken in proportion to what stands above the lower bound, or given in proportion to what is missing to the upper one.
+    let bound = select(conserve.high, conserve.low, excess > 0.0);
+    let room = abs(conserve.mean - bound) * SPHERE + abs(excess);
+    let part = select(0.0, clamp(abs(excess) / room, 0.0, 1.0), room > 0.0);
+    balance = Balance(part * bound, -part);
+}

@@ -1,0 +1,86 @@
+// Whether the map has become too distorted to go on with, and the arguments of the dispatches that then remap: zero workgroups if it has not.
+
+import package::film::control::Control;
+import package::sphere::cubed::{HALO, padded_index};
+
+// Mirrors `DecideUniform` in src/gpu/decide_remap.rs.
+struct Decide {
+    // Cells along a panel's edge.
+    cells: u32,
+    // Angle between neighbouring cells, radians.
+    cell_angle: f32,
+    // Error of interpolating the map, in cells, at which it is remapped.
+    error_limit: f32,
+    // Ticks since the last decision, and the most between two remaps.
+    ticks: u32,
+    latest_ticks: u32,
+    // Workgroups of a pass over the tracer's texels, and of its sum.
+    tracer_groups: vec3u,
+    sum_groups: u32,
+    // Workgroups of a pass over the map's texels.
+    map_groups: vec3u,
+}
+
+// Arguments of indirect dispatches: passes over the tracer's texels, its sum, the sum of the parts, and passes over the map's texels.
+struct Arguments {
+    tracer_groups: array<u32, 3>,
+    sum_groups: array<u32, 3>,
+    one_group: array<u32, 3>,
+    map_groups: array<u32, 3>,
+}
+
+@group(0) @binding(0) var<uniform> decide: Decide;
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> map: array<vec4f>;
+@group(0) @binding(3) var<storage, read_write> arguments: Arguments;
+
+var<workgroup> worst: atomic<u32>;
+
+// Largest error of cubic interpolation along an axis, halfway between cells: 3/128 of the fourth difference.
+fn interpolation_error(place: u32, stride: u32) -> f32 {
+    let fourth = map[place - 2u * stride].xyz + map[place + 2u * stride].xyz -
+        4.0 * (map[place - stride].xyz + map[place + stride].xyz) + 6.0 * map[place].xyz;
+    return 3.0 / 128.0 * length(fourth);
+}
+
+// Whether the map turns a cell inside out.
+fn is_folded(place: u32, stride: u32) -> bool {
+    let here = map[place].xyz;
+    let across = map[place + 1u].xyz - here;
+    let up = map[place + stride].xyz - here;
+    return dot(cross(across, up), here) <= 0.0;
+}
+
+@compute @workgroup_size(64)
+fn measure_distortion(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_index) local: u32) {
+    if (local == 0u) {
+        atomicStore(&worst, 0u);
+    }
+    workgroupBarrier();
+    if (id.x < decide.cells) {
+        let place = padded_index(id.z, i32(id.x), i32(id.y), decide.cells);
+        let stride = decide.cells + 2u * HALO;
+        let error = max(interpolation_error(place, 1u), interpolation_error(place, stride));
+        let distortion = error / (decide.error_limit * decide.cell_angle);
+        atomicMax(&worst, bitcast<u32>(select(distortion, 2.0, is_folded(place, stride))));
+    }
+    workgroupBarrier();
+    if (local == 0u) {
+        atomicMax(&control.distortion, atomicLoad(&worst));
+    }
+}
+
+@compute @workgroup_size(1)
+fn decide_remap() {
+    control.ticks_since_remap += decide.ticks;
+    let is_distorted = bitcast<f32>(atomicLoad(&control.distortion)) > 1.0;
+    let remaps = u32(is_distorted || control.ticks_since_remap + decide.ticks > decide.latest_ticks);
+    atomicStore(&control.distortion, 0u);
+    control.remaps += remaps;
+    control.ticks_since_remap *= 1u - remaps;
+    let groups = decide.tracer_groups;
+    arguments.tracer_groups = array(groups.x * remaps, groups.y, groups.z);
+    arguments.sum_groups = array(decide.sum_groups * remaps, 1u, 1u);
+    arguments.one_group = array(remaps, 1u, 1u);
+    arguments.map_groups = array(decide.map_groups.x * remaps, decide.map_groups.y, decide.map_groups.z);
+}

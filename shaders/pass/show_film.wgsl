@@ -1,0 +1,17 @@
+// Puts a film, with its liquid restored, into the texture that pictures read: the scattered reads of reflections cost half as much there.
+// One invocation a cell, halo included.
+
+import package::film::control::{Balance, balanced};
+
+@group(0) @binding(0) var<uniform> balance: Balance;
+@group(0) @binding(1) var<storage, read> sampled: array<f32>;
+@group(0) @binding(2) var film: texture_storage_2d_array<r32float, write>;
+
+@compute @workgroup_size(64)
+fn show_film(@builtin(global_invocation_id) id: vec3u) {
+    let side = textureDimensions(film).x;
+    if (id.x < side) {
+        let value = balanced(sampled[(id.z * side + id.y) * side + id.x], balance);
+        textureStore(film, id.xy, id.z, vec4f(value, 0.0, 0.0, 0.0));
+    }
+}

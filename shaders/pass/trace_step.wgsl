@@ -1,0 +1,86 @@
+// Traces one step back: from each cell to where its liquid was when the step began, and what it gathered on the way.
+// One invocation a cell, those of the halo included: a cell beyond an edge is a place like any other. Velocities are tangential by
+// construction and positions are renormalised, so there is no pole and no panel.
+
+import package::film::wind::{FLOW, FLOW_PRESCRIBED, WindMoment, wind_divergence, wind_velocity};
+import package::sphere::cubed::{HALO, cell_place, panel_direction};
+
+const MAX_WAVES: u32 = 32u;
+const MAX_VORTICES: u32 = 64u;
+
+// Stream function gain.x sin(k . x + phase), with k in xyz and the phase in w.
+struct Wave {
+    k_phase: vec4f,
+    gain: vec4f,
+}
+
+// Stream function gain.x exp(sharpness (centre . x - 1)), with the centre in xyz and the sharpness in w.
+struct Vortex {
+    centre_sharpness: vec4f,
+    gain: vec4f,
+}
+
+// One step. Mirrors `StepUniform` in src/gpu/trace_step.rs.
+struct Step {
+    // Columns take the test wind's frame to the world.
+    frame: mat3x3f,
+    // The wind at the start, middle and end of the backward step.
+    moments: array<WindMoment, 3>,
+    // Angular speed of the wind's solid turn about its frame's z axis.
+    turn_rad_s: f32,
+    dt_s: f32,
+    cells: u32,
+    waves_count: u32,
+    vortices_count: u32,
+    // Waves and vortices of the same three moments, each in its own third.
+    waves: array<Wave, 96>,
+    vortices: array<Vortex, 192>,
+}
+
+@group(0) @binding(0) var<uniform> step: Step;
+// tan(alpha) of each cell coordinate, halo included.
+@group(0) @binding(1) var<storage, read> tangents: array<f32>;
+@group(0) @binding(2) var<storage, read_write> step_map: array<vec4f>;
+
+// u = x cross grad(psi): free of divergence whatever psi is.
+fn prescribed_velocity(x: vec3f, moment: u32) -> vec3f {
+    var gradient = vec3f(0.0);
+    for (var k = 0u; k < min(step.waves_count, MAX_WAVES); k++) {
+        let wave = step.waves[moment * MAX_WAVES + k];
+        gradient += wave.gain.x * cos(dot(wave.k_phase.xyz, x) + wave.k_phase.w) * wave.k_phase.xyz;
+    }
+    for (var k = 0u; k < min(step.vortices_count, MAX_VORTICES); k++) {
+        let vortex = step.vortices[moment * MAX_VORTICES + k];
+        let centre = vortex.centre_sharpness.xyz;
+        let sharpness = vortex.centre_sharpness.w;
+        gradient += vortex.gain.x * sharpness * exp(sharpness * (dot(centre, x) - 1.0)) * centre;
+    }
+    return cross(x, gradient);
+}
+
+// Velocity in xyz, divergence in w.
+fn motion(x: vec3f, moment: u32) -> vec4f {
+    if (FLOW == FLOW_PRESCRIBED) {
+        return vec4f(prescribed_velocity(x, moment), 0.0);
+    }
+    let local = x * step.frame;
+    let wind = step.moments[moment];
+    return vec4f(step.frame * wind_velocity(local, wind, step.turn_rad_s), wind_divergence(local, wind));
+}
+
+@compute @workgroup_size(64)
+fn trace_step(@builtin(global_invocation_id) id: vec3u) {
+    if (id.x >= step.cells + 2u * HALO) {
+        return;
+    }
+    let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
+    // The classic Runge-Kutta of fourth order, backwards.
+    let dt = step.dt_s;
+    let k1 = motion(x, 0u);
+    let k2 = motion(normalize(x - 0.5 * dt * k1.xyz), 1u);
+    let k3 = motion(normalize(x - 0.5 * dt * k2.xyz), 1u);
+    let k4 = motion(normalize(x - dt * k3.xyz), 2u);
+    let change = dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    // Gathered is the logarithm of the area ratio: how much larger a patch was then than it is now.
+    step_map[cell_place(id, step.cells)] = vec4f(normalize(x - change.xyz), -change.w);
+}

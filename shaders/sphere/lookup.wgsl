@@ -1,0 +1,127 @@
+// Interpolation of fields on the cubed sphere at any direction, by Lagrange weights. Panels are stored with halos, so no lookup sees an edge.
+// Weights are computed here: filtering hardware has 8 bits for what needs 20.
+//
+// A pass that looks fields up says where they are by two functions of its own:
+//     fn map_value(map: u32, place: u32) -> vec4f     the value of one of its maps at a place in padded storage
+//     fn tracer_value(place: u32) -> f32              the same of its tracer
+
+import package::film::control::{all_finite, is_finite};
+import package::sphere::cubed::{HALO, cubic_weights, locate, padded_index};
+
+// Taps along each side of a tracer's stencil: 2 linear, 4 cubic, 6 quintic.
+override TAPS: u32;
+// 1: looked-up tracers stay within the range of the four cells around them.
+override LIMITER: u32;
+
+// A place between cells: the padded index of the cell below it in both directions, the fractions beyond that cell's centre, and the
+// distance of rows in storage.
+struct CellPoint {
+    place: u32,
+    stride: u32,
+    t: vec2f,
+}
+
+fn cell_point(direction: vec3f, cells: u32) -> CellPoint {
+    let at = locate(direction, cells);
+    // Rounding must not carry a point on the panel's edge past the halo.
+    let cell = clamp(at.cell, vec2f(-0.5), vec2f(f32(cells) - 0.5));
+    let base = floor(cell);
+    return CellPoint(padded_index(at.panel, i32(base.x), i32(base.y), cells), cells + 2u * HALO, cell - base);
+}
+
+fn map_row(map: u32, place: u32, w: vec4f) -> vec4f {
+    return w.x * map_value(map, place) + w.y * map_value(map, place + 1u) + w.z * map_value(map, place + 2u) +
+        w.w * map_value(map, place + 3u);
+}
+
+// The finite one of two neighbours, in place of an interpolation that met a value that is not; at the last `direction`, with nothing
+// gathered. It is loaded whether it is needed or not: software rasterisers walk both ways of every branch, so a careful search would cost
+// every lookup as much again.
+fn healed_map(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
+    let below = map_value(map, at.place);
+    let above = map_value(map, at.place + at.stride + 1u);
+    return select(select(vec4f(direction, 0.0), above, all_finite(above)), below, all_finite(below));
+}
+
+// A map of unit vectors at a direction, cubic: the unit vector there, and in w what was gathered on the way from it.
+fn map_at(map: u32, direction: vec3f, cells: u32) -> vec4f {
+    let at = cell_point(direction, cells);
+    let wi = cubic_weights(at.t.x);
+    let wj = cubic_weights(at.t.y);
+    let first = at.place - at.stride - 1u;
+    var found = wj.x * map_row(map, first, wi) + wj.y * map_row(map, first + at.stride, wi) +
+        wj.z * map_row(map, first + 2u * at.stride, wi) + wj.w * map_row(map, first + 3u * at.stride, wi);
+    found = select(healed_map(map, at, direction), found, all_finite(found));
+    // A map torn to opposite directions has no direction left.
+    let length = length(found.xyz);
+    return vec4f(select(direction, found.xyz / length, length > 1e-6), found.w);
+}
+
+// Weights of the Lagrange interpolation through TAPS neighbours for a fraction t in [0, 1] between the two middle ones.
+fn lagrange_weights(t: f32) -> array<f32, 6> {
+    if (TAPS == 2u) {
+        return array(1.0 - t, t, 0.0, 0.0, 0.0, 0.0);
+    }
+    if (TAPS == 4u) {
+        let w = cubic_weights(t);
+        return array(w.x, w.y, w.z, w.w, 0.0, 0.0);
+    }
+    let far = (t + 2.0) * (t - 3.0);
+    let middle = (t + 1.0) * (t - 2.0);
+    let near = t * (t - 1.0);
+    return array(
+        -near * middle * (t - 3.0) / 120.0,
+        near * far * (t - 2.0) / 24.0,
+        -(t - 1.0) * middle * far / 12.0,
+        t * middle * far / 12.0,
+        -near * far * (t + 1.0) / 24.0,
+        near * middle * (t + 2.0) / 120.0,
+    );
+}
+
+// A row of a tracer's stencil, less a reference.
+fn tracer_row(place: u32, w: array<f32, 6>, reference: f32) -> f32 {
+    var row = w[0] * (tracer_value(place) - reference) + w[1] * (tracer_value(place + 1u) - reference);
+    if (TAPS > 2u) {
+        row += w[2] * (tracer_value(place + 2u) - reference) + w[3] * (tracer_value(place + 3u) - reference);
+    }
+    if (TAPS > 4u) {
+        row += w[4] * (tracer_value(place + 4u) - reference) + w[5] * (tracer_value(place + 5u) - reference);
+    }
+    return row;
+}
+
+// What an interpolation found, and what to take where that is not finite.
+struct Looked {
+    value: f32,
+    otherwise: f32,
+}
+
+// A tracer at a direction. What is interpolated is the difference from the nearest cell below, so that constants stay what they are
+// to the last bit. Not finite if a value of the stencil is not; then a neighbour's value is the next best, and at last 0.
+fn tracer_at(direction: vec3f, cells: u32) -> Looked {
+    let at = cell_point(direction, cells);
+    let reference = tracer_value(at.place);
+    let wi = lagrange_weights(at.t.x);
+    let wj = lagrange_weights(at.t.y);
+    let first = at.place - (TAPS / 2u - 1u) * (at.stride + 1u);
+    var total = wj[0] * tracer_row(first, wi, reference) + wj[1] * tracer_row(first + at.stride, wi, reference);
+    if (TAPS > 2u) {
+        total += wj[2] * tracer_row(first + 2u * at.stride, wi, reference) +
+            wj[3] * tracer_row(first + 3u * at.stride, wi, reference);
+    }
+    if (TAPS > 4u) {
+        total += wj[4] * tracer_row(first + 4u * at.stride, wi, reference) +
+            wj[5] * tracer_row(first + 5u * at.stride, wi, reference);
+    }
+    let above = tracer_value(at.place + at.stride + 1u);
+    if (LIMITER == 1u) {
+        let across = tracer_value(at.place + 1u) - reference;
+        let up = tracer_value(at.place + at.stride) - reference;
+        let low = min(min(0.0, above - reference), min(across, up));
+        let high = max(max(0.0, above - reference), max(across, up));
+        total = select(total, clamp(total, low, high), is_finite(total));
+    }
+    let otherwise = select(select(0.0, above, is_finite(above)), reference, is_finite(reference));
+    return Looked(reference + total, otherwise);
+}

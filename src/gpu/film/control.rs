@@ -1,0 +1,86 @@
+//! What the device itself knows of a film: its control block, the arguments of a remap's dispatches, and the corrections that conserve.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::super::{Gpu, timing::Groups};
+
+/// See `shaders/film/control.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+pub struct ControlBlock {
+    /// Ticks since the last remap.
+    pub ticks_since_remap: u32,
+    /// Remaps so far.
+    pub remaps: u32,
+    /// The map's distortion over the limit, as the bits of a float.
+    pub distortion: u32,
+    /// Values that were not finite and have been replaced.
+    pub healed: u32,
+}
+
+/// See `shaders/film/control.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct BalanceBlock {
+    /// Added to a value.
+    pub offset: f32,
+    /// Times the value, added to it.
+    pub slope: f32,
+}
+
+/// The buffers of a film's control.
+pub struct Control {
+    /// The control block.
+    pub block: wgpu::Buffer,
+    /// Arguments of a remap's dispatches.
+    pub arguments: wgpu::Buffer,
+    /// Sums of workgroups on their way to one.
+    pub partial_sums: wgpu::Buffer,
+    /// Correction of what is shown.
+    pub shown_balance: wgpu::Buffer,
+    /// Correction of what a remap sampled.
+    pub tracer_balance: wgpu::Buffer,
+}
+
+impl Control {
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        use wgpu::BufferUsages as Usage;
+        let storage = Usage::STORAGE | Usage::COPY_DST | Usage::COPY_SRC;
+        let balance = |label| gpu.buffer(label, size_of::<BalanceBlock>() as u64, storage | Usage::UNIFORM);
+        Self {
+            block: gpu.buffer("control", size_of::<ControlBlock>() as u64, storage),
+            arguments: gpu.buffer("remap arguments", 48, storage | Usage::INDIRECT),
+            partial_sums: gpu.buffer("partial sums", 256 * 4, storage),
+            shown_balance: balance("shown balance"),
+            tracer_balance: balance("tracer balance"),
+        }
+    }
+
+    /// Forgets everything.
+    pub(super) fn reset(&self, gpu: &Gpu) {
+        gpu.upload(&self.block, &[ControlBlock::zeroed()]);
+        for balance in [&self.shown_balance, &self.tracer_balance] {
+            gpu.upload(balance, &[BalanceBlock::zeroed()]);
+        }
+    }
+
+    /// A pass over the tracer's texels, if a remap is due.
+    pub(super) fn tracer_groups(&self) -> Groups<'_> {
+        Groups::From(&self.arguments, 0)
+    }
+
+    /// The sum over the tracer's cells, if a remap is due.
+    pub(super) fn sum_groups(&self) -> Groups<'_> {
+        Groups::From(&self.arguments, 12)
+    }
+
+    /// A pass over the map's texels, if a remap is due.
+    pub(super) fn map_groups(&self) -> Groups<'_> {
+        Groups::From(&self.arguments, 36)
+    }
+
+    /// A single workgroup, if a remap is due.
+    pub(super) fn one_group(&self) -> Groups<'_> {
+        Groups::From(&self.arguments, 24)
+    }
+}

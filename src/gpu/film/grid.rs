@@ -1,0 +1,88 @@
+//! A cubed sphere on the device, and fields on it.
+
+use super::super::Gpu;
+use crate::physics::sphere::{CubedSphere, HALO};
+
+/// A grid and the tables of it that passes read.
+pub struct Grid {
+    /// The grid.
+    pub sphere: CubedSphere,
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    /// tan(α) of each cell coordinate of an edge, halo included.
+    pub tangents: wgpu::Buffer,
+    /// Solid angles of a panel's cells.
+    pub areas: wgpu::Buffer,
+}
+
+impl Grid {
+    pub(super) fn new(gpu: &Gpu, sphere: CubedSphere) -> Self {
+        let n = sphere.n();
+        let areas: Vec<f32> = (0..n * n).map(|cell| sphere.cell_area(cell % n, cell / n) as f32).collect();
+        Self {
+            sphere,
+            cells: n as u32,
+            tangents: gpu.storage("tangents", &tangents(n)),
+            areas: gpu.storage("areas", &areas),
+        }
+    }
+
+    /// A field of so many bytes a cell in padded storage.
+    pub(super) fn field(&self, gpu: &Gpu, label: &str, bytes: u64) -> wgpu::Buffer {
+        use wgpu::BufferUsages as Usage;
+        gpu.buffer(label, self.sphere.padded_len() as u64 * bytes, Usage::STORAGE | Usage::COPY_SRC | Usage::COPY_DST)
+    }
+
+    /// Cells along an edge of a padded panel.
+    #[must_use]
+    pub fn side(&self) -> u32 {
+        self.cells + 2 * HALO as u32
+    }
+
+    /// Workgroups of a pass with one invocation a cell, halo included, 64 along a row.
+    #[must_use]
+    pub fn padded_groups(&self) -> [u32; 3] {
+        [self.side().div_ceil(64), self.side(), 6]
+    }
+
+    /// Workgroups of a pass with one invocation a cell, 64 along a row.
+    #[must_use]
+    pub fn cell_groups(&self) -> [u32; 3] {
+        [self.cells.div_ceil(64), self.cells, 6]
+    }
+}
+
+/// tan(α) of each cell coordinate of an edge, halo included, rounded once from f64.
+fn tangents(cells: usize) -> Vec<f32> {
+    let step = std::f64::consts::FRAC_PI_2 / cells as f64;
+    let angle = |k: usize| (k as f64 - HALO as f64 + 0.5) * step - std::f64::consts::FRAC_PI_4;
+    (0..cells + 2 * HALO).map(|k| angle(k).tan() as f32).collect()
+}
+
+/// What pictures read of a film: a layer a panel, halo included.
+pub struct FilmTexture {
+    /// The texture.
+    pub texture: wgpu::Texture,
+    /// All its layers.
+    pub view: wgpu::TextureView,
+}
+
+impl FilmTexture {
+    pub(super) fn new(gpu: &Gpu, side: u32) -> Self {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("film"),
+            size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 6 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::R32Float,
+            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        Self { texture, view }
+    }
+}

@@ -1,0 +1,386 @@
+//! A film's field on the device: the flow map, the tracer of the last remap, and the thickness that is shown.
+//!
+//! The film is moved as a flow map: `map(x)` says where the liquid at x was at the last remap, and the thickness is the tracer of that remap
+//! looked up there. Each step composes the map with one backtrace; a remap looks the tracer up once for good and makes the map the identity.
+//! Remapping at every step is the classic semi-Lagrangian scheme; remapping rarely keeps filaments sharp, for the error then grows with the
+//! number of remaps and not of steps (Taylor & Nave, arXiv 2106.13170, 2302.01205). When the map has become too distorted is measured and
+//! decided on the device, so that no frame waits for it.
+//!
+//! Fields are stored panel by panel with halos. Passes compute halo cells like any others, for a place beyond a panel's edge is a place on the
+//! sphere; nothing is ever copied across edges.
+
+mod control;
+mod grid;
+
+pub use control::{BalanceBlock, Control, ControlBlock};
+pub use grid::{FilmTexture, Grid};
+
+use rayon::prelude::*;
+
+use super::{
+    Gpu, GpuError,
+    compose_map::{Composition, compose_map},
+    conserve::{Sum, Target, conserve, parts},
+    correct_error::correct_error,
+    decide_remap::decide_remap,
+    read_film::read_film,
+    readback::Readback,
+    reset_map::reset_map,
+    sample_tracer::{Gathered, Sampling, sample_tracer},
+    settle_tracer::settle_tracer,
+    show_film::show_film,
+    timing::{Groups, Recorder},
+    trace_step::{Step, trace_step},
+};
+use crate::physics::{
+    sphere::CubedSphere,
+    transport::Scheme,
+};
+
+/// Name of the passes that move a film.
+const STEP: &str = "step_field";
+/// Name of the passes that make a film ready to be drawn.
+const SHOW: &str = "show_field";
+
+/// How a film is moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rules {
+    /// The scheme.
+    pub scheme: Scheme,
+    /// Whether lookups keep within the range of the cells around them, and corrections within the film's.
+    pub limiter: bool,
+    /// What the map gathers on the way.
+    pub gathered: Gathered,
+    /// Whether the amount of liquid is kept.
+    pub conserved: bool,
+    /// The most ticks between two remaps.
+    pub latest_ticks: u32,
+    /// Whether steps may be traced on a coarser grid, as smooth flows may.
+    pub coarse_flow: bool,
+}
+
+impl Rules {
+    /// Whether values must stay within the range that they began with.
+    fn bounded(&self) -> bool {
+        self.limiter && self.gathered == Gathered::Nothing
+    }
+}
+
+/// A film's field.
+pub struct Field {
+    rules: Rules,
+    film: Grid,
+    /// The tracer's grid, where it is another one.
+    fine: Option<Grid>,
+    /// Where steps are traced, if not on the film's own grid.
+    coarse: Option<Grid>,
+    step_map: wgpu::Buffer,
+    /// The map, and where its next step goes.
+    map: [wgpu::Buffer; 2],
+    ticks_since_decision: u32,
+    /// The tracer of the last remap.
+    tracer: wgpu::Buffer,
+    /// What a remap samples before it is the tracer.
+    sampled: wgpu::Buffer,
+    /// Room for error compensation.
+    corrected: Option<wgpu::Buffer>,
+    /// What is shown, before its correction, and as pictures read it.
+    shown: wgpu::Buffer,
+    texture: FilmTexture,
+    /// Which of the maps it was sampled through.
+    shown_map: usize,
+    control: Control,
+    /// What must be kept, of what is shown and of the tracer.
+    targets: [Target; 2],
+}
+
+/// What pictures read of a film.
+#[derive(Clone, Copy)]
+pub struct Shown<'a> {
+    /// The thickness at the film's cells.
+    pub film: &'a wgpu::TextureView,
+    /// The correction of what is looked up through the map.
+    pub balance: &'a wgpu::Buffer,
+    /// The map that it was sampled through.
+    pub map: &'a wgpu::Buffer,
+    /// The tracer that was sampled.
+    pub tracer: &'a wgpu::Buffer,
+}
+
+/// An empty film for pictures that read none.
+pub struct NoFilm {
+    film: FilmTexture,
+    control: Control,
+}
+
+impl NoFilm {
+    /// One texel a panel.
+    #[must_use]
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { film: FilmTexture::new(gpu, 1), control: Control::new(gpu) }
+    }
+
+    /// What pictures may bind.
+    #[must_use]
+    pub fn shown(&self) -> Shown<'_> {
+        let Control { shown_balance, partial_sums, .. } = &self.control;
+        Shown { film: &self.film.view, balance: shown_balance, map: partial_sums, tracer: partial_sums }
+    }
+}
+
+/// Cells along a panel's edge of the grid that flows are traced on, at least: 1.4° each.
+const MIN_FLOW_CELLS: usize = 64;
+
+/// A grid four times coarser than the film, on which a step's backtrace is made: its cells are still a fraction of the smallest eddy,
+/// and cubic interpolation of one step's displacement errs by less than can be seen. Nothing where it would be no coarser.
+fn flow_sphere(film: CubedSphere) -> Option<CubedSphere> {
+    let cells = film.n().div_ceil(4).max(MIN_FLOW_CELLS);
+    CubedSphere::new(cells).ok().filter(|coarse| coarse.n() < film.n())
+}
+
+impl Field {
+    /// An empty field. Fails where the scheme's tracer would be too fine.
+    pub fn new(gpu: &Gpu, sphere: CubedSphere, rules: Rules) -> Result<Self, GpuError> {
+        let tracer = rules.scheme.tracer_grid(sphere).map_err(|error| GpuError::Refused(error.to_string()))?;
+        let film = Grid::new(gpu, sphere);
+        let fine = (tracer != sphere).then(|| Grid::new(gpu, tracer));
+        let coarse = flow_sphere(sphere).filter(|_| rules.coarse_flow).map(|sphere| Grid::new(gpu, sphere));
+        let scalars = |label| fine.as_ref().unwrap_or(&film).field(gpu, label, 4);
+        Ok(Self {
+            step_map: coarse.as_ref().unwrap_or(&film).field(gpu, "step map", 16),
+            map: ["map", "next map"].map(|label| film.field(gpu, label, 16)),
+            ticks_since_decision: 0,
+            tracer: scalars("tracer"),
+            sampled: scalars("sampled"),
+            corrected: (rules.scheme == Scheme::Bfecc).then(|| scalars("corrected")),
+            shown: film.field(gpu, "shown", 4),
+            texture: FilmTexture::new(gpu, film.side()),
+            shown_map: 0,
+            control: Control::new(gpu),
+            targets: [Target::default(); 2],
+            rules,
+            film,
+            fine,
+            coarse,
+        })
+    }
+
+    /// How it is moved.
+    #[must_use]
+    pub fn rules(&self) -> Rules {
+        self.rules
+    }
+
+    /// Its grid.
+    #[must_use]
+    pub fn sphere(&self) -> CubedSphere {
+        self.film.sphere
+    }
+
+    fn tracer_grid(&self) -> &Grid {
+        self.fine.as_ref().unwrap_or(&self.film)
+    }
+
+    /// Sets the tracer to a function of direction, and forgets all motion.
+    pub fn seed(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        value: impl Fn(glam::DVec3) -> f64 + Sync,
+    ) -> Result<(), GpuError> {
+        let gpu = recorder.gpu;
+        let film = Seeded::new(self.film.sphere, &value);
+        let tracer = self.fine.as_ref().map(|grid| Seeded::new(grid.sphere, &value));
+        let tracer = tracer.as_ref().unwrap_or(&film);
+        gpu.upload(&self.tracer, &tracer.values);
+        self.targets = [&film, tracer]
+            .map(|seeded| Target { mean: seeded.mean, bounds: self.rules.bounded().then_some(seeded.range) });
+        self.control.reset(gpu);
+        self.ticks_since_decision = 0;
+        if self.rules.scheme.keeps_map() {
+            reset_map(recorder, "seed_field", &self.film, &self.map[0], self.film.padded_groups().into())?;
+        }
+        Ok(())
+    }
+
+    /// The map, if the scheme keeps one.
+    fn kept_map(&self) -> Option<&wgpu::Buffer> {
+        self.rules.scheme.keeps_map().then_some(&self.map[0])
+    }
+
+    /// Moves the liquid by one step that lasts some ticks.
+    pub fn advance(&mut self, recorder: &mut Recorder<'_>, step: &Step, ticks: u32) -> Result<(), GpuError> {
+        recorder.counts.cells_stepped += self.film.sphere.cells() as u64;
+        if !self.rules.scheme.keeps_map() {
+            return self.advance_and_remap(recorder, step);
+        }
+        self.compose(recorder, STEP, step, self.kept_map(), 1)?;
+        self.map.swap(0, 1);
+        self.ticks_since_decision += ticks;
+        if self.ticks_since_decision >= self.rules.latest_ticks.div_ceil(8) {
+            self.remap_if_due(recorder)?;
+        }
+        Ok(())
+    }
+
+    /// Traces a step and composes it with a map, into one of the two.
+    fn compose(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &'static str,
+        step: &Step,
+        before: Option<&wgpu::Buffer>,
+        into: usize,
+    ) -> Result<(), GpuError> {
+        let flow = self.coarse.as_ref().unwrap_or(&self.film);
+        trace_step(recorder, name, step, flow, &self.step_map)?;
+        let composition = Composition {
+            grid: &self.film,
+            step_cells: flow.cells,
+            step_map: &self.step_map,
+            before,
+            control: &self.control.block,
+            after: &self.map[into],
+        };
+        compose_map(recorder, name, &composition)
+    }
+
+    fn remap_if_due(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
+        let ticks = (std::mem::take(&mut self.ticks_since_decision), self.rules.latest_ticks);
+        let grids = (&self.film, self.tracer_grid());
+        decide_remap(recorder, STEP, grids, &self.map[0], &self.control, ticks)?;
+        let due = &self.control;
+        let tracers = [&self.tracer, &self.sampled];
+        self.sample(recorder, STEP, self.tracer_grid(), self.kept_map(), tracers, due.tracer_groups())?;
+        self.settle(recorder, [due.sum_groups(), due.one_group(), due.tracer_groups()])?;
+        reset_map(recorder, STEP, &self.film, &self.map[0], due.map_groups())
+    }
+
+    /// Makes what was sampled the tracer; the workgroups of the sum, of its end, and of a pass over the tracer are given.
+    fn settle(&self, recorder: &mut Recorder<'_>, groups: [Groups<'_>; 3]) -> Result<(), GpuError> {
+        let [sum_groups, one_group, tracer_groups] = groups;
+        let sum = Sum {
+            grid: self.tracer_grid(),
+            field: &self.sampled,
+            partial_sums: &self.control.partial_sums,
+            balance: &self.control.tracer_balance,
+        };
+        if self.rules.conserved {
+            conserve(recorder, STEP, self.targets[1], &sum, [sum_groups, one_group])?;
+        }
+        settle_tracer(recorder, sum.balance, &self.sampled, &self.tracer, tracer_groups)
+    }
+
+    /// One step of a scheme that keeps no map.
+    fn advance_and_remap(&mut self, recorder: &mut Recorder<'_>, step: &Step) -> Result<(), GpuError> {
+        let grid = &self.film;
+        let all: Groups<'_> = grid.padded_groups().into();
+        self.compose(recorder, STEP, step, None, 0)?;
+        let back = Some(&self.map[0]);
+        self.sample(recorder, STEP, grid, back, [&self.tracer, &self.sampled], all)?;
+        if let Some(corrected) = &self.corrected {
+            self.compose(recorder, STEP, &step.reversed(), None, 1)?;
+            let forth = Some(&self.map[1]);
+            self.sample(recorder, STEP, grid, forth, [&self.sampled, &self.shown], all)?;
+            correct_error(recorder, &self.tracer, &self.shown, corrected, grid.padded_groups())?;
+            self.sample(recorder, STEP, grid, back, [corrected, &self.sampled], all)?;
+        }
+        self.settle(recorder, [[parts(grid), 1, 1].into(), [1; 3].into(), all])
+    }
+
+    fn sample(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &'static str,
+        grid: &Grid,
+        map: Option<&wgpu::Buffer>,
+        [from, to]: [&wgpu::Buffer; 2],
+        groups: Groups<'_>,
+    ) -> Result<(), GpuError> {
+        let Rules { scheme, limiter, gathered, .. } = self.rules;
+        let sampling = Sampling {
+            scheme,
+            limiter,
+            gathered,
+            grid,
+            map,
+            map_cells: self.film.cells,
+            tracer: (from, self.tracer_grid().cells),
+            control: &self.control.block,
+            to: to,
+        };
+        sample_tracer(recorder, name, &sampling, groups)
+    }
+
+    /// Makes the thickness ready to be drawn, a part of a step ahead of the state if one is given. The state stays.
+    pub fn show(&mut self, recorder: &mut Recorder<'_>, ahead: Option<&Step>) -> Result<(), GpuError> {
+        self.shown_map = usize::from(ahead.is_some());
+        if let Some(step) = ahead {
+            self.compose(recorder, SHOW, step, self.kept_map(), 1)?;
+        }
+        let map = ahead.map_or(self.kept_map(), |_| Some(&self.map[1]));
+        self.sample(recorder, SHOW, &self.film, map, [&self.tracer, &self.shown], self.film.padded_groups().into())?;
+        let sum = Sum {
+            grid: &self.film,
+            field: &self.shown,
+            partial_sums: &self.control.partial_sums,
+            balance: &self.control.shown_balance,
+        };
+        if self.rules.conserved {
+            conserve(recorder, SHOW, self.targets[0], &sum, [[parts(&self.film), 1, 1].into(), [1; 3].into()])?;
+        }
+        show_film(recorder, SHOW, &self.film, sum.balance, &self.shown, &self.texture.view)
+    }
+
+    /// What was last shown.
+    #[must_use]
+    pub fn shown(&self) -> Shown<'_> {
+        Shown {
+            film: &self.texture.view,
+            balance: &self.control.shown_balance,
+            map: &self.map[self.shown_map],
+            tracer: &self.tracer,
+        }
+    }
+
+    /// Brings what was last shown into a buffer, in the grid's order of cells.
+    pub fn read(&self, recorder: &mut Recorder<'_>) -> Result<wgpu::Buffer, GpuError> {
+        read_film(recorder, &self.film, &self.texture.view)
+    }
+
+    /// Starts to bring back what the device knows of the film: a [`ControlBlock`].
+    #[must_use]
+    pub fn read_control(&self, gpu: &Gpu) -> Readback {
+        Readback::of_buffer(gpu, &self.control.block, self.control.block.size())
+    }
+
+    /// Copies as many bytes as a step and a lookup of every cell move, and leaves what is kept alone: what steps are measured against.
+    pub fn copy_state(&self, recorder: &mut Recorder<'_>) {
+        for [from, to] in [&self.map.each_ref(), &[&self.tracer, &self.sampled]] {
+            recorder.encoder().copy_buffer_to_buffer(from, 0, to, 0, from.size());
+        }
+    }
+}
+
+/// A function's values by padded index, and what must be kept of them.
+struct Seeded {
+    values: Vec<f32>,
+    mean: f64,
+    range: [f32; 2],
+}
+
+impl Seeded {
+    fn new(sphere: CubedSphere, value: &(impl Fn(glam::DVec3) -> f64 + Sync)) -> Self {
+        let values: Vec<f32> = (0..sphere.padded_len())
+            .into_par_iter()
+            .map(|index| value(sphere.padded_direction(index)) as f32)
+            .collect();
+        let place = |cell: usize| {
+            let (panel, i, j) = sphere.cell(cell);
+            sphere.padded_index(panel, i as isize, j as isize)
+        };
+        let mass: f64 =
+            sphere.areas().iter().enumerate().map(|(cell, area)| area * f64::from(values[place(cell)])).sum();
+        let range = values.iter().fold([f32::MAX, f32::MIN], |[low, high], v| [low.min(*v), high.max(*v)]);
+        Self { mean: mass / (4.0 * std::f64::consts::PI), range, values }
+    }
+}

@@ -1,0 +1,96 @@
+//! Looks a film's tracer up through its flow map.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{
+    GpuError,
+    film::Grid,
+    pipelines::ComputeKey,
+    timing::{Groups, Recorder},
+};
+use crate::physics::transport::Scheme;
+
+/// What a map's fourth number means: see `GATHERED` in `shaders/pass/sample_tracer.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u32)]
+pub enum Gathered {
+    /// Nothing: the tracer is a ratio, or the flow does not diverge.
+    #[default]
+    Nothing = 0,
+    /// The logarithm of the area ratio: the tracer is a density in a wind that diverges.
+    LogArea = 1,
+    /// An amount to be added.
+    Amount = 2,
+}
+
+/// See `shaders/pass/sample_tracer.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct SampleUniform {
+    /// Cells along a panel's edge of what is written.
+    pub cells: u32,
+    /// The same of the map.
+    pub map_cells: u32,
+    /// The same of the tracer.
+    pub tracer_cells: u32,
+    pad: u32,
+}
+
+/// What a sampling reads and writes.
+pub struct Sampling<'a> {
+    /// The scheme, whose stencil it takes.
+    pub scheme: Scheme,
+    /// Whether it keeps within the range of the cells around.
+    pub limiter: bool,
+    /// What the map has gathered.
+    pub gathered: Gathered,
+    /// The grid that is written.
+    pub grid: &'a Grid,
+    /// The map, if there is one.
+    pub map: Option<&'a wgpu::Buffer>,
+    /// Its cells along a panel's edge.
+    pub map_cells: u32,
+    /// The tracer, and its cells along a panel's edge.
+    pub tracer: (&'a wgpu::Buffer, u32),
+    /// The film's control block.
+    pub control: &'a wgpu::Buffer,
+    /// Where it goes.
+    pub to: &'a wgpu::Buffer,
+}
+
+/// Records one sampling.
+pub fn sample_tracer(
+    recorder: &mut Recorder<'_>,
+    name: &'static str,
+    sampling: &Sampling<'_>,
+    groups: Groups<'_>,
+) -> Result<(), GpuError> {
+    let Sampling { scheme, limiter, gathered, grid, map, map_cells, .. } = *sampling;
+    let (tracer, tracer_cells) = sampling.tracer;
+    let uniform = SampleUniform {
+        cells: grid.cells,
+        map_cells,
+        tracer_cells,
+        pad: 0,
+    };
+    let uniform = recorder.gpu.uniform("sample", &uniform);
+    let constants = vec![
+        ("TAPS", scheme.taps()),
+        ("LIMITER", u32::from(limiter)),
+        ("GATHERED", gathered as u32),
+        ("ON_MAP_GRID", u32::from(grid.cells == map_cells)),
+        ("ON_TRACER_GRID", u32::from(grid.cells == tracer_cells)),
+        ("HAS_MAP", u32::from(map.is_some())),
+    ];
+    let resources = [
+        uniform.as_entire_binding(),
+        grid.tangents.as_entire_binding(),
+        sampling.control.as_entire_binding(),
+        // Where there is no map nothing is read from it, and any buffer will do.
+        map.unwrap_or(tracer).as_entire_binding(),
+        tracer.as_entire_binding(),
+        sampling.to.as_entire_binding(),
+    ];
+    let key = ComputeKey { pass: "sample_tracer", entry: "sample_tracer", constants };
+    recorder.compute(name, &key, &resources, groups)
+}

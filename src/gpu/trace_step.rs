@@ -1,0 +1,165 @@
+//! Traces one step of a film's motion back, from each cell to where its liquid was.
+
+use bytemuck::{Pod, Zeroable};
+use glam::DMat3;
+
+use super::{GpuError, film::Grid, pipelines::ComputeKey, timing::Recorder};
+use crate::physics::{
+    film::{FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow},
+    transport::{PERIOD, Wind, WindKind},
+};
+
+/// Velocity field that a pipeline is specialised for: see `FLOW` in `shaders/film/wind.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum FlowKind {
+    /// Waves and vortices.
+    Prescribed = 0,
+    /// A solid turn.
+    SolidBody = 1,
+    /// The non-divergent deformation wind.
+    NonDivergent = 2,
+    /// The divergent deformation wind.
+    Divergent = 3,
+}
+
+/// One moment of a test wind.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct WindMoment {
+    /// Sine of the zonal shift 2πt / T.
+    pub shift_sin: f32,
+    /// Its cosine.
+    pub shift_cos: f32,
+    /// The reversal factor cos(πt / T).
+    pub reversal: f32,
+    pad: f32,
+}
+
+impl WindMoment {
+    fn at(time_s: f64) -> Self {
+        let shift = std::f64::consts::TAU * time_s / PERIOD;
+        let reversal = (0.5 * shift).cos();
+        Self { shift_sin: shift.sin() as f32, shift_cos: shift.cos() as f32, reversal: reversal as f32, pad: 0.0 }
+    }
+}
+
+/// One step: see `shaders/pass/trace_step.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct StepUniform {
+    /// Columns take the test wind's frame to the world; the fourth number of each is padding.
+    pub frame: [[f32; 4]; 3],
+    /// The wind at the start, middle and end of the backward step.
+    pub moments: [WindMoment; 3],
+    /// Angular speed of the wind's solid turn.
+    pub turn_rad_s: f32,
+    /// Length of the step in seconds.
+    pub dt_s: f32,
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    /// Waves in use.
+    pub waves_count: u32,
+    /// Vortices in use.
+    pub vortices_count: u32,
+    pad: [u32; 3],
+    /// Waves at the same three moments; those in use come first.
+    pub waves: [[FrozenWave; MAX_WAVES]; 3],
+    /// Vortices at the same three moments; those in use come first.
+    pub vortices: [[FrozenVortex; MAX_VORTICES]; 3],
+}
+
+/// One step of a film's motion, from a time to a later one. From a time to an earlier one it is the way back.
+#[derive(Clone, Debug)]
+pub struct Step {
+    kind: FlowKind,
+    uniform: Box<StepUniform>,
+}
+
+impl Step {
+    /// A step of a prescribed flow.
+    #[must_use]
+    pub fn prescribed(flow: &PrescribedFlow, from_s: f64, to_s: f64) -> Self {
+        let mut uniform = Self::empty(from_s, to_s);
+        uniform.waves_count = flow.waves().len().min(MAX_WAVES) as u32;
+        uniform.vortices_count = flow.vortices().len().min(MAX_VORTICES) as u32;
+        for (moment, time_s) in moments(from_s, to_s).into_iter().enumerate() {
+            let frozen = flow.frozen_at(time_s);
+            for (slot, wave) in uniform.waves[moment].iter_mut().zip(&frozen.waves) {
+                *slot = *wave;
+            }
+            for (slot, vortex) in uniform.vortices[moment].iter_mut().zip(&frozen.vortices) {
+                *slot = *vortex;
+            }
+        }
+        Self { kind: FlowKind::Prescribed, uniform }
+    }
+
+    /// A step of a test wind.
+    #[must_use]
+    pub fn wind(wind: &Wind, from_s: f64, to_s: f64) -> Self {
+        let mut uniform = Self::empty(from_s, to_s);
+        uniform.frame = columns(wind.frame());
+        uniform.moments = moments(from_s, to_s).map(WindMoment::at);
+        uniform.turn_rad_s = (std::f64::consts::TAU / PERIOD) as f32;
+        let kind = match wind.kind() {
+            WindKind::SolidBody => FlowKind::SolidBody,
+            WindKind::NonDivergent => FlowKind::NonDivergent,
+            WindKind::Divergent => FlowKind::Divergent,
+        };
+        Self { kind, uniform }
+    }
+
+    fn empty(from_s: f64, to_s: f64) -> Box<StepUniform> {
+        let mut uniform = Box::new(StepUniform::zeroed());
+        uniform.dt_s = (to_s - from_s) as f32;
+        uniform
+    }
+
+    /// The way back: where the liquid at a place when the step begins will be when it ends.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let mut reversed = self.clone();
+        let uniform = &mut reversed.uniform;
+        uniform.dt_s = -uniform.dt_s;
+        uniform.moments.reverse();
+        uniform.waves.reverse();
+        uniform.vortices.reverse();
+        reversed
+    }
+
+    /// Whether the flow is smooth enough to be traced on a coarser grid. The winds of the published tests are not: their error is what
+    /// is measured.
+    #[must_use]
+    pub fn may_be_coarse(&self) -> bool {
+        self.kind == FlowKind::Prescribed
+    }
+}
+
+/// Start, middle and end of a backward step.
+fn moments(from_s: f64, to_s: f64) -> [f64; 3] {
+    [to_s, 0.5 * (from_s + to_s), from_s]
+}
+
+fn columns(matrix: DMat3) -> [[f32; 4]; 3] {
+    matrix.to_cols_array_2d().map(|column| [column[0] as f32, column[1] as f32, column[2] as f32, 0.0])
+}
+
+/// Records the trace of one step on a grid.
+pub fn trace_step(
+    recorder: &mut Recorder<'_>,
+    name: &'static str,
+    step: &Step,
+    grid: &Grid,
+    step_map: &wgpu::Buffer,
+) -> Result<(), GpuError> {
+    let uniform = recorder.gpu.uniform("step", &StepUniform { cells: grid.cells, ..*step.uniform });
+    let resources = [
+        uniform.as_entire_binding(),
+        grid.tangents.as_entire_binding(),
+        step_map.as_entire_binding(),
+    ];
+    let constants = vec![("FLOW", step.kind as u32)];
+    let key = ComputeKey { pass: "trace_step", entry: "trace_step", constants };
+    recorder.compute(name, &key, &resources, grid.padded_groups().into())
+}
