@@ -2,7 +2,7 @@
 // wall with the thickness at its own hit; what is left after the last wall goes to the last direction, so no energy is lost.
 
 import package::camera::view::{View, pixel_angle, view_plane};
-import package::film::control::{Balance, balanced, is_finite};
+import package::film::control::{Balance, balanced};
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
 import package::optics::film_colour::{Polarised, film_colour};
 import package::optics::table::{FilmPoint, TableAxes};
@@ -83,8 +83,7 @@ fn tracer_value(place: u32) -> f32 {
 // The tracer of the last remap, through the flow map: as sharp as what is known of the film.
 fn film_through_map(direction: vec3f) -> f32 {
     let origin = map_at(0u, direction, bubble.cells).xyz;
-    let looked = tracer_at(origin, bubble.tracer_cells);
-    return balanced(select(looked.otherwise, looked.value, is_finite(looked.value)), film_balance);
+    return balanced(tracer_at(origin, bubble.tracer_cells), film_balance);
 }
 
 // Thickness at a point of the unit sphere.

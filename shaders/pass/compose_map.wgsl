@@ -1,9 +1,9 @@
 // Composes the film's flow map with a step: map(x) = where the liquid now at x was when the tracer was last remapped, and what it has
 // gathered since. One invocation a cell, halo included. The step may have been traced on a coarser grid: flows are smooth.
 
-import package::film::control::{Control, all_finite};
+import package::film::control::Control;
 import package::sphere::cubed::{HALO, cell_place, panel_direction};
-import package::sphere::lookup::map_at;
+import package::sphere::lookup::{healed, map_at};
 
 // 1: the step was traced on the map's own grid.
 override SAME_GRID: u32;
@@ -56,9 +56,8 @@ fn compose_map(@builtin(global_invocation_id) id: vec3u) {
         let before = map_at(MAP_BEFORE, origin.xyz, compose.cells);
         origin = vec4f(before.xyz, origin.w + before.w);
     }
-    if (!all_finite(origin)) {
-        atomicAdd(&control.healed, 1u);
+    if (healed > 0u) {
+        atomicAdd(&control.healed, healed);
     }
-    origin = select(vec4f(x, 0.0), origin, all_finite(origin));
     map_after[cell_place(id, compose.cells)] = origin;
 }

@@ -1,9 +1,9 @@
 // Looks the tracer up through the flow map: what is at x now is what was at map(x) at the last remap, and what was gathered since.
 // Shown, it is what the picture colours; settled, it is a remap. One invocation a cell, halo included.
 
-import package::film::control::{Control, is_finite};
+import package::film::control::Control;
 import package::sphere::cubed::{HALO, cell_place, panel_direction};
-import package::sphere::lookup::{map_at, tracer_at};
+import package::sphere::lookup::{healed, map_at, tracer_at};
 
 // What the map's fourth number means: see `Gathered` in src/gpu/sample_tracer.rs.
 override GATHERED: u32;
@@ -70,17 +70,13 @@ fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
         }
     }
     var value: f32;
-    var otherwise = 0.0;
     if (HAS_MAP == 0u && ON_TRACER_GRID == 1u) {
         value = tracer[place];
     } else {
-        let looked = tracer_at(origin.xyz, sample.tracer_cells);
-        value = with_gathered(looked.value, origin.w);
-        otherwise = looked.otherwise;
+        value = with_gathered(tracer_at(origin.xyz, sample.tracer_cells), origin.w);
     }
-    if (!is_finite(value)) {
-        atomicAdd(&control.healed, 1u);
+    if (healed > 0u) {
+        atomicAdd(&control.healed, healed);
     }
-    value = select(otherwise, value, is_finite(value));
     sampled[place] = value;
 }

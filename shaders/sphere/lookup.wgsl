@@ -34,6 +34,9 @@ fn map_row(map: u32, place: u32, w: vec4f) -> vec4f {
         w.w * map_value(map, place + 3u);
 }
 
+// Values that lookups of this invocation met and that are not finite.
+var<private> healed: u32;
+
 // The finite one of two neighbours, in place of an interpolation that met a value that is not; at the last `direction`, with nothing
 // gathered. It is loaded whether it is needed or not: software rasterisers walk both ways of every branch, so a careful search would cost
 // every lookup as much again.
@@ -51,6 +54,7 @@ fn map_at(map: u32, direction: vec3f, cells: u32) -> vec4f {
     let first = at.place - at.stride - 1u;
     var found = wj.x * map_row(map, first, wi) + wj.y * map_row(map, first + at.stride, wi) +
         wj.z * map_row(map, first + 2u * at.stride, wi) + wj.w * map_row(map, first + 3u * at.stride, wi);
+    healed += select(1u, 0u, all_finite(found));
     found = select(healed_map(map, at, direction), found, all_finite(found));
     // A map torn to opposite directions has no direction left.
     let length = length(found.xyz);
@@ -91,15 +95,9 @@ fn tracer_row(place: u32, w: array<f32, 6>, reference: f32) -> f32 {
     return row;
 }
 
-// What an interpolation found, and what to take where that is not finite.
-struct Looked {
-    value: f32,
-    otherwise: f32,
-}
-
 // A tracer at a direction. What is interpolated is the difference from the nearest cell below, so that constants stay what they are
-// to the last bit. Not finite if a value of the stencil is not; then a neighbour's value is the next best, and at last 0.
-fn tracer_at(direction: vec3f, cells: u32) -> Looked {
+// to the last bit. Where a value of the stencil is not finite a neighbour's is the next best, and at last 0.
+fn tracer_at(direction: vec3f, cells: u32) -> f32 {
     let at = cell_point(direction, cells);
     let reference = tracer_value(at.place);
     let wi = lagrange_weights(at.t.x);
@@ -122,6 +120,7 @@ fn tracer_at(direction: vec3f, cells: u32) -> Looked {
         let high = max(max(0.0, above - reference), max(across, up));
         total = select(total, clamp(total, low, high), is_finite(total));
     }
-    let otherwise = select(select(0.0, above, is_finite(above)), reference, is_finite(reference));
-    return Looked(reference + total, otherwise);
+    healed += select(1u, 0u, is_finite(total));
+    let neighbour = select(select(0.0, above, is_finite(above)), reference, is_finite(reference));
+    return select(neighbour, reference + total, is_finite(total));
 }

@@ -10,8 +10,25 @@ use super::{
     timing::{Groups, Recorder},
 };
 
-/// Error of interpolating the map, in cells, at which it is remapped: what the lookups of a remap cost is then reached too.
-const ERROR_LIMIT_CELLS: f32 = 0.05;
+/// When a map is remapped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RemapRule {
+    /// Error of interpolating the map, in cells, beyond which it is.
+    pub error_limit_cells: f32,
+    /// The most ticks between two remaps.
+    pub latest_ticks: u32,
+}
+
+impl RemapRule {
+    /// Error at which going on costs as much as the lookups of a remap.
+    pub const ERROR_LIMIT_CELLS: f32 = 0.05;
+
+    /// Ticks from one decision to the next.
+    #[must_use]
+    pub fn decision_ticks(self) -> u32 {
+        (self.latest_ticks / 8).max(1)
+    }
+}
 
 /// See `shaders/pass/decide_remap.wgsl`.
 #[repr(C)]
@@ -44,14 +61,14 @@ pub fn decide_remap(
     (film, tracer): (&Grid, &Grid),
     map: &wgpu::Buffer,
     control: &Control,
-    (ticks, latest_ticks): (u32, u32),
+    (ticks, rule): (u32, RemapRule),
 ) -> Result<(), GpuError> {
     let uniform = DecideUniform {
         cells: film.cells,
         cell_angle: film.sphere.cell_angle() as f32,
-        error_limit: ERROR_LIMIT_CELLS,
+        error_limit: rule.error_limit_cells,
         ticks,
-        latest_ticks,
+        latest_ticks: rule.latest_ticks,
         pad: [0; 3],
         tracer_groups: tracer.padded_groups(),
         sum_groups: parts(tracer),

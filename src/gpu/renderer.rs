@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::{
     Gpu, GpuError,
     bake_table::Table,
+    decide_remap::RemapRule,
     draw::{DrawInputs, DrawPass, pixels_shaded, radiance_format, strips},
     environment::Environment,
     film::{Field, Rules},
@@ -228,7 +229,8 @@ impl Renderer {
         let Some(Some(field)) = self.products.fields.get_mut(film) else { return Ok(()) };
         let (state, moment) = (key.state_tick(), key.moment);
         let ticks = (moment.tick - state) as f64 + moment.fraction;
-        let ahead = (ticks > 0.0).then(|| LawInForce::default().step(key, state, ticks));
+        let moves = ticks > 0.0 && key.law(state) != FlowLaw::Rest;
+        let ahead = moves.then(|| LawInForce::default().step(key, state, ticks));
         let mut recorder = Recorder::new(&self.gpu);
         field.show(&mut recorder, ahead.as_ref())?;
         Self::submit(&self.times, &mut self.counts, recorder);
@@ -274,7 +276,7 @@ fn rules(key: &FieldKey) -> Rules {
         limiter: true,
         gathered: Gathered::Nothing,
         conserved: true,
-        latest_ticks: key.remap_ticks,
+        remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: key.remap_ticks },
         coarse_flow: true,
     }
 }

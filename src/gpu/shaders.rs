@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn overridable_constants_are_found_by_whole_name() {
-        let composed = Library::Embedded.compose("advance_map").unwrap();
+        let composed = Library::Embedded.compose("trace_step").unwrap();
         assert!(composed.declares("HALO") && composed.declares("FLOW"));
         assert!(!composed.declares("HAL") && !composed.declares("SAMPLES"));
     }

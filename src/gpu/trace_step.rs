@@ -128,11 +128,10 @@ impl Step {
         reversed
     }
 
-    /// Whether the flow is smooth enough to be traced on a coarser grid. The winds of the published tests are not: their error is what
-    /// is measured.
+    /// Whether its times are numbers that a device can work with.
     #[must_use]
-    pub fn may_be_coarse(&self) -> bool {
-        self.kind == FlowKind::Prescribed
+    pub fn is_finite(&self) -> bool {
+        self.uniform.dt_s.is_finite() && self.uniform.moments.iter().all(|moment| moment.reversal.is_finite())
     }
 }
 

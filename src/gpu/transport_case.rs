@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::{
     Gpu, GpuError,
+    decide_remap::RemapRule,
     film::{ControlBlock, Field, Rules},
     readback::Readback,
     sample_tracer::Gathered,
@@ -58,7 +59,10 @@ impl Case {
             limiter: self.limiter,
             gathered: if stretches { Gathered::LogArea } else { Gathered::Nothing },
             conserved: self.quantity == Quantity::Density,
-            latest_ticks: (self.steps_a_period / REMAPS_A_PERIOD).max(1),
+            remap: RemapRule {
+                error_limit_cells: RemapRule::ERROR_LIMIT_CELLS,
+                latest_ticks: (self.steps_a_period / REMAPS_A_PERIOD).max(1),
+            },
             coarse_flow: false,
         }
     }

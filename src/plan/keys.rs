@@ -252,9 +252,10 @@ impl FieldKey {
     fn step_at(&self, tick: u64) -> Range<u64> {
         let after = self.flows.partition_point(|segment| segment.from_tick <= tick);
         let end = self.flows.get(after).map_or(u64::MAX, |next| next.from_tick);
-        let Some(segment) = self.flows[..after].last().filter(|segment| segment.law != FlowLaw::Rest) else {
-            return tick..end;
-        };
+        let Some(segment) = self.flows[..after].last() else { return 0..end };
+        if segment.law == FlowLaw::Rest {
+            return segment.from_tick..end;
+        }
         let length = segment.law.ticks_a_step(self.tick_s, self.cell_angle());
         let start = tick - (tick - segment.from_tick) % length;
         start..start.saturating_add(length).min(end)

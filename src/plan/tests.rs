@@ -53,7 +53,7 @@ fn event(tick: u64, flow: Flow) -> Event {
 
 #[test]
 fn the_first_picture_makes_everything_once() {
-    let first = names(&plan(&wanted(&default_scene(), 3, Pace::Whole), &Have::default()));
+    let first = names(&plan(&wanted(&default_scene(), 30, Pace::Whole), &Have::default()));
     let mut order = first.clone();
     order.dedup();
     let expected = ["bake_table", "upload_environment", "seed_field", "step_field", "show_field", "draw", "tonemap"];
@@ -142,7 +142,7 @@ fn a_window_gets_a_coarse_table_first_and_the_full_one_soon() {
 
 #[test]
 fn a_window_catches_up_with_a_film_in_portions() {
-    let want = wanted(&default_scene(), 40, Pace::Frame);
+    let want = wanted(&default_scene(), 160, Pace::Frame);
     let (mut have, mut frames) = (Have::default(), 0);
     loop {
         let next = plan(&want, &have);
@@ -153,7 +153,7 @@ fn a_window_catches_up_with_a_film_in_portions() {
         }
         assert!(frames < 1000, "it never catches up");
     }
-    assert!(frames > 3 && have.fields[0].as_ref().unwrap().state.moment == Moment::tick(40));
+    assert!(frames > 3 && have.fields[0].as_ref().unwrap().state.moment == Moment::tick(156));
 }
 
 #[test]
@@ -162,21 +162,62 @@ fn another_past_seeds_anew_and_another_future_does_not() {
     sloshing_at_3.events.push(event(3, Flow::Sloshing));
     let mut sloshing_at_30 = default_scene();
     sloshing_at_30.events.push(event(30, Flow::Sloshing));
-    assert!(between((&default_scene(), 10), (&sloshing_at_3, 10)).contains(&"seed_field"));
-    assert_eq!(between((&default_scene(), 10), (&sloshing_at_30, 10)), [] as [&str; 0]);
-    assert_eq!(between((&default_scene(), 10), (&sloshing_at_30, 40)), ["step_field", "show_field", "draw", "tonemap"]);
+    assert!(between((&default_scene(), 20), (&sloshing_at_3, 20)).contains(&"seed_field"));
+    assert_eq!(between((&default_scene(), 20), (&sloshing_at_30, 20)), [] as [&str; 0]);
+    assert_eq!(between((&default_scene(), 20), (&sloshing_at_30, 40)), ["step_field", "show_field", "draw", "tonemap"]);
+}
+
+/// The ticks of the steps that lead to a film's state.
+fn steps(scene: &Scene, tick: u64) -> Vec<Range<u64>> {
+    match &wanted(scene, tick, Pace::Whole).picture.draw.bubbles[0].film {
+        FilmKey::Field(film) => film.steps_from(0).collect(),
+        FilmKey::Uniform(_) => panic!("the film has a field"),
+    }
+}
+
+#[test]
+fn a_step_lasts_as_long_as_it_stays_accurate_and_ends_where_a_law_does() {
+    let mut scene = default_scene();
+    assert_eq!(steps(&scene, 30), [0..12, 12..24], "0.2 s at half strength, and the rest is shown ahead of the state");
+    scene.events.push(event(15, Flow::Sloshing));
+    assert_eq!(steps(&scene, 30), [0..12, 12..15, 15..27]);
+    scene.motion.strength = 2.0;
+    assert_eq!(steps(&scene, 7), [0..3, 3..6]);
+}
+
+#[test]
+fn a_film_that_hardly_moves_takes_few_steps() {
+    let mut scene = default_scene();
+    scene.motion.strength = 1e-7;
+    // 1e-3 of a cell of 6 milliradians at less than 1e-5 rad/s: more than half a second.
+    let steps = steps(&scene, 3600);
+    assert!((1..100).contains(&steps.len()), "{steps:?}");
+}
+
+#[test]
+fn turning_and_evaporating_as_a_whole_only_draws() {
+    let mut scene = default_scene();
+    scene.motion.flow = Flow::Rest;
+    scene.motion.spin_deg_s = [0.0, 0.0, 90.0];
+    scene.motion.evaporation_nm_s = 60.0;
+    assert_eq!(between((&scene, 5), (&scene, 65)), ["draw", "tonemap"]);
+    let bubble = |tick| wanted(&scene, tick, Pace::Whole).picture.draw.bubbles[0].clone();
+    let later = bubble(60);
+    assert!((later.to_film * DVec3::Y).distance(DVec3::X) < 1e-12, "a quarter turn in a second");
+    assert!((later.thinned_nm - 60.0).abs() < 1e-9);
+    assert!(between((&uniform_scene(), 0), (&uniform_scene(), 9999)).is_empty());
 }
 
 #[test]
 fn going_back_in_time_seeds_anew() {
     let back = ["seed_field", "step_field", "show_field", "draw", "tonemap"];
-    assert_eq!(between((&default_scene(), 10), (&default_scene(), 4)), back);
+    assert_eq!(between((&default_scene(), 30), (&default_scene(), 20)), back);
 }
 
 #[test]
 fn the_plan_says_what_and_why() {
-    let text = plan(&wanted(&default_scene(), 2, Pace::Whole), &Have::default()).to_string();
-    for part in ["bake_table", "film 0, ticks 0..2", "nothing there yet"] {
+    let text = plan(&wanted(&default_scene(), 30, Pace::Whole), &Have::default()).to_string();
+    for part in ["bake_table", "film 0, ticks 0..24", "nothing there yet"] {
         assert!(text.contains(part), "{part} in {text}");
     }
     assert_eq!(

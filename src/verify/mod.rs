@@ -1,6 +1,7 @@
 //! Whether this machine's GPU tells the truth: each part measures what the program computes against an independent reference, and holds it
 //! to a limit.
 
+mod stability;
 mod transport;
 
 use std::time::Instant;
@@ -37,17 +38,20 @@ impl Check {
 pub enum Part {
     /// Tracers moved by published winds, against exact answers.
     Transport,
+    /// What breaks solvers.
+    Stability,
 }
 
 impl Part {
     /// All parts, in the order in which they run.
-    pub const ALL: &'static [Self] = &[Self::Transport];
+    pub const ALL: &'static [Self] = &[Self::Transport, Self::Stability];
 
     /// Its name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Transport => "transport",
+            Self::Stability => "stability",
         }
     }
 }
@@ -68,6 +72,7 @@ impl Run<'_> {
         let started = Instant::now();
         match part {
             Part::Transport => transport::run(self),
+            Part::Stability => stability::run(self),
         }?;
         log::info!("{} verified in {:.0} s", part.name(), started.elapsed().as_secs_f64());
         Ok(())

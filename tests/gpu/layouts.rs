@@ -5,18 +5,18 @@ use std::mem::offset_of;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 use soapfilm::{
     gpu::{
-        advance_map::{StepUniform, WindMoment},
         bake_table::{BakeUniform, SpectralSample, TableAxes},
         compose_map::ComposeUniform,
+        conserve::ConserveUniform,
+        decide_remap::DecideUniform,
         draw::{BubbleUniform, LightUniform, ViewUniform},
-        film::GridUniform,
+        film::{BalanceBlock, ControlBlock, RemapArguments},
         probe_colour::ProbePoint,
+        sample_tracer::SampleUniform,
         tonemap::TonemapUniform,
+        trace_step::{StepUniform, WindMoment},
     },
-    physics::{
-        film::{FrozenVortex, FrozenWave},
-        sphere::HaloEntry,
-    },
+    physics::film::{FrozenVortex, FrozenWave},
 };
 
 use crate::passes::{names, parse};
@@ -69,7 +69,11 @@ fn mirrors() -> Vec<Mirror> {
             radius_m = radius_m,
             bounds = bounds,
             thickness_nm = thickness_nm,
-            cells = cells
+            cells = cells,
+            tracer_cells = tracer_cells,
+            thinned_nm = thinned_nm,
+            to_film = to_film,
+            black_nm = black_nm
         ),
         mirror!("TableAxes", TableAxes, size = size, max_thickness_nm = max_thickness_nm, index = index),
         mirror!(
@@ -98,9 +102,48 @@ fn mirrors() -> Vec<Mirror> {
             dither_seed = dither_seed,
             dither_steps = dither_steps
         ),
-        mirror!("Compose", ComposeUniform, cells = cells, step_cells = step_cells, map_is_identity = map_is_identity),
-        mirror!("Grid", GridUniform, cells = cells),
-        mirror!("HaloEntry", HaloEntry, cell = target, sources = source, weights = weights),
+        mirror!("Compose", ComposeUniform, cells = cells, step_cells = step_cells),
+        mirror!("Sample", SampleUniform, cells = cells, map_cells = map_cells, tracer_cells = tracer_cells),
+        mirror!(
+            "Conserve",
+            ConserveUniform,
+            cells = cells,
+            parts = parts,
+            mean = mean,
+            mean_rest = mean_rest,
+            low = low,
+            high = high,
+            bounded = bounded
+        ),
+        mirror!(
+            "Decide",
+            DecideUniform,
+            cells = cells,
+            cell_angle = cell_angle,
+            error_limit = error_limit,
+            ticks = ticks,
+            latest_ticks = latest_ticks,
+            tracer_groups = tracer_groups,
+            sum_groups = sum_groups,
+            map_groups = map_groups
+        ),
+        mirror!(
+            "Arguments",
+            RemapArguments,
+            tracer_groups = tracer_groups,
+            sum_groups = sum_groups,
+            one_group = one_group,
+            map_groups = map_groups
+        ),
+        mirror!(
+            "Control",
+            ControlBlock,
+            ticks_since_remap = ticks_since_remap,
+            remaps = remaps,
+            distortion = distortion,
+            healed = healed
+        ),
+        mirror!("Balance", BalanceBlock, offset = offset, slope = slope),
         mirror!(
             "Step",
             StepUniform,
@@ -109,7 +152,6 @@ fn mirrors() -> Vec<Mirror> {
             turn_rad_s = turn_rad_s,
             dt_s = dt_s,
             cells = cells,
-            map_is_identity = map_is_identity,
             waves_count = waves_count,
             vortices_count = vortices_count,
             waves = waves,

@@ -16,7 +16,15 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
     BTreeMap::from([
         ("HALO", vec![soapfilm::physics::sphere::HALO as f64]),
         ("FLOW", vec![0.0, 1.0, 2.0, 3.0]),
+        ("TAPS", vec![2.0, 6.0]),
+        ("LIMITER", vec![1.0]),
+        ("GATHERED", vec![0.0, 1.0, 2.0]),
+        ("SAME_GRID", vec![0.0, 1.0]),
+        ("ON_MAP_GRID", vec![0.0, 1.0]),
+        ("ON_TRACER_GRID", vec![0.0, 1.0]),
+        ("HAS_MAP", vec![0.0, 1.0]),
         ("UNIFORM_FILM", vec![0.0, 1.0]),
+        ("MAGNIFIED", vec![0.0, 1.0]),
         ("SAMPLES", vec![1.0, 4.0]),
     ])
 }

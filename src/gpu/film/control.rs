@@ -1,5 +1,7 @@
 //! What the device itself knows of a film: its control block, the arguments of a remap's dispatches, and the corrections that conserve.
 
+use std::mem::offset_of;
+
 use bytemuck::{Pod, Zeroable};
 
 use super::super::{Gpu, timing::Groups};
@@ -28,6 +30,20 @@ pub struct BalanceBlock {
     pub slope: f32,
 }
 
+/// Arguments of the dispatches of a remap: see `shaders/pass/decide_remap.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+pub struct RemapArguments {
+    /// Passes over the tracer's cells.
+    pub tracer_groups: [u32; 3],
+    /// The sum over them.
+    pub sum_groups: [u32; 3],
+    /// A single workgroup.
+    pub one_group: [u32; 3],
+    /// Passes over the map's cells.
+    pub map_groups: [u32; 3],
+}
+
 /// The buffers of a film's control.
 pub struct Control {
     /// The control block.
@@ -49,7 +65,7 @@ impl Control {
         let balance = |label| gpu.buffer(label, size_of::<BalanceBlock>() as u64, storage | Usage::UNIFORM);
         Self {
             block: gpu.buffer("control", size_of::<ControlBlock>() as u64, storage),
-            arguments: gpu.buffer("remap arguments", 48, storage | Usage::INDIRECT),
+            arguments: gpu.buffer("remap arguments", size_of::<RemapArguments>() as u64, storage | Usage::INDIRECT),
             partial_sums: gpu.buffer("partial sums", 256 * 4, storage),
             shown_balance: balance("shown balance"),
             tracer_balance: balance("tracer balance"),
@@ -66,21 +82,21 @@ impl Control {
 
     /// A pass over the tracer's texels, if a remap is due.
     pub(super) fn tracer_groups(&self) -> Groups<'_> {
-        Groups::From(&self.arguments, 0)
+        Groups::From(&self.arguments, offset_of!(RemapArguments, tracer_groups) as u64)
     }
 
     /// The sum over the tracer's cells, if a remap is due.
     pub(super) fn sum_groups(&self) -> Groups<'_> {
-        Groups::From(&self.arguments, 12)
+        Groups::From(&self.arguments, offset_of!(RemapArguments, sum_groups) as u64)
     }
 
     /// A pass over the map's texels, if a remap is due.
     pub(super) fn map_groups(&self) -> Groups<'_> {
-        Groups::From(&self.arguments, 36)
+        Groups::From(&self.arguments, offset_of!(RemapArguments, map_groups) as u64)
     }
 
     /// A single workgroup, if a remap is due.
     pub(super) fn one_group(&self) -> Groups<'_> {
-        Groups::From(&self.arguments, 24)
+        Groups::From(&self.arguments, offset_of!(RemapArguments, one_group) as u64)
     }
 }

@@ -12,7 +12,7 @@
 mod control;
 mod grid;
 
-pub use control::{BalanceBlock, Control, ControlBlock};
+pub use control::{BalanceBlock, Control, ControlBlock, RemapArguments};
 pub use grid::{FilmTexture, Grid};
 
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ use super::{
     compose_map::{Composition, compose_map},
     conserve::{Sum, Target, conserve, parts},
     correct_error::correct_error,
-    decide_remap::decide_remap,
+    decide_remap::{RemapRule, decide_remap},
     read_film::read_film,
     readback::Readback,
     reset_map::reset_map,
@@ -53,8 +53,8 @@ pub struct Rules {
     pub gathered: Gathered,
     /// Whether the amount of liquid is kept.
     pub conserved: bool,
-    /// The most ticks between two remaps.
-    pub latest_ticks: u32,
+    /// When the map is remapped.
+    pub remap: RemapRule,
     /// Whether steps may be traced on a coarser grid, as smooth flows may.
     pub coarse_flow: bool,
 }
@@ -92,6 +92,15 @@ pub struct Field {
     control: Control,
     /// What must be kept, of what is shown and of the tracer.
     targets: [Target; 2],
+}
+
+/// What [`Field::plant`] spoils.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Planted {
+    /// The tracer.
+    Tracer,
+    /// The map.
+    Map,
 }
 
 /// What pictures read of a film.
@@ -209,6 +218,9 @@ impl Field {
 
     /// Moves the liquid by one step that lasts some ticks.
     pub fn advance(&mut self, recorder: &mut Recorder<'_>, step: &Step, ticks: u32) -> Result<(), GpuError> {
+        if !step.is_finite() {
+            return Err(GpuError::Refused("a step of the film needs finite times".to_owned()));
+        }
         recorder.counts.cells_stepped += self.film.sphere.cells() as u64;
         if !self.rules.scheme.keeps_map() {
             return self.advance_and_remap(recorder, step);
@@ -216,7 +228,7 @@ impl Field {
         self.compose(recorder, STEP, step, self.kept_map(), 1)?;
         self.map.swap(0, 1);
         self.ticks_since_decision += ticks;
-        if self.ticks_since_decision >= self.rules.latest_ticks.div_ceil(8) {
+        if self.ticks_since_decision >= self.rules.remap.decision_ticks() {
             self.remap_if_due(recorder)?;
         }
         Ok(())
@@ -245,7 +257,7 @@ impl Field {
     }
 
     fn remap_if_due(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
-        let ticks = (std::mem::take(&mut self.ticks_since_decision), self.rules.latest_ticks);
+        let ticks = (std::mem::take(&mut self.ticks_since_decision), self.rules.remap);
         let grids = (&self.film, self.tracer_grid());
         decide_remap(recorder, STEP, grids, &self.map[0], &self.control, ticks)?;
         let due = &self.control;
@@ -345,6 +357,17 @@ impl Field {
     /// Brings what was last shown into a buffer, in the grid's order of cells.
     pub fn read(&self, recorder: &mut Recorder<'_>) -> Result<wgpu::Buffer, GpuError> {
         read_film(recorder, &self.film, &self.texture.view)
+    }
+
+    /// Spoils one value of the tracer or of the map, to see that the damage is contained.
+    pub fn plant(&self, gpu: &Gpu, planted: Planted, cell: usize, value: f32) {
+        let (buffer, sphere, numbers) = match planted {
+            Planted::Tracer => (&self.tracer, self.tracer_grid().sphere, 1),
+            Planted::Map => (&self.map[0], self.film.sphere, 4),
+        };
+        let (panel, i, j) = sphere.cell(cell % sphere.cells());
+        let place = sphere.padded_index(panel, i as isize, j as isize) as u64;
+        gpu.queue.write_buffer(buffer, place * 4 * numbers, &value.to_ne_bytes());
     }
 
     /// Starts to bring back what the device knows of the film: a [`ControlBlock`].

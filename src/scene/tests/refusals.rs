@@ -140,7 +140,7 @@ fn events_change_something_in_order() {
     assert_refused(&[
         (
             "[[event]]\nkind = \"motion\"",
-            "3: `kind` in [[event]] is \"motion\" but nothing changes; set `flow`, `strength` or `seed`",
+            "3: `kind` in [[event]] is \"motion\" but nothing changes; set `flow` or another key of [motion]",
         ),
         (
             "[[event]]\ntick = 9\nkind = \"motion\"\nseed = 2\n[[event]]\ntick = 8\nkind = \"motion\"\nseed = 3",

@@ -1,0 +1,225 @@
+//! What breaks solvers: extreme steps, grids, fields and winds, and values that are no numbers. In every case the field must stay finite,
+//! within the range that it began with, and conserved.
+
+use glam::DVec3;
+
+use super::Run;
+use crate::{
+    gpu::{
+        GpuError,
+        decide_remap::RemapRule,
+        film::{ControlBlock, Field, Planted, Rules},
+        sample_tracer::Gathered,
+        timing::Recorder,
+        trace_step::Step,
+        transport_case::values,
+    },
+    physics::{
+        film::PrescribedFlow,
+        sphere::CubedSphere,
+        transport::{Scheme, Tracer, TracerKind, Wind, WindKind},
+    },
+};
+
+/// A field to be carried.
+type Initial = fn(DVec3) -> f64;
+
+fn bells(x: DVec3) -> f64 {
+    Tracer::new(TracerKind::CosineBells, glam::DMat3::IDENTITY).value(x)
+}
+
+/// Eight waves an axis: cells of either sign side by side on a grid of 16.
+fn checkerboard(x: DVec3) -> f64 {
+    if [x.x, x.y, x.z].iter().map(|v| (v * 12.0).floor() as i64).sum::<i64>() % 2 == 0 { 1.0 } else { -1.0 }
+}
+
+fn zero_or_one(x: DVec3) -> f64 {
+    f64::from(u8::from(x.dot(DVec3::new(0.3, 0.5, 0.8)) > 0.2))
+}
+
+const FIELDS: &[(&str, Initial)] = &[
+    ("zero", |_| 0.0),
+    ("constant", |_| 0.7),
+    ("checkerboard", checkerboard),
+    ("0 and 1", zero_or_one),
+    ("1e30", |x| 1e30 * bells(x)),
+    ("-1e30", |x| -1e30 * bells(x)),
+    ("1e-30", |x| 1e-30 * bells(x)),
+    ("a spike", |x| if x.distance(DVec3::ONE.normalize()) < 0.1 { 1e6 } else { 1.0 }),
+];
+
+/// One way of moving a field.
+struct Stress<'a> {
+    name: String,
+    cells: usize,
+    initial: Initial,
+    steps: u32,
+    step: &'a dyn Fn(u32) -> Step,
+    /// What is spoilt before which step.
+    planted: Option<(u32, Planted, f32)>,
+}
+
+pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
+    steps(run)?;
+    grids(run)?;
+    for (name, initial) in FIELDS {
+        let wind = deformation();
+        let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
+        stress(run, &Stress { name: format!("field {name}"), cells: 24, initial: *initial, steps: 60, step: &step, planted: None })?;
+    }
+    winds(run)?;
+    spoilt(run)?;
+    refused(run)?;
+    if run.long { long(run) } else { Ok(()) }
+}
+
+fn deformation() -> Wind {
+    // The usual axis is one.
+    Wind::new(WindKind::NonDivergent, None).unwrap_or_else(|_| unreachable!("the usual axis has a direction"))
+}
+
+/// Steps from a thousandth of a cell to 200 cells, none at all, and backwards.
+fn steps(run: &mut Run<'_>) -> Result<(), GpuError> {
+    const CELLS: usize = 32;
+    let wind = deformation();
+    let cell_s = std::f64::consts::FRAC_PI_2 / CELLS as f64 / 2.0; // The fastest wind is near 2 rad/s.
+    for cfl in [1e-3, 0.1, 1.0, 20.0, 200.0, 0.0, -1.0] {
+        let dt = cfl * cell_s;
+        let step = |k: u32| Step::wind(&wind, dt * f64::from(k), dt * f64::from(k + 1));
+        let name = format!("steps of {cfl} cells");
+        stress(run, &Stress { name, cells: CELLS, initial: bells, steps: 100, step: &step, planted: None })?;
+    }
+    let spikes = |k: u32| Step::wind(&wind, 0.0, if k % 7 == 0 { 3.0 } else { 0.01 });
+    stress(run, &Stress { name: "spikes of dt".into(), cells: CELLS, initial: bells, steps: 70, step: &spikes, planted: None })
+}
+
+fn grids(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let wind = deformation();
+    let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
+    for (cells, steps) in [(16, 100), (17, 100), (61, 40), (255, 8), (1024, 2)] {
+        stress(run, &Stress { name: format!("N = {cells}"), cells, initial: bells, steps, step: &step, planted: None })?;
+    }
+    Ok(())
+}
+
+/// Winds that fold the map within a step, and that turn round at each.
+fn winds(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let flow = PrescribedFlow::stirred(3, 300.0);
+    let folding = |k: u32| Step::prescribed(&flow, 0.1 * f64::from(k), 0.1 * f64::from(k + 1));
+    stress(run, &Stress { name: "a wind that folds the map".into(), cells: 32, initial: bells, steps: 60, step: &folding, planted: None })?;
+    let wind = deformation();
+    let flips = |k: u32| if k % 2 == 0 { Step::wind(&wind, 0.0, 0.4) } else { Step::wind(&wind, 0.4, 0.1) };
+    stress(run, &Stress { name: "a wind that flips at each step".into(), cells: 32, initial: bells, steps: 100, step: &flips, planted: None })
+}
+
+/// One value that is no number, in the tracer and in the map.
+fn spoilt(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let wind = deformation();
+    let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
+    for planted in [Planted::Tracer, Planted::Map] {
+        for (name, value) in [("NaN", f32::NAN), ("infinity", f32::INFINITY), ("-infinity", f32::NEG_INFINITY)] {
+            let name = format!("{name} in the {planted:?}").to_lowercase();
+            let planted = Some((10, planted, value));
+            stress(run, &Stress { name, cells: 24, initial: bells, steps: 40, step: &step, planted })?;
+        }
+    }
+    Ok(())
+}
+
+/// Times that are no numbers are refused: 0 of them pass.
+fn refused(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let mut field = field(run, 16, bells)?;
+    let mut passed = 0;
+    for to_s in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
+        let mut recorder = Recorder::new(run.gpu);
+        passed += u32::from(field.advance(&mut recorder, &Step::wind(&deformation(), 0.0, to_s), 1).is_ok());
+    }
+    run.at_most("steps to no time at all: not refused", f64::from(passed), 0.0);
+    Ok(())
+}
+
+/// A million steps.
+fn long(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let wind = deformation();
+    let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k % 100), 0.05 * f64::from(k % 100 + 1));
+    stress(run, &Stress { name: "1e6 steps".into(), cells: 16, initial: bells, steps: 1_000_000, step: &step, planted: None })
+}
+
+fn field(run: &Run<'_>, cells: usize, initial: Initial) -> Result<Field, GpuError> {
+    let sphere = CubedSphere::new(cells).map_err(|error| GpuError::Refused(error.to_string()))?;
+    let rules = Rules {
+        scheme: Scheme::Map,
+        limiter: true,
+        gathered: Gathered::Nothing,
+        conserved: true,
+        remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: 20 },
+        coarse_flow: true,
+    };
+    let mut field = Field::new(run.gpu, sphere, rules)?;
+    let mut recorder = Recorder::new(run.gpu);
+    field.seed(&mut recorder, initial)?;
+    recorder.submit(&Default::default());
+    Ok(field)
+}
+
+/// Moves a field and reports how far it left its range, as a part of it, and how far its mass drifted, relative to its size.
+fn stress(run: &mut Run<'_>, stress: &Stress<'_>) -> Result<(), GpuError> {
+    let mut field = field(run, stress.cells, stress.initial)?;
+    let before = values(run.gpu, &mut field)?;
+    let mut recorder = Recorder::new(run.gpu);
+    for k in 0..stress.steps {
+        if let Some((_, planted, value)) = stress.planted.filter(|(at, ..)| *at == k) {
+            std::mem::replace(&mut recorder, Recorder::new(run.gpu)).submit(&Default::default());
+            field.plant(run.gpu, planted, 1234, value);
+        }
+        field.advance(&mut recorder, &(stress.step)(k), 1)?;
+        if k % 16 == 15 {
+            std::mem::replace(&mut recorder, Recorder::new(run.gpu)).submit(&Default::default());
+            run.gpu.wait()?;
+        }
+    }
+    recorder.submit(&Default::default());
+    let after = values(run.gpu, &mut field)?;
+    let name = &stress.name;
+    run.at_most(format!("{name}: values not finite"), after.iter().filter(|value| !value.is_finite()).count() as f64, 0.0);
+    let (excess, drift) = departures(field.sphere(), &before, &after);
+    run.at_most(format!("{name}: beyond the range, part of it"), excess, 1e-6);
+    run.at_most(format!("{name}: drift of mass"), drift, 1e-7);
+    if stress.planted.is_some() {
+        let control: Vec<ControlBlock> = bytemuck::pod_collect_to_vec(&field.read_control(run.gpu).wait(run.gpu)?);
+        let healed = control.iter().map(|block| block.healed).sum::<u32>();
+        // A value reaches 36 stencils a lookup until it is healed: far below this, and more than none.
+        run.at_most(format!("{name}: values healed"), if healed == 0 { f64::NAN } else { f64::from(healed) }, 2000.0);
+    }
+    Ok(())
+}
+
+/// How far values left the range of those before, as a part of it (or of their size, if they had none), and the change of their mass over
+/// the mass of their absolute values.
+fn departures(sphere: CubedSphere, before: &[f64], after: &[f64]) -> (f64, f64) {
+    let low = before.iter().copied().fold(f64::MAX, f64::min);
+    let high = before.iter().copied().fold(f64::MIN, f64::max);
+    let size = low.abs().max(high.abs());
+    let width = if high > low { high - low } else { size.max(f64::MIN_POSITIVE) };
+    let beyond = after.iter().fold(0.0, |worst: f64, value| worst.max(low - value).max(value - high));
+    let areas = sphere.areas();
+    let mass = |of: &dyn Fn(usize) -> f64| areas.iter().enumerate().map(|(cell, area)| area * of(cell)).sum::<f64>();
+    let scale = mass(&|cell| before[cell].abs()).max(f64::MIN_POSITIVE);
+    (beyond / width, (mass(&|cell| after[cell] - before[cell]) / scale).abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn departures_are_found() {
+        let sphere = CubedSphere::new(8).unwrap_or_else(|_| unreachable!());
+        let before: Vec<f64> = (0..sphere.cells()).map(|cell| f64::from(u8::from(cell % 2 == 0))).collect();
+        assert_eq!(departures(sphere, &before, &before), (0.0, 0.0));
+        let mut after = before.clone();
+        after[7] = 1.5;
+        let (excess, drift) = departures(sphere, &before, &after);
+        assert!(excess == 0.5 && drift > 1e-4, "{excess} {drift}");
+    }
+}
