@@ -2,12 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{
-    GpuError,
-    film::Grid,
-    pipelines::ComputeKey,
-    timing::Recorder,
-};
+use super::{GpuError, film::Grid, pipelines::ComputeKey, timing::Recorder};
 
 /// See `shaders/pass/compose_map.wgsl`.
 #[repr(C)]

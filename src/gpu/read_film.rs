@@ -3,11 +3,7 @@
 use super::{GpuError, film::Grid, pipelines::ComputeKey, timing::Recorder};
 
 /// The shown values in the grid's order of cells.
-pub fn read_film(
-    recorder: &mut Recorder<'_>,
-    grid: &Grid,
-    film: &wgpu::TextureView,
-) -> Result<wgpu::Buffer, GpuError> {
+pub fn read_film(recorder: &mut Recorder<'_>, grid: &Grid, film: &wgpu::TextureView) -> Result<wgpu::Buffer, GpuError> {
     let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
     let values = recorder.gpu.buffer("film values", grid.sphere.cells() as u64 * 4, usage);
     let key = ComputeKey { pass: "read_film", entry: "read_film", constants: vec![] };

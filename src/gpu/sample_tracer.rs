@@ -67,12 +67,7 @@ pub fn sample_tracer(
 ) -> Result<(), GpuError> {
     let Sampling { scheme, limiter, gathered, grid, map, map_cells, .. } = *sampling;
     let (tracer, tracer_cells) = sampling.tracer;
-    let uniform = SampleUniform {
-        cells: grid.cells,
-        map_cells,
-        tracer_cells,
-        pad: 0,
-    };
+    let uniform = SampleUniform { cells: grid.cells, map_cells, tracer_cells, pad: 0 };
     let uniform = recorder.gpu.uniform("sample", &uniform);
     let constants = vec![
         ("TAPS", scheme.taps()),

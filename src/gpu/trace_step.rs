@@ -153,11 +153,7 @@ pub fn trace_step(
     step_map: &wgpu::Buffer,
 ) -> Result<(), GpuError> {
     let uniform = recorder.gpu.uniform("step", &StepUniform { cells: grid.cells, ..*step.uniform });
-    let resources = [
-        uniform.as_entire_binding(),
-        grid.tangents.as_entire_binding(),
-        step_map.as_entire_binding(),
-    ];
+    let resources = [uniform.as_entire_binding(), grid.tangents.as_entire_binding(), step_map.as_entire_binding()];
     let constants = vec![("FLOW", step.kind as u32)];
     let key = ComputeKey { pass: "trace_step", entry: "trace_step", constants };
     recorder.compute(name, &key, &resources, grid.padded_groups().into())

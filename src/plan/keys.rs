@@ -168,7 +168,9 @@ impl FlowLaw {
     fn strength(self) -> f64 {
         match self {
             Self::Rest => 0.0,
-            Self::Sloshing { strength, .. } | Self::Draught { strength, .. } | Self::Stirred { strength, .. } => strength,
+            Self::Sloshing { strength, .. } | Self::Draught { strength, .. } | Self::Stirred { strength, .. } => {
+                strength
+            }
         }
     }
 

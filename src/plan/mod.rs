@@ -10,8 +10,8 @@ mod want;
 use std::{fmt, ops::Range};
 
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey,
-    Moment, TableKey, TonemapKey,
+    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment,
+    LightKey, Moment, TableKey, TonemapKey,
 };
 pub use want::{Resources, Shot, WantError, want};
 

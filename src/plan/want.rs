@@ -176,7 +176,8 @@ fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f
 /// How far all films have turned as a whole, and what has evaporated from them, in nm.
 fn turned_and_thinned(scene: &Scene, moment: Moment) -> (DQuat, f64) {
     let end = moment.tick as f64 + moment.fraction;
-    let ticks = std::iter::once(0).chain(scene.events.iter().map(|event| event.tick)).filter(|tick| *tick as f64 <= end);
+    let ticks =
+        std::iter::once(0).chain(scene.events.iter().map(|event| event.tick)).filter(|tick| *tick as f64 <= end);
     let starts: Vec<u64> = ticks.collect();
     let ends = starts.iter().skip(1).map(|tick| *tick as f64).chain(std::iter::once(end));
     starts.iter().zip(ends).fold((DQuat::IDENTITY, 0.0), |(turn, thinned_nm), (start, end)| {

@@ -177,9 +177,7 @@ enum Kind {
 impl From<Entry> for Event {
     fn from(Entry { tick, kind, flow, strength, seed, spin_deg_s, evaporation_nm_s }: Entry) -> Self {
         let change = match kind {
-            Kind::Motion => {
-                Change::Motion(MotionChange { flow, strength, seed, spin_deg_s, evaporation_nm_s })
-            }
+            Kind::Motion => Change::Motion(MotionChange { flow, strength, seed, spin_deg_s, evaporation_nm_s }),
         };
         Self { tick, change }
     }

@@ -65,7 +65,17 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     for (name, initial) in FIELDS {
         let wind = deformation();
         let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
-        stress(run, &Stress { name: format!("field {name}"), cells: 24, initial: *initial, steps: 60, step: &step, planted: None })?;
+        stress(
+            run,
+            &Stress {
+                name: format!("field {name}"),
+                cells: 24,
+                initial: *initial,
+                steps: 60,
+                step: &step,
+                planted: None,
+            },
+        )?;
     }
     winds(run)?;
     spoilt(run)?;
@@ -90,14 +100,20 @@ fn steps(run: &mut Run<'_>) -> Result<(), GpuError> {
         stress(run, &Stress { name, cells: CELLS, initial: bells, steps: 100, step: &step, planted: None })?;
     }
     let spikes = |k: u32| Step::wind(&wind, 0.0, if k % 7 == 0 { 3.0 } else { 0.01 });
-    stress(run, &Stress { name: "spikes of dt".into(), cells: CELLS, initial: bells, steps: 70, step: &spikes, planted: None })
+    stress(
+        run,
+        &Stress { name: "spikes of dt".into(), cells: CELLS, initial: bells, steps: 70, step: &spikes, planted: None },
+    )
 }
 
 fn grids(run: &mut Run<'_>) -> Result<(), GpuError> {
     let wind = deformation();
     let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
     for (cells, steps) in [(16, 100), (17, 100), (61, 40), (255, 8), (1024, 2)] {
-        stress(run, &Stress { name: format!("N = {cells}"), cells, initial: bells, steps, step: &step, planted: None })?;
+        stress(
+            run,
+            &Stress { name: format!("N = {cells}"), cells, initial: bells, steps, step: &step, planted: None },
+        )?;
     }
     Ok(())
 }
@@ -106,10 +122,30 @@ fn grids(run: &mut Run<'_>) -> Result<(), GpuError> {
 fn winds(run: &mut Run<'_>) -> Result<(), GpuError> {
     let flow = PrescribedFlow::stirred(3, 300.0);
     let folding = |k: u32| Step::prescribed(&flow, 0.1 * f64::from(k), 0.1 * f64::from(k + 1));
-    stress(run, &Stress { name: "a wind that folds the map".into(), cells: 32, initial: bells, steps: 60, step: &folding, planted: None })?;
+    stress(
+        run,
+        &Stress {
+            name: "a wind that folds the map".into(),
+            cells: 32,
+            initial: bells,
+            steps: 60,
+            step: &folding,
+            planted: None,
+        },
+    )?;
     let wind = deformation();
     let flips = |k: u32| if k % 2 == 0 { Step::wind(&wind, 0.0, 0.4) } else { Step::wind(&wind, 0.4, 0.1) };
-    stress(run, &Stress { name: "a wind that flips at each step".into(), cells: 32, initial: bells, steps: 100, step: &flips, planted: None })
+    stress(
+        run,
+        &Stress {
+            name: "a wind that flips at each step".into(),
+            cells: 32,
+            initial: bells,
+            steps: 100,
+            step: &flips,
+            planted: None,
+        },
+    )
 }
 
 /// One value that is no number, in the tracer and in the map.
@@ -142,7 +178,10 @@ fn refused(run: &mut Run<'_>) -> Result<(), GpuError> {
 fn long(run: &mut Run<'_>) -> Result<(), GpuError> {
     let wind = deformation();
     let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k % 100), 0.05 * f64::from(k % 100 + 1));
-    stress(run, &Stress { name: "1e6 steps".into(), cells: 16, initial: bells, steps: 1_000_000, step: &step, planted: None })
+    stress(
+        run,
+        &Stress { name: "1e6 steps".into(), cells: 16, initial: bells, steps: 1_000_000, step: &step, planted: None },
+    )
 }
 
 fn field(run: &Run<'_>, cells: usize, initial: Initial) -> Result<Field, GpuError> {
@@ -181,7 +220,11 @@ fn stress(run: &mut Run<'_>, stress: &Stress<'_>) -> Result<(), GpuError> {
     recorder.submit(&Default::default());
     let after = values(run.gpu, &mut field)?;
     let name = &stress.name;
-    run.at_most(format!("{name}: values not finite"), after.iter().filter(|value| !value.is_finite()).count() as f64, 0.0);
+    run.at_most(
+        format!("{name}: values not finite"),
+        after.iter().filter(|value| !value.is_finite()).count() as f64,
+        0.0,
+    );
     let (excess, drift) = departures(field.sphere(), &before, &after);
     run.at_most(format!("{name}: beyond the range, part of it"), excess, 1e-6);
     run.at_most(format!("{name}: drift of mass"), drift, 1e-7);

@@ -135,8 +135,7 @@ fn convergence(run: &mut Run<'_>) -> Result<(), GpuError> {
 /// A zonal wind about an axis leaves a zonal field as it is, so that all change is error. Statistic: its root mean square within three
 /// cells of the cube's edges, over that elsewhere, for axes in general position. A third more is granted: cells are smaller there.
 fn seams(run: &mut Run<'_>) -> Result<(), GpuError> {
-    const AXES: [DVec3; 3] =
-        [DVec3::new(0.3, 0.5, 0.81), DVec3::new(-0.62, 0.35, 0.7), DVec3::new(0.9, -0.41, 0.13)];
+    const AXES: [DVec3; 3] = [DVec3::new(0.3, 0.5, 0.81), DVec3::new(-0.62, 0.35, 0.7), DVec3::new(0.9, -0.41, 0.13)];
     for limiter in [false, true] {
         let (mut near, mut elsewhere) = ((0.0, 0), (0.0, 0));
         for axis in AXES {
@@ -169,7 +168,11 @@ fn seams(run: &mut Run<'_>) -> Result<(), GpuError> {
         }
         let rms = |(sum, count): (f64, u32)| (sum / f64::from(count)).sqrt();
         let limited = if limiter { ", limited" } else { "" };
-        run.at_most(format!("zonal winds{limited}: error near seams over that elsewhere"), rms(near) / rms(elsewhere), 1.33);
+        run.at_most(
+            format!("zonal winds{limited}: error near seams over that elsewhere"),
+            rms(near) / rms(elsewhere),
+            1.33,
+        );
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Transport on the GPU against its f64 twin, and all that `soapfilm verify` holds to limits.
 
 use glam::DVec3;
+use rayon::prelude::*;
 use soapfilm::{
     gpu::{
         Gpu,
@@ -14,7 +15,7 @@ use soapfilm::{
     physics::{
         film::{InitialFilm, PrescribedFlow},
         sphere::CubedSphere,
-        transport::{FlowMap, PERIOD, Scheme, Tracer, TracerKind, Wind, WindKind},
+        transport::{FlowMap, PERIOD, Scheme, Tracer, TracerKind, Wind, WindKind, backtrace},
     },
     verify::{Check, Part, Run},
 };
@@ -80,34 +81,41 @@ fn the_gpu_does_what_its_f64_twin_does() {
     }
 }
 
-/// A stirred film after 2 s on the GPU, in steps of so many ticks and traced on the coarser grid, against f64 in single ticks on the film's own:
-/// mean and maximum of the difference in nm.
-fn stirred_film_parts_from_its_twin(gpu: &Gpu, cells: usize, ticks_a_step: u32) -> (f64, f64) {
-    const TICKS: u32 = 120;
-    let (grid, tick_s) = (CubedSphere::new(cells).unwrap(), 1.0 / 60.0);
-    let initial = InitialFilm::Blown { thickness_nm: 600.0, stratification: 0.0, seed: 3 };
-    let flow = PrescribedFlow::stirred(5, 1.0);
-    let length_s = tick_s * f64::from(ticks_a_step);
-    let count = TICKS / ticks_a_step;
-    let steps = (0..count).map(|k| Step::prescribed(&flow, length_s * f64::from(k), length_s * f64::from(k + 1)));
-    // One remap at the end, which comes when the first step is as old as the map may be.
-    let found = moved(gpu, grid, Rules { remap: remap(count), ..RULES }, initial.profile(), steps);
-    let mut twin = FlowMap::new(grid, Scheme::Map, initial.profile()).unwrap();
-    for tick in 0..TICKS {
-        twin.step(f64::from(tick) * tick_s, tick_s, |x, t| flow.velocity(x, t));
-    }
-    twin.remap();
-    mean_and_max(found.iter().zip(twin.values()).map(|(a, b)| (a - b).abs()))
+/// A film of 96 cells an edge stirred for 1 s on the GPU, in steps of so many ticks.
+fn stirred(gpu: &Gpu, grid: CubedSphere, flow: &PrescribedFlow, ticks_a_step: u32, coarse_flow: bool) -> Vec<f64> {
+    let length_s = f64::from(ticks_a_step) / 60.0;
+    let steps = (0..60 / ticks_a_step).map(f64::from);
+    let steps = steps.map(|k| Step::prescribed(flow, length_s * k, length_s * (k + 1.0)));
+    moved(gpu, grid, Rules { remap: remap(1000), coarse_flow, ..RULES }, film().profile(), steps)
 }
 
-/// What long steps, the coarse trace and f32 cost together must not be seen: 0.1 nm in the mean is a colour difference of 0.06. At
-/// strength 1 a step is six ticks; a film of 96 cells is traced on a grid of 64.
+fn film() -> InitialFilm {
+    InitialFilm::Blown { thickness_nm: 600.0, stratification: 0.0, seed: 3 }
+}
+
+/// Long steps and the coarser grid on which they are traced (64 cells for 96) must cost nothing that can be seen: half a nanometre in
+/// the mean is within what is not known of any real film, and below what interpolating the map costs in the sharpest eddies. The truth is the
+/// initial film at the feet of trajectories in f64, at every 37th cell.
 #[test]
-fn a_stirred_film_follows_its_f64_twin() {
+fn a_stirred_film_follows_its_trajectories() {
     let Some(gpu) = gpu() else { return };
-    let (mean, max) = stirred_film_parts_from_its_twin(&gpu, 96, 6);
-    eprintln!("measured: stirred film of 96 cells in steps of 0.1 s, GPU - f64 twin: max {max:.3} nm, mean {mean:.4} nm");
-    assert!(mean <= 0.1 && max <= 3.0, "max {max} nm, mean {mean} nm");
+    let (grid, flow, profile) = (CubedSphere::new(96).unwrap(), PrescribedFlow::stirred(5, 1.0), film().profile());
+    let foot = |x: DVec3| {
+        let tick_s = 1.0 / 60.0;
+        let back = |x, tick| backtrace(x, f64::from(tick + 1) * tick_s, tick_s, |x, t| flow.velocity(x, t));
+        (0..60).rev().fold(x, back)
+    };
+    let exact: Vec<f64> =
+        (0..grid.cells()).into_par_iter().step_by(37).map(|cell| profile(foot(grid.cell_direction(cell)))).collect();
+    let [fine, long, coarse] = [(1, false), (6, false), (6, true)].map(|(ticks, coarse)| {
+        let found = stirred(&gpu, grid, &flow, ticks, coarse);
+        mean_and_max(found.iter().step_by(37).zip(&exact).map(|(a, b)| (a - b).abs()))
+    });
+    eprintln!(
+        "measured: stirred film from f64, mean and max in nm: steps of a tick {fine:.3?}, of 6 {long:.3?}, traced on a coarser grid {coarse:.3?}"
+    );
+    assert!(coarse.0 <= 0.5, "{coarse:?}");
+    assert!(long.0 <= 1.1 * fine.0 && coarse.0 <= 1.1 * fine.0, "{fine:?}, {long:?}, {coarse:?}");
 }
 
 fn verified(part: Part) {

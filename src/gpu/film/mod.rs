@@ -32,10 +32,7 @@ use super::{
     timing::{Groups, Recorder},
     trace_step::{Step, trace_step},
 };
-use crate::physics::{
-    sphere::CubedSphere,
-    transport::Scheme,
-};
+use crate::physics::{sphere::CubedSphere, transport::Scheme};
 
 /// Name of the passes that move a film.
 const STEP: &str = "step_field";

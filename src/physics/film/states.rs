@@ -156,5 +156,4 @@ mod tests {
             assert!((mean(film, 24) / 700.0 - 1.0).abs() < 0.1, "{}", mean(film, 24));
         }
     }
-
 }

@@ -155,9 +155,9 @@ mod tests {
     fn biquintic_lookup_converges_at_sixth_order() {
         let error = |n| {
             let (field, probe) = (field(n), CubedSphere::new(37).unwrap());
-            (0..probe.cells()).map(|cell| probe.cell_direction(cell)).fold(0.0, |worst: f64, x| {
-                worst.max((field.biquintic(x) - smooth(x)).abs())
-            })
+            (0..probe.cells())
+                .map(|cell| probe.cell_direction(cell))
+                .fold(0.0, |worst: f64, x| worst.max((field.biquintic(x) - smooth(x)).abs()))
         };
         let (coarse, fine) = (error(20), error(40));
         assert!(fine < 1e-7 && coarse / fine > 45.0, "ideal 64: {coarse:e} / {fine:e}");

@@ -130,8 +130,7 @@ impl FlowMap {
 
     /// The tracer's values now, in the film grid's order.
     pub fn values(&self) -> Vec<f64> {
-        let values: Vec<f64> =
-            (0..self.grid.cells()).map(|cell| self.value(self.grid.cell_direction(cell))).collect();
+        let values: Vec<f64> = (0..self.grid.cells()).map(|cell| self.value(self.grid.cell_direction(cell))).collect();
         let change = self.means[0] - mean(self.grid, &values);
         values.into_iter().map(|value| value + change).collect()
     }

@@ -1,24 +1,27 @@
-//! Run time against error: lookup tables of several sizes, and the schemes of transport, as a table and as CSV files in `target/`.
+//! Run time against error: lookup tables of several sizes, and the schemes of transport, as tables, and as CSV files and plots in
+//! `target/`.
 //!
 //! `cargo bench --bench error_time -- --smoke` runs the smallest case of each, to see that it works.
+
+mod plot;
+mod report;
+mod transport;
 
 use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use glam::Vec3;
+use report::Report;
 use soapfilm::{
     gpu::{
         AdapterChoice, Gpu, GpuError,
         bake_table::Table,
         probe_colour::{ProbePoint, probe_colours},
         timing::Recorder,
-        transport_case::{Case, values},
     },
     physics::{
         colour::{BT2020, FilmOptics, Illuminant, Walls, m2_delta_e},
         optics::FilmIndex,
-        sphere::CubedSphere,
-        transport::{Quantity, Scheme, Tracer, TracerKind, Wind, WindKind},
     },
     plan::TableKey,
 };
@@ -29,18 +32,14 @@ fn main() -> anyhow::Result<()> {
     println!("adapter: {}, {}", gpu.adapter_name(), gpu.driver());
     warm_up(&gpu)?;
     tables(&gpu, smoke)?;
-    transport(&gpu, smoke)
+    transport::run(&gpu, smoke)
 }
 
 /// Makes every pipeline once, so that no row of the reports pays for it.
 fn warm_up(gpu: &Gpu) -> anyhow::Result<()> {
     let key = TableKey::full(FilmIndex::Water, Illuminant::default().into(), 0.0).coarser(1024);
     bake(gpu, &key)?;
-    for scheme in [Scheme::Bicubic, Scheme::Map] {
-        let case = transport_case(scheme, 8, 10)?;
-        case.advance(gpu, &mut case.seed(gpu)?)?;
-    }
-    Ok(())
+    transport::warm_up(gpu)
 }
 
 /// Columns, rows and longest film of each table.
@@ -101,72 +100,9 @@ fn colour_error(gpu: &Gpu, table: &Table, optics: &FilmOptics, max_nm: f64, coun
     Ok([worst, sum / f64::from(count)])
 }
 
-/// Cells along a cube's edge and steps a period.
-const GRIDS: [(usize, u32); 6] = [(30, 30), (30, 60), (60, 60), (60, 120), (120, 120), (120, 240)];
-
-fn transport(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
-    let columns = ["remap_every", "cells", "steps", "cpu_ms_per_step", "wall_ms_per_step", "l2"];
-    let mut report = Report::new("transport", &columns);
-    for scheme in [Scheme::Bicubic, Scheme::Map] {
-        for (cells, steps) in GRIDS.into_iter().take(if smoke { 1 } else { GRIDS.len() }) {
-            let case = transport_case(scheme, cells, steps)?;
-            let mut field = case.seed(gpu)?;
-            let ((), cpu_ms, wall_ms) = timed(|| case.advance(gpu, &mut field))?;
-            let l2 = case.measure(&values(gpu, &mut field)?).l2;
-            let steps = f64::from(steps);
-            let interval = f64::from(u8::from(scheme.keeps_map()));
-            report.row(&[interval, cells as f64, steps, cpu_ms / steps, wall_ms / steps, l2]);
-        }
-    }
-    report.save()
-}
-
-/// Cosine bells in the non-divergent wind for one period.
-fn transport_case(scheme: Scheme, cells: usize, steps: u32) -> anyhow::Result<Case> {
-    let wind = Wind::new(WindKind::NonDivergent, None)?;
-    let tracer = Tracer::new(TracerKind::CosineBells, wind.tracer_rotation());
-    Ok(Case {
-        grid: CubedSphere::new(cells)?,
-        wind,
-        tracer,
-        quantity: Quantity::Density,
-        scheme,
-        limiter: false,
-        steps_a_period: steps,
-        steps: u64::from(steps),
-    })
-}
-
 /// The result of some work, its process CPU time and its wall time in milliseconds.
 fn timed<T>(work: impl FnOnce() -> Result<T, GpuError>) -> anyhow::Result<(T, f64, f64)> {
     let (cpu, wall) = (ProcessTime::try_now()?, Instant::now());
     let result = work()?;
     Ok((result, cpu.try_elapsed()?.as_secs_f64() * 1e3, wall.elapsed().as_secs_f64() * 1e3))
-}
-
-/// A table on the terminal and in a CSV file.
-struct Report {
-    name: &'static str,
-    csv: String,
-}
-
-impl Report {
-    fn new(name: &'static str, columns: &[&str]) -> Self {
-        println!("\n{name}\n{}", columns.iter().map(|column| format!("{column:>16}")).collect::<String>());
-        Self { name, csv: columns.join(",") + "\n" }
-    }
-
-    fn row(&mut self, numbers: &[f64]) {
-        let shown =
-            |number: &f64| if number.fract() == 0.0 { format!("{number:>16}") } else { format!("{number:>16.5}") };
-        println!("{}", numbers.iter().map(shown).collect::<String>());
-        self.csv += &(numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",") + "\n");
-    }
-
-    fn save(&self) -> anyhow::Result<()> {
-        let path = format!("{}/error_time_{}.csv", env!("CARGO_TARGET_TMPDIR"), self.name);
-        std::fs::write(&path, &self.csv)?;
-        println!("written to {path}");
-        Ok(())
-    }
 }
