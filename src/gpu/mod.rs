@@ -4,12 +4,14 @@
 
 pub mod advance_map;
 pub mod bake_table;
+pub mod bands;
 pub mod compose_map;
 pub mod device;
 pub mod draw;
 pub mod environment;
 pub mod film;
 pub mod pipelines;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod probe_colour;
 pub mod readback;
 pub mod renderer;

@@ -1,6 +1,10 @@
 //! Whether this machine's GPU tells the truth: each part measures what the program computes against an independent reference, and holds it
 //! to a limit.
 
+mod optics;
+mod picture;
+mod random;
+pub mod reference;
 mod transport;
 
 use std::time::Instant;
@@ -35,18 +39,24 @@ impl Check {
 /// What can be verified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
+    /// Colours of films, against the spectral sum in f64.
+    Optics,
+    /// Whole pictures in coloured light, against the f64 picture.
+    Picture,
     /// Tracers moved by published winds, against exact answers.
     Transport,
 }
 
 impl Part {
     /// All parts, in the order in which they run.
-    pub const ALL: &'static [Self] = &[Self::Transport];
+    pub const ALL: &'static [Self] = &[Self::Optics, Self::Picture, Self::Transport];
 
     /// Its name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::Optics => "optics",
+            Self::Picture => "picture",
             Self::Transport => "transport",
         }
     }
@@ -67,6 +77,8 @@ impl Run<'_> {
     pub fn part(&mut self, part: Part) -> Result<(), GpuError> {
         let started = Instant::now();
         match part {
+            Part::Optics => optics::run(self),
+            Part::Picture => picture::run(self),
             Part::Transport => transport::run(self),
         }?;
         log::info!("{} verified in {:.0} s", part.name(), started.elapsed().as_secs_f64());

@@ -18,6 +18,9 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
         ("FLOW", vec![0.0, 1.0, 2.0, 3.0]),
         ("UNIFORM_FILM", vec![0.0, 1.0]),
         ("SAMPLES", vec![1.0, 4.0]),
+        ("COLOURED", vec![0.0, 1.0]),
+        ("POLARISED", vec![0.0, 1.0]),
+        ("EVERYTHING", vec![0.0, 1.0]),
     ])
 }
 
