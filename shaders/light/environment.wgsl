@@ -35,7 +35,8 @@ fn environment_radiance(
         light.turn_cos * direction.y - light.turn_sin * direction.x,
         direction.z,
     );
-    let level = log2(max(footprint / light.texel_angle, 1.0));
+    // A texel of a level, blurred by its own box and by interpolation, has the variance of a box sqrt(3) times as wide.
+    let level = log2(max(0.577 * footprint / light.texel_angle, 1.0));
     return light.gain * textureSampleLevel(environment, environment_sampler, turned, level).rgb;
 }
 

@@ -237,9 +237,9 @@ fn mean_radiance(position: vec2f, side: u32) -> vec3f {
 }
 
 // Samples along each side of a pixel at the rim, where the film turns into a mirror within a few pixels.
-const RIM_SAMPLES: u32 = 4;
+const RIM_SAMPLES: u32 = 3;
 // Relative change of cos theta from pixel to pixel above which a pixel is at the rim.
-const RIM_CHANGE: f32 = 0.2;
+const RIM_CHANGE: f32 = 0.3;
 
 fn is_at_rim(position: vec2f) -> bool {
     let edge = silhouette(view, bubble.centre_m, bubble.radius_m, view_plane(view, position), 1.0);
