@@ -4,11 +4,12 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use soapfilm::{
     gpu::{AdapterChoice, Gpu, Renderer},
     input::load_scene,
+    physics::colour::Gamut,
     plan::{Have, Moment, Pace, Plan, Shot, Want, plan, want},
 };
 
 const SIZES: [[u32; 2]; 2] = [[1280, 720], [1920, 1080]];
-const PASSES: [&str; 6] = ["bake_table", "seed_field", "step_field", "show_field", "draw", "tonemap"];
+const PASSES: [&str; 7] = ["bake_table", "fit_bands", "seed_field", "step_field", "show_field", "draw", "tonemap"];
 
 fn frame(criterion: &mut Criterion) {
     let gpu = pollster::block_on(Gpu::headless(&AdapterChoice::default().or_env())).expect("an adapter to measure on");
@@ -40,7 +41,8 @@ fn frame(criterion: &mut Criterion) {
 /// The default scene one tick in, so that every pass has something to do.
 fn wanted(size: [u32; 2], yardstick: bool) -> Want {
     let loaded = load_scene("default").expect("the preset");
-    let shot = Shot { size, moment: Moment::tick(1), full_precision: false, yardstick, pace: Pace::Whole };
+    let shot =
+        Shot { size, moment: Moment::tick(1), full_precision: false, gamut: Gamut::Srgb, yardstick, pace: Pace::Whole };
     want(&loaded.scene, &loaded.resources, &shot).expect("a scene that can be drawn")
 }
 

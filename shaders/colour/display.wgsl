@@ -1,8 +1,5 @@
 // Tone curve, gamut mapping, encoding and dither of the display. The f64 twin is src/physics/colour/display.rs.
 
-// Relative luminance of linear BT.709.
-const LUMINANCE: vec3f = vec3f(0.2126390, 0.7151687, 0.0721923);
-
 // Radiance at which the curve leaves the straight line, and the radiance that it maps to display white. Both are relative to
 // the brightest channel, so the hue of a saturated fringe does not turn.
 const SHOULDER: f32 = 0.6;
@@ -23,14 +20,42 @@ fn tone_curve(linear: vec3f) -> vec3f {
     return mix(linear * (mapped / peak), vec3f(mapped), bleach);
 }
 
-// Brings a colour outside [0, 1] back by moving it towards the grey of its own luminance, just as far as needed.
-fn into_gamut(linear: vec3f) -> vec3f {
-    let grey = clamp(dot(LUMINANCE, linear), 0.0, 1.0);
-    let offset = linear - grey;
-    // Along grey + t offset, the t at which each channel leaves [0, 1].
-    let room = select(vec3f(grey), vec3f(1.0 - grey), offset > vec3f(0.0));
-    let t = room / max(abs(offset), vec3f(1e-9));
-    return clamp(grey + min(1.0, min(t.x, min(t.y, t.z))) * offset, vec3f(0.0), vec3f(1.0));
+// Where the curve of CIELAB leaves the cube root for a straight line.
+const CURVE_START: f32 = 6.0 / 29.0;
+
+fn lightness_curve(t: vec3f) -> vec3f {
+    let root = pow(max(t, vec3f(1e-9)), vec3f(1.0 / 3.0));
+    let line = t / (3.0 * CURVE_START * CURVE_START) + 4.0 / 29.0;
+    return select(line, root, t > vec3f(CURVE_START * CURVE_START * CURVE_START));
+}
+
+fn inverse_curve(f: vec3f) -> vec3f {
+    return select(3.0 * CURVE_START * CURVE_START * (f - 4.0 / 29.0), f * f * f, f > vec3f(CURVE_START));
+}
+
+fn is_inside(linear: vec3f) -> bool {
+    return all(linear >= vec3f(0.0)) && all(linear <= vec3f(1.0));
+}
+
+// Halvings of the chroma's range.
+const HALVINGS: u32 = 12u;
+
+// Brings a colour outside [0, 1] back by lowering its chroma in CIELAB, lightness and hue kept, just as far as needed. The matrices lead
+// from the display's linear RGB to XYZ relative to white, and back.
+fn into_gamut(linear: vec3f, to_xyz: mat3x3f, from_xyz: mat3x3f) -> vec3f {
+    if (is_inside(linear)) {
+        return linear;
+    }
+    let response = lightness_curve(to_xyz * linear);
+    let grey = clamp(response.y, 4.0 / 29.0, 1.0);
+    var kept = 0.0;
+    var step = 0.5;
+    for (var k = 0u; k < HALVINGS; k++) {
+        let tried = from_xyz * inverse_curve(grey + (kept + step) * (response - grey));
+        kept = select(kept, kept + step, is_inside(tried));
+        step *= 0.5;
+    }
+    return clamp(from_xyz * inverse_curve(grey + kept * (response - grey)), vec3f(0.0), vec3f(1.0));
 }
 
 fn encode_srgb(linear: vec3f) -> vec3f {

@@ -1,8 +1,9 @@
 // The light around the bubble, and what stands straight behind it.
 
-// Mirrors `LightUniform` in src/gpu/draw.rs. All colours are linear BT.2020.
+// Mirrors `LightUniform` in src/gpu/draw.rs. All colours are linear BT.2020. Light is RGB that stands for a spectrum relative to the
+// illuminant's (src/physics/colour/uplift.rs); what is seen of it is a colour.
 struct Light {
-    // Colour that the environment's radiance is multiplied with: intensity and the illuminant's white.
+    // Factor on the environment's radiance.
     gain: vec3f,
     // Angle between neighbouring texels at the centre of a face of the environment's finest level.
     texel_angle: f32,
@@ -10,14 +11,18 @@ struct Light {
     backdrop: vec3f,
     // 1 where the backdrop is the environment.
     backdrop_is_environment: f32,
-    // The illuminant's white: the film's colours are given relative to it.
-    white: vec3f,
+    // Factor that makes daylight's white (1, 1, 1).
+    scale: vec3f,
     // cos and sin of the environment's turn about the vertical are turn_cos here and turn_sin below.
     turn_cos: f32,
+    // Direction along which the electric field passes a polariser before the camera.
+    polariser: vec3f,
     turn_sin: f32,
+    // From light to what is seen of it under the illuminant, daylight's white being (1, 1, 1).
+    seen: mat3x3f,
 }
 
-// Radiance from a direction, filtered over a cone of the given angle.
+// Light from a direction, filtered over a cone of the given angle.
 fn environment_radiance(
     environment: texture_cube<f32>,
     environment_sampler: sampler,
@@ -30,7 +35,8 @@ fn environment_radiance(
         light.turn_cos * direction.y - light.turn_sin * direction.x,
         direction.z,
     );
-    let level = log2(max(footprint / light.texel_angle, 1.0));
+    // A texel of a level, blurred by its own box and by interpolation, has the variance of a box sqrt(3) times as wide.
+    let level = log2(max(0.577 * footprint / light.texel_angle, 1.0));
     return light.gain * textureSampleLevel(environment, environment_sampler, turned, level).rgb;
 }
 

@@ -5,15 +5,16 @@
 
 // Cosine of the refracted angle inside a film of index n, from the cosine of the angle outside (Snell).
 fn cos_refracted(n: f32, cos_theta: f32) -> f32 {
-    return sqrt(1.0 - (1.0 - cos_theta * cos_theta) / (n * n));
+    return sqrt(max(1.0 - (1.0 - cos_theta * cos_theta) / (n * n), 0.0));
 }
 
 // Squared Fresnel amplitudes (r_s^2, r_p^2) of one surface, air to film.
 fn surface_reflectance(n: f32, cos_theta: f32) -> vec2f {
     let cos_t = cos_refracted(n, cos_theta);
+    // The floor only matters at exactly grazing incidence on index 1, which is no surface.
     let r = vec2f(
-        (cos_theta - n * cos_t) / (cos_theta + n * cos_t),
-        (n * cos_theta - cos_t) / (n * cos_theta + cos_t),
+        (cos_theta - n * cos_t) / max(cos_theta + n * cos_t, 1e-30),
+        (n * cos_theta - cos_t) / max(n * cos_theta + cos_t, 1e-30),
     );
     return r * r;
 }
@@ -41,4 +42,27 @@ fn film_reflectance(n: f32, cos_theta: f32, thickness_nm: f32, wavelength_nm: f3
     let gap = 1.0 - r2;
     // The floor only matters at exactly grazing incidence on no film, where 0/0 stands for "nothing there".
     return interference / max(gap * gap + interference, vec2f(1e-30));
+}
+
+// Reflectances of three films for s and p light.
+struct Reflectances {
+    s: vec3f,
+    p: vec3f,
+}
+
+fn sin_pi3(x: vec3f) -> vec3f {
+    let y = x * x;
+    return x * (3.14159264 + y * (-5.16771008 + y * (2.55007752 + y * (-0.598291286 + y * 0.0776576603))));
+}
+
+// film_reflectance() for three films that light of one wavelength meets at one angle.
+fn film_reflectances(n: f32, cos_theta: f32, thickness_nm: vec3f, wavelength_nm: f32) -> Reflectances {
+    let r2 = surface_reflectance(n, cos_theta);
+    let half_turns = (2.0 * n * cos_refracted(n, cos_theta) / wavelength_nm) * thickness_nm;
+    let sine = sin_pi3(half_turns - round(half_turns));
+    let interference = 4.0 * sine * sine;
+    let gap = (1.0 - r2) * (1.0 - r2);
+    let s = r2.x * interference;
+    let p = r2.y * interference;
+    return Reflectances(s / max(gap.x + s, vec3f(1e-30)), p / max(gap.y + p, vec3f(1e-30)));
 }

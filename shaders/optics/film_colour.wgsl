@@ -1,20 +1,40 @@
-// What the table says of a film: its reflectance as linear BT.2020 colour, s and p light apart.
-// Everything that shows or reports a film's colour goes through film_colour().
+// What the table says of a single wall: what is seen of light that it reflects. Everything that shows or reports the colour of a single
+// wall from a table goes through film_reflection().
 
 import package::optics::airy::max_reflectance;
 import package::optics::table::{FilmPoint, TableAxes, table_coordinates};
 
-// Reflected colour for s and p light; a perfect mirror has the colour of the illuminant's white.
-struct Polarised {
-    s: vec3f,
-    p: vec3f,
+// 1: the table holds a layer for each primary of the light. 0: one for white light, and all light is white.
+override COLOURED: u32;
+// 1: the table holds s and p light apart. 0: their mean.
+override POLARISED: u32;
+
+fn table_light(table: texture_2d_array<f32>, table_sampler: sampler, uv: vec2f, first: u32, light: vec3f) -> vec3f {
+    let red = textureSampleLevel(table, table_sampler, uv, first, 0.0).rgb;
+    if (COLOURED == 0u) {
+        return red * light;
+    }
+    let green = textureSampleLevel(table, table_sampler, uv, first + 1u, 0.0).rgb;
+    let blue = textureSampleLevel(table, table_sampler, uv, first + 2u, 0.0).rgb;
+    return red * light.r + green * light.g + blue * light.b;
 }
 
-fn film_colour(table: texture_2d_array<f32>, table_sampler: sampler, axes: TableAxes, film: FilmPoint) -> Polarised {
+// What is seen of light that a film reflects, linear BT.2020. `polarisation` are the shares of s and p light, (1/2, 1/2) without a
+// polariser.
+fn film_reflection(
+    table: texture_2d_array<f32>,
+    table_sampler: sampler,
+    axes: TableAxes,
+    film: FilmPoint,
+    polarisation: vec2f,
+    light: vec3f,
+) -> vec3f {
     let uv = table_coordinates(axes, film);
     let scale = max_reflectance(axes.index, film.cos_theta);
-    return Polarised(
-        scale * textureSampleLevel(table, table_sampler, uv, 0, 0.0).rgb,
-        scale * textureSampleLevel(table, table_sampler, uv, 1, 0.0).rgb,
-    );
+    var reflected = table_light(table, table_sampler, uv, 0u, light);
+    if (POLARISED == 1u) {
+        let p = table_light(table, table_sampler, uv, select(1u, 3u, COLOURED == 1u), light);
+        reflected = polarisation.x * reflected + polarisation.y * p;
+    }
+    return scale * reflected;
 }

@@ -16,5 +16,6 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 @fragment
 fn backdrop(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let ray = view_ray(view, position.xy);
-    return vec4f(backdrop_radiance(environment, environment_sampler, light, ray, pixel_angle(view, ray)), 1.0);
+    let behind = backdrop_radiance(environment, environment_sampler, light, ray, pixel_angle(view, ray));
+    return vec4f(light.seen * behind, 1.0);
 }

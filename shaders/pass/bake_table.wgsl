@@ -1,28 +1,35 @@
-// Bakes the lookup table of film colours: for each texel the spectral sum over 421 wavelengths, one layer a polarisation,
-// divided by the greatest reflectance at its angle so that half floats and filtering spend their precision where the eye does.
+// Bakes the lookup table of what single walls reflect: for each texel the spectral sum over all wavelengths of the light, divided by the
+// greatest reflectance at its angle so that half floats and filtering spend their precision where the eye does. Layers: what is seen of
+// white light, or of each primary; of s and p light together, or first of s and then of p.
 
 import package::optics::airy::{film_reflectance, max_reflectance};
+import package::optics::band::Band;
 import package::optics::table::{TableAxes, film_of_texel};
 
-// One wavelength. Mirrors `SpectralSample` in src/gpu/bake_table.rs.
-struct SpectralSample {
-    // Linear BT.2020 colour that a perfect mirror would reflect of this wavelength's share of the light.
-    colour: vec3f,
-    // Refractive index of the film.
-    index: f32,
-}
+// As in optics/film_colour.wgsl.
+override COLOURED: u32;
+override POLARISED: u32;
 
 // Mirrors `BakeUniform` in src/gpu/bake_table.rs.
 struct Bake {
     axes: TableAxes,
     first_row: u32,
-    first_wavelength_nm: f32,
-    wavelength_step_nm: f32,
 }
 
 @group(0) @binding(0) var<uniform> bake: Bake;
-@group(0) @binding(1) var<storage, read> samples: array<SpectralSample>;
+@group(0) @binding(1) var<storage, read> samples: array<Band>;
 @group(0) @binding(2) var table: texture_storage_2d_array<rgba16float, write>;
+
+// What is seen of each primary, or of all three together.
+fn store(texel: vec2u, first: u32, seen: mat3x3f) {
+    if (COLOURED == 0u) {
+        textureStore(table, texel, first, vec4f(seen[0] + seen[1] + seen[2], 1.0));
+        return;
+    }
+    for (var k = 0u; k < 3u; k++) {
+        textureStore(table, texel, first + k, vec4f(seen[k], 1.0));
+    }
+}
 
 @compute @workgroup_size(64)
 fn bake_table(@builtin(global_invocation_id) id: vec3u) {
@@ -31,15 +38,21 @@ fn bake_table(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let film = film_of_texel(bake.axes, vec2f(texel));
-    var s = vec3f(0.0);
-    var p = vec3f(0.0);
+    var s = mat3x3f();
+    var p = mat3x3f();
     for (var k = 0u; k < arrayLength(&samples); k++) {
-        let wavelength_nm = bake.first_wavelength_nm + f32(k) * bake.wavelength_step_nm;
-        let r = film_reflectance(samples[k].index, film.cos_theta, film.thickness_nm, wavelength_nm);
-        s += r.x * samples[k].colour;
-        p += r.y * samples[k].colour;
+        let r = film_reflectance(samples[k].index, film.cos_theta, film.thickness_nm, samples[k].wavelength_nm);
+        if (POLARISED == 1u) {
+            s += r.x * samples[k].response;
+            p += r.y * samples[k].response;
+        } else {
+            s += (0.5 * (r.x + r.y)) * samples[k].response;
+        }
     }
-    let scale = max_reflectance(bake.axes.index, film.cos_theta);
-    textureStore(table, texel, 0u, vec4f(s / scale, 1.0));
-    textureStore(table, texel, 1u, vec4f(p / scale, 1.0));
+    // A film of index 1 reflects nothing, and nothing divided by the floor stays nothing.
+    let scale = 1.0 / max(max_reflectance(bake.axes.index, film.cos_theta), 1e-30);
+    store(texel, 0u, scale * s);
+    if (POLARISED == 1u) {
+        store(texel, select(1u, 3u, COLOURED == 1u), scale * p);
+    }
 }

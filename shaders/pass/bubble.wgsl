@@ -1,12 +1,13 @@
 // One bubble: an exact sphere traced through its bounding quad. Front reflection, transmission, back wall, inner reflections, each
-// wall with the thickness at its own hit; what is left after the last wall goes to the last direction, so no energy is lost.
+// wall with the thickness at its own hit.
 
 import package::camera::view::{View, pixel_angle, view_plane};
 import package::film::control::{Balance, balanced};
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
-import package::optics::film_colour::{Polarised, film_colour};
+import package::optics::band::Band;
+import package::optics::film_colour::{POLARISED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{product, scaled, sum, transmitted, unpolarised};
+import package::optics::walls::{EVERYTHING, band_radiance, deep_band_radiance};
 import package::sphere::cubed::{HALO, locate};
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::silhouette::{Silhouette, silhouette};
@@ -29,11 +30,15 @@ struct Bubble {
     // Cells along a panel's edge, of the film and of its tracer.
     cells: u32,
     tracer_cells: u32,
-    // What has evaporated from the whole film, in nm, and the thickness at which that ends.
+    // What has evaporated from the whole film, in nm.
     thinned_nm: f32,
     // Takes directions of the world to the film, which may turn as a whole.
     to_film: mat3x3f,
+    // The thickness at which evaporation ends, in nm.
     black_nm: f32,
+    // What the film's skins add to the thickness of a plain film that looks like it, and the thickness of both, in nm.
+    extra_nm: f32,
+    skins_nm: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -45,9 +50,10 @@ struct Bubble {
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;
 @group(0) @binding(8) var film: texture_2d_array<f32>;
-@group(0) @binding(9) var<uniform> film_balance: Balance;
-@group(0) @binding(10) var<storage, read> film_map: array<vec4f>;
-@group(0) @binding(11) var<storage, read> film_tracer: array<f32>;
+@group(0) @binding(9) var<storage, read> bands: array<Band>;
+@group(0) @binding(10) var<uniform> film_balance: Balance;
+@group(0) @binding(11) var<storage, read> film_map: array<vec4f>;
+@group(0) @binding(12) var<storage, read> film_tracer: array<f32>;
 
 @vertex
 fn bounding_quad(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -100,9 +106,10 @@ fn thickness_nm(point: vec3f) -> f32 {
     return max(thickness_nm - bubble.thinned_nm, min(thickness_nm, bubble.black_nm));
 }
 
-fn wall(point: vec3f, cos_theta: f32) -> Polarised {
-    let reflected = film_colour(table, table_sampler, axes, FilmPoint(cos_theta, thickness_nm(point)));
-    return scaled(reflected, 1.0 / light.white);
+// The thickness of the plain film that looks like the one at a point of the unit sphere.
+fn optical_nm(direction: vec3f) -> f32 {
+    let nm = thickness_nm(direction);
+    return nm + bubble.extra_nm * min(nm / bubble.skins_nm, 1.0);
 }
 
 fn backdrop(direction: vec3f, footprint: f32) -> vec3f {
@@ -137,27 +144,86 @@ fn footprint(path: Path, direction: vec3f, turns: f32) -> f32 {
     return max(sqrt(along * across), 0.25 * max(along, across));
 }
 
-// What comes along a ray that is inside the bubble and heads for the wall at `point`.
-fn inner_radiance(path: Path, point: vec3f) -> Polarised {
-    let chord = 2.0 * path.cos_theta;
-    let back = wall(point, path.cos_theta);
-    let v1 = path.direction - chord * point;
-    let point1 = point + chord * v1;
-    let second = wall(point1, path.cos_theta);
-    let v2 = v1 - chord * point1;
-    let straight = scaled(transmitted(back), backdrop(path.direction, path.pixel));
-    let once = scaled(transmitted(second), surroundings(v1, footprint(path, v1, -2.0)));
-    let twice = scaled(second, surroundings(v2, footprint(path, v2, -4.0)));
-    return sum(straight, product(back, sum(once, twice)));
+// Below this cosine a wall reflects so much that light of more than two inner reflections can be seen.
+const DEEP_COS: f32 = 0.3;
+
+// Shares of s and p light that a polariser leaves: their fields stand across the plane of incidence and in it.
+fn polarisation_along(path: Path) -> vec2f {
+    if (POLARISED == 0u) {
+        return vec2f(0.5);
+    }
+    let across = cross(path.direction, path.foot);
+    let s = dot(light.polariser, across);
+    let p = dot(light.polariser, cross(path.direction, across));
+    // Straight through the middle s and p are the same.
+    return (vec2f(s * s, p * p) + 5e-13) / (s * s + p * p + 1e-12);
 }
 
-fn outer_radiance(path: Path) -> vec3f {
-    let point = path.foot - path.cos_theta * path.direction;
-    let v0 = path.direction + 2.0 * path.cos_theta * point;
-    let mirrored = surroundings(v0, footprint(path, v0, 2.0));
-    let front = wall(point, path.cos_theta);
-    let inside = inner_radiance(path, path.foot + path.cos_theta * path.direction);
-    return unpolarised(sum(scaled(front, mirrored), product(transmitted(front), inside)));
+// What is seen along a ray: see optics/walls.wgsl. From inside the bubble there is no front wall.
+fn film_radiance(path: Path, is_inside: bool) -> vec3f {
+    let chord = 2.0 * path.cos_theta;
+    let polarisation = polarisation_along(path);
+    let behind = backdrop(path.direction, path.pixel);
+    let front = path.foot - path.cos_theta * path.direction;
+    let back = path.foot + path.cos_theta * path.direction;
+    let v1 = path.direction - chord * back;
+    let second = back + chord * v1;
+    let v2 = v1 - chord * second;
+    let light1 = surroundings(v1, footprint(path, v1, -2.0));
+    let light2 = surroundings(v2, footprint(path, v2, -4.0));
+    var walls_nm = vec3f(0.0, optical_nm(back), optical_nm(second));
+    var steps = mat3x3f(vec3f(0.0), light1 - behind, light2 - light1);
+    if (!is_inside) {
+        let v0 = path.direction + chord * front;
+        walls_nm.x = optical_nm(front);
+        steps[0] = surroundings(v0, footprint(path, v0, 2.0)) - behind;
+    }
+    var seen = vec3f(0.0);
+    if (EVERYTHING == 0u) {
+        seen = wall_reflection(path, walls_nm.x, polarisation, steps[0])
+            + wall_reflection(path, walls_nm.y, polarisation, steps[1]);
+    }
+    for (var k = 0u; k < arrayLength(&bands); k++) {
+        seen += band_radiance(bands[k], path.cos_theta, walls_nm, steps, polarisation);
+    }
+    if (path.cos_theta < DEEP_COS) {
+        seen += deep_radiance(path, walls_nm, second + chord * v2, v2, light2, polarisation);
+    }
+    return light.seen * behind + light.scale * seen;
+}
+
+fn wall_reflection(path: Path, nm: f32, polarisation: vec2f, step: vec3f) -> vec3f {
+    return film_reflection(table, table_sampler, axes, FilmPoint(path.cos_theta, nm), polarisation, step);
+}
+
+// What three more inner reflections add, from the hit after the second one on.
+fn deep_radiance(
+    path: Path,
+    walls_nm: vec3f,
+    third: vec3f,
+    v2: vec3f,
+    light2: vec3f,
+    polarisation: vec2f,
+) -> vec3f {
+    let chord = 2.0 * path.cos_theta;
+    var point = third;
+    var direction = v2;
+    var before = light2;
+    var deep_nm = vec3f(0.0);
+    var steps = mat3x3f();
+    for (var k = 0u; k < 3u; k++) {
+        deep_nm[k] = optical_nm(point);
+        direction -= chord * point;
+        point += chord * direction;
+        let radiance = surroundings(direction, footprint(path, direction, -2.0 * f32(k + 3u)));
+        steps[k] = radiance - before;
+        before = radiance;
+    }
+    var seen = vec3f(0.0);
+    for (var k = 0u; k < arrayLength(&bands); k++) {
+        seen += deep_band_radiance(bands[k], path.cos_theta, walls_nm, deep_nm, steps, polarisation);
+    }
+    return seen;
 }
 
 // Geometry of a view ray that meets the sphere.
@@ -177,13 +243,9 @@ fn path_along(direction: vec3f) -> Path {
     );
 }
 
-// Radiance of the bubble along the ray through a picture position whose ray is known to meet the sphere.
+// What is seen of the bubble along a ray that is known to meet it.
 fn bubble_radiance(direction: vec3f) -> vec3f {
-    let path = path_along(direction);
-    if (distance(view.eye_m, bubble.centre_m) <= bubble.radius_m) {
-        return unpolarised(inner_radiance(path, path.foot + path.cos_theta * direction));
-    }
-    return outer_radiance(path);
+    return film_radiance(path_along(direction), distance(view.eye_m, bubble.centre_m) <= bubble.radius_m);
 }
 
 // One sample: the bubble as far as it covers the sample's square, the backdrop in the rest.
@@ -196,24 +258,46 @@ fn sample_radiance(position: vec2f, width: f32) -> vec3f {
     }
     if (edge.coverage < 1.0) {
         let ray = normalize(plane);
-        radiance = mix(backdrop(ray, pixel_angle(view, ray)), radiance, edge.coverage);
+        radiance = mix(light.seen * backdrop(ray, pixel_angle(view, ray)), radiance, edge.coverage);
     }
     return radiance;
 }
 
-@fragment
-fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    if (SAMPLES == 1u) {
-        return vec4f(sample_radiance(position.xy, 1.0), 1.0);
-    }
-    let corner = floor(position.xy);
-    let width = 1.0 / f32(SAMPLES);
+// The mean over a grid of samples in a pixel.
+fn mean_radiance(position: vec2f, side: u32) -> vec3f {
+    let corner = floor(position);
+    let width = 1.0 / f32(side);
     var total = vec3f(0.0);
-    for (var k = 0u; k < SAMPLES * SAMPLES; k++) {
-        let offset = vec2f(f32(k % SAMPLES) + 0.5, f32(k / SAMPLES) + 0.5) * width;
+    for (var k = 0u; k < side * side; k++) {
+        let offset = vec2f(f32(k % side) + 0.5, f32(k / side) + 0.5) * width;
         total += sample_radiance(corner + offset, width);
     }
-    return vec4f(total * width * width, 1.0);
+    return total * width * width;
+}
+
+// Samples along each side of a pixel at the rim, where the film turns into a mirror within a few pixels.
+const RIM_SAMPLES: u32 = 3;
+// Relative change of cos theta from pixel to pixel above which a pixel is at the rim.
+const RIM_CHANGE: f32 = 0.3;
+
+fn is_at_rim(position: vec2f) -> bool {
+    let edge = silhouette(view, bubble.centre_m, bubble.radius_m, view_plane(view, position), 1.0);
+    if (edge.coverage < 1.0) {
+        return edge.coverage > 0.0;
+    }
+    let path = path_along(edge.inside);
+    return path.pixel * path.theta_rate * length(path.foot) > RIM_CHANGE * path.cos_theta;
+}
+
+@fragment
+fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    if (SAMPLES > 1u) {
+        return vec4f(mean_radiance(position.xy, SAMPLES), 1.0);
+    }
+    if (is_at_rim(position.xy)) {
+        return vec4f(mean_radiance(position.xy, RIM_SAMPLES), 1.0);
+    }
+    return vec4f(sample_radiance(position.xy, 1.0), 1.0);
 }
 
 // The yardstick of the frame's cost: a plain mirror with one filtered environment lookup.
@@ -221,12 +305,13 @@ fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
 fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let plane = view_plane(view, position.xy);
     let edge = silhouette(view, bubble.centre_m, bubble.radius_m, plane, 1.0);
-    let behind = backdrop(normalize(plane), view.pixel_height);
+    let behind = light.seen * backdrop(normalize(plane), view.pixel_height);
     if (edge.coverage <= 0.0) {
         return vec4f(behind, 1.0);
     }
     let path = path_along(edge.inside);
     let point = path.foot - path.cos_theta * path.direction;
     let mirrored = path.direction + 2.0 * path.cos_theta * point;
-    return vec4f(mix(behind, surroundings(mirrored, footprint(path, mirrored, 2.0)), edge.coverage), 1.0);
+    let shown = light.seen * surroundings(mirrored, footprint(path, mirrored, 2.0));
+    return vec4f(mix(behind, shown, edge.coverage), 1.0);
 }

@@ -1,8 +1,9 @@
 // Colours of a list of films through the very functions that pictures use: what `soapfilm colour` reports.
 
-import package::optics::film_colour::{Polarised, film_colour};
+import package::optics::band::Band;
+import package::optics::film_colour::film_reflection;
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{product, sum, transmitted, unpolarised};
+import package::optics::walls::{EVERYTHING, band_radiance};
 
 // Front, back and exit wall of one ray. Mirrors `ProbePoint` in src/gpu/probe_colour.rs.
 struct ProbePoint {
@@ -17,24 +18,32 @@ struct ProbePoint {
 @group(0) @binding(0) var<uniform> axes: TableAxes;
 @group(0) @binding(1) var table: texture_2d_array<f32>;
 @group(0) @binding(2) var table_sampler: sampler;
-@group(0) @binding(3) var<storage, read> points: array<ProbePoint>;
-@group(0) @binding(4) var<storage, read_write> colours: array<vec4f>;
+@group(0) @binding(3) var<storage, read> bands: array<Band>;
+@group(0) @binding(4) var<storage, read> points: array<ProbePoint>;
+@group(0) @binding(5) var<storage, read_write> colours: array<vec4f>;
 
-fn wall(cos_theta: f32, thickness_nm: f32) -> Polarised {
-    return film_colour(table, table_sampler, axes, FilmPoint(cos_theta, thickness_nm));
+const UNPOLARISED: vec2f = vec2f(0.5, 0.5);
+
+fn wall(cos_theta: f32, thickness_nm: f32) -> vec3f {
+    return film_reflection(table, table_sampler, axes, FilmPoint(cos_theta, thickness_nm), UNPOLARISED, vec3f(1.0));
 }
 
+// White light from where the outer and the first inner reflection lead, none from elsewhere: what is seen is the sum of the walls.
 @compute @workgroup_size(64)
 fn probe_colour(@builtin(global_invocation_id) id: vec3u) {
     if (id.x >= arrayLength(&points)) {
         return;
     }
     let at = points[id.x];
-    var reflected = wall(at.cos_theta, at.front_nm);
-    if (at.walls == 2u) {
-        let back = wall(at.cos_theta, at.back_nm);
-        let exit = wall(at.cos_theta, at.exit_nm);
-        reflected = sum(reflected, product(product(transmitted(reflected), back), transmitted(exit)));
+    let both = f32(at.walls == 2u);
+    let steps = mat3x3f(vec3f(1.0), vec3f(both), vec3f(-both));
+    var seen = vec3f(0.0);
+    if (EVERYTHING == 0u) {
+        seen = wall(at.cos_theta, at.front_nm) + both * wall(at.cos_theta, at.back_nm);
     }
-    colours[id.x] = vec4f(unpolarised(reflected), 1.0);
+    let walls_nm = vec3f(at.front_nm, at.back_nm, at.exit_nm);
+    for (var k = 0u; k < arrayLength(&bands); k++) {
+        seen += band_radiance(bands[k], at.cos_theta, walls_nm, steps, UNPOLARISED);
+    }
+    colours[id.x] = vec4f(seen, 1.0);
 }

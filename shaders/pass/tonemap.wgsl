@@ -4,8 +4,13 @@ import package::colour::display::{dithered, encode_srgb, into_gamut, tone_curve}
 
 // Mirrors `TonemapUniform` in src/gpu/tonemap.rs.
 struct Tonemap {
-    // Columns of the matrix from linear BT.2020 to linear BT.709.
-    to_bt709: mat3x3f,
+    // White balance, linear BT.2020.
+    balance: mat3x3f,
+    // From linear BT.2020 to the display's linear RGB.
+    to_display: mat3x3f,
+    // From the display's linear RGB to XYZ relative to its white, and back.
+    to_xyz: mat3x3f,
+    from_xyz: mat3x3f,
     // Factor on radiance: 2^exposure_ev.
     exposure: f32,
     // Seed of the dither; its amplitude in steps of the 8-bit display, 0 for none.
@@ -24,7 +29,8 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 @fragment
 fn tonemapped(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy);
-    let exposed = tonemap.exposure * textureLoad(radiance, pixel, 0).rgb;
-    let display = into_gamut(tonemap.to_bt709 * tone_curve(exposed));
+    let exposed = tonemap.exposure * (tonemap.balance * textureLoad(radiance, pixel, 0).rgb);
+    let linear = tonemap.to_display * tone_curve(max(exposed, vec3f(0.0)));
+    let display = into_gamut(linear, tonemap.to_xyz, tonemap.from_xyz);
     return vec4f(dithered(encode_srgb(display), pixel, tonemap.dither_seed, tonemap.dither_steps), 1.0);
 }

@@ -6,6 +6,7 @@ use super::{files::Files, model::Model};
 use crate::{
     gpu::{Gpu, GpuError, Renderer, readback::Readback},
     output::{Metadata, Picture},
+    physics::colour::Gamut,
     plan::{Pace, Shot, want},
 };
 
@@ -28,7 +29,8 @@ impl Capture {
         path: PathBuf,
     ) -> Result<Self, String> {
         let moment = model.clock.moment(&model.scene.motion);
-        let shot = Shot { size, moment, full_precision: radiance, yardstick: false, pace: Pace::Whole };
+        let shot =
+            Shot { size, moment, full_precision: radiance, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
         let want = want(&model.scene, &model.resources, &shot).map_err(|error| error.to_string())?;
         renderer.bring(&want).map_err(|error| error.to_string())?;
         let readback = if radiance { renderer.read_radiance() } else { renderer.read_picture() };
@@ -45,7 +47,7 @@ impl Capture {
             if radiance {
                 Picture::radiance_from_bt2020(size, &bytemuck::pod_collect_to_vec(&bytes))
             } else {
-                Picture::Display { size, rgba: bytes }
+                Picture::Display { size, gamut: Gamut::Srgb, rgba: bytes }
             }
         });
         Ok(false)

@@ -13,7 +13,7 @@ use std::{
 
 use super::model::{Model, Target};
 use crate::{
-    input::{LoadedScene, load_environment, load_scene},
+    input::{LoadError, LoadedScene, load_environment, load_illuminant, load_scene},
     output::{Metadata, Picture, write_text},
     physics::{colour::Illuminant, environment::CubeMap},
     plan::Resources,
@@ -73,8 +73,13 @@ impl Files {
         let folder = model.folder.clone();
         let known = &model.scene.light;
         let same = (&known.environment, known.constant) == (&light.environment, light.constant);
-        let environment = same.then(|| model.resources.environment.clone());
-        self.run(move || load_light(light, &folder, environment));
+        let (known, liquids) = (same.then(|| model.resources.environment.clone()), model.resources.liquids.clone());
+        self.run(move || match load_light(&light, &folder, known) {
+            Ok((environment, illuminant)) => {
+                Outcome::Light(Box::new(light), Resources { environment, illuminant, liquids })
+            }
+            Err(error) => Outcome::Failed(error.to_string()),
+        });
     }
 
     fn begin_load(&mut self, model: &mut Model, what: &str) {
@@ -164,15 +169,13 @@ impl Files {
     }
 }
 
-fn load_light(light: Light, folder: &Path, known: Option<Arc<CubeMap>>) -> Outcome {
-    let illuminant = match light.illuminant.parse::<Illuminant>() {
-        Ok(illuminant) => Arc::new(illuminant),
-        Err(error) => return Outcome::Failed(error.to_string()),
-    };
-    match known.map_or_else(|| load_environment(&light, folder), Ok) {
-        Ok(environment) => Outcome::Light(Box::new(light), Resources { environment, illuminant }),
-        Err(error) => Outcome::Failed(error.to_string()),
-    }
+fn load_light(
+    light: &Light,
+    folder: &Path,
+    known: Option<Arc<CubeMap>>,
+) -> Result<(Arc<CubeMap>, Arc<Illuminant>), LoadError> {
+    let illuminant = Arc::new(load_illuminant(&light.illuminant, folder)?);
+    Ok((known.map_or_else(|| load_environment(light, folder), Ok)?, illuminant))
 }
 
 #[cfg(test)]

@@ -21,6 +21,7 @@ use super::{
 };
 use crate::{
     gpu::AdapterChoice,
+    physics::colour::Gamut,
     plan::{FilmKey, Have, Pace, Plan, Shot, Want, want},
 };
 
@@ -158,7 +159,14 @@ impl View {
         }
         self.rests_until = None;
         let moment = model.clock.moment(&model.scene.motion);
-        let shot = Shot { size: self.picture_size, moment, full_precision: false, yardstick: false, pace: Pace::Frame };
+        let shot = Shot {
+            size: self.picture_size,
+            moment,
+            full_precision: false,
+            gamut: Gamut::Srgb,
+            yardstick: false,
+            pace: Pace::Frame,
+        };
         let brought = want(&model.scene, &model.resources, &shot).map_err(|error| error.to_string()).and_then(|want| {
             let plan = self.stage.renderer.bring(&want).map_err(|error| error.to_string())?;
             Ok((want, plan))

@@ -144,7 +144,7 @@ impl Model {
     /// Puts another film on a bubble. All films share an index; another beginning of one is another beginning of all.
     pub fn change_film(&mut self, index: usize, film: Film) {
         for other in &mut self.scene.bubbles {
-            other.film.index = film.index;
+            (other.film.index, other.film.skin_nm) = (film.index.clone(), film.skin_nm);
         }
         let Some(bubble) = self.scene.bubbles.get_mut(index) else { return };
         if bubble.film != film {

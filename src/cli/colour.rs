@@ -8,18 +8,15 @@ use glam::DVec3;
 
 use super::{AdapterArguments, parse};
 use crate::{
-    gpu::{
-        bake_table::Table,
-        probe_colour::{ProbePoint, probe_colours},
-        timing::Recorder,
-    },
-    input::read_text,
+    gpu::probe_colour::{ColourProbe, ProbePoint},
+    input::{load_illuminant, load_liquid, read_text},
     output::write_text,
     physics::{
-        colour::{BT2020, FilmOptics, Illuminant, Walls},
-        optics::FilmIndex,
+        colour::{BT2020, FilmOptics, Walls},
+        optics::FilmMaterial,
     },
-    plan::TableKey,
+    plan::OpticsKey,
+    scene::Quality,
 };
 
 /// Report the colour that a film reflects.
@@ -37,13 +34,16 @@ pub struct Arguments {
     /// A CSV file of films
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["thickness", "cos"])]
     points: Option<PathBuf>,
-    /// `water`, or a refractive index
-    #[arg(long, value_name = "water|INDEX", default_value = "water")]
-    film: FilmIndex,
-    /// The light: D65, D50, A or E
-    #[arg(long, value_name = "NAME", default_value = "D65")]
+    /// `water`, `water 25C`, `glycerol 30%`, a refractive index, or a CSV file of wavelength_nm,n
+    #[arg(long, value_name = "FILM", default_value = "water")]
+    film: String,
+    /// Thickness in nm of the layer of soap molecules on each face
+    #[arg(long, value_name = "NM", default_value = "0", value_parser = parse::skin_nm)]
+    skin: f64,
+    /// The light: D65, D50, A, E, FL2, FL11, LED, sodium, a black body like `3000 K`, or a CSV file of wavelength_nm,power
+    #[arg(long, value_name = "LIGHT", default_value = "D65")]
     illuminant: String,
-    /// `standard` (through the table that pictures use) or `reference` (f64 on the CPU, no GPU needed)
+    /// `fast`, `standard`, `spectral` (as pictures of that quality have it) or `reference` (f64 on the CPU, no GPU needed)
     #[arg(long, value_name = "QUALITY", default_value = "standard", value_parser = parse::quality)]
     quality: parse::Quality,
     /// Add the reflectance every 5 nm from 360 to 780 nm
@@ -57,12 +57,14 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let illuminant: Illuminant = arguments.illuminant.parse()?;
+    let folder = Path::new("");
+    let film = FilmMaterial { index: load_liquid(&arguments.film, folder)?, skin_nm: arguments.skin };
+    let key = OpticsKey { film, illuminant: load_illuminant(&arguments.illuminant, folder)?.into() };
     let points = points(arguments)?;
-    let optics = FilmOptics::new(arguments.film, &illuminant);
+    let optics = key.spectra();
     let colours = match arguments.quality {
         parse::Quality::Reference => points.films.iter().map(|film| optics.xyz(film.cos_theta, film.walls)).collect(),
-        parse::Quality::Standard => through_table(arguments, illuminant, &points.films)?,
+        parse::Quality::Gpu(quality) => through_shaders(arguments, &key, quality, &points.films)?,
     };
     let text = table(&points, &colours, arguments.spectrum.then_some(&optics))?;
     match &arguments.output {
@@ -141,31 +143,21 @@ fn film_of(record: &csv::StringRecord, [thickness, cosine, back, exit]: [usize; 
     Ok(FilmPoint { cos_theta, walls })
 }
 
-/// Unpolarised XYZ through the table and the shader functions of pictures.
-fn through_table(arguments: &Arguments, illuminant: Illuminant, films: &[FilmPoint]) -> anyhow::Result<Vec<DVec3>> {
+/// Unpolarised XYZ through the table, the bands and the shader functions of pictures.
+fn through_shaders(
+    arguments: &Arguments,
+    key: &OpticsKey,
+    quality: Quality,
+    films: &[FilmPoint],
+) -> anyhow::Result<Vec<DVec3>> {
     let gpu = arguments.adapter.open()?;
-    let points: Vec<ProbePoint> = films.iter().map(probe_point).collect();
-    let thickest = points.iter().flat_map(|point| [point.front_nm, point.back_nm, point.exit_nm]).fold(0.0, f32::max);
-    let key = TableKey::full(arguments.film, illuminant.into(), f64::from(thickest));
-    let baked = Table::new(&gpu, &key);
-    let mut recorder = Recorder::new(&gpu);
-    baked.bake(&mut recorder, &key, 0..key.rows)?;
-    recorder.submit(&Default::default());
-    let mut colours = Vec::with_capacity(films.len());
-    for chunk in probe_colours(&gpu, &baked, &points)? {
-        let rgba: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&chunk.wait(&gpu)?);
-        colours.extend(rgba.iter().map(|[r, g, b, _]| BT2020.to_xyz() * glam::Vec3::new(*r, *g, *b).as_dvec3()));
-    }
-    Ok(colours)
-}
-
-fn probe_point(film: &FilmPoint) -> ProbePoint {
-    let (walls, [front_nm, back_nm, exit_nm]) = match film.walls {
-        Walls::One { thickness_nm } => (1, [thickness_nm, 0.0, 0.0]),
-        Walls::Two { front_nm, back_nm, exit_nm } => (2, [front_nm, back_nm, exit_nm]),
-    };
-    let [front_nm, back_nm, exit_nm] = [front_nm, back_nm, exit_nm].map(|nm| nm as f32);
-    ProbePoint { cos_theta: film.cos_theta as f32, front_nm, back_nm, exit_nm, walls }
+    let points: Vec<ProbePoint> = films
+        .iter()
+        .map(|film| ProbePoint::new(film.cos_theta, film.walls.map(|nm| key.film.equivalent_nm(nm))))
+        .collect();
+    let thickest_nm = points.iter().map(ProbePoint::thickest_nm).fold(0.0, f64::max);
+    let colours = ColourProbe::new(&gpu, key, quality, thickest_nm)?.measure(&gpu, &points)?;
+    Ok(colours.into_iter().map(|colour| BT2020.to_xyz() * colour).collect())
 }
 
 fn table(points: &Points, colours: &[DVec3], spectrum: Option<&FilmOptics>) -> anyhow::Result<String> {

@@ -5,9 +5,11 @@
 
 mod colour;
 mod info;
+mod lut;
 mod measure;
 mod parse;
-pub mod reference;
+mod progress;
+mod reference;
 mod render;
 mod transport;
 mod verify;
@@ -44,6 +46,8 @@ enum Command {
     Render(render::Arguments),
     /// Report the colour that a film reflects
     Colour(colour::Arguments),
+    /// Write the lookup table of film colours, and how to sample it
+    Lut(lut::Arguments),
     /// Run a published test of transport on the sphere
     Transport(transport::Arguments),
     /// Measure this machine's GPU against the references
@@ -112,6 +116,7 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
         }
         Command::Render(arguments) => render::run(&arguments),
         Command::Colour(arguments) => colour::run(&arguments),
+        Command::Lut(arguments) => lut::run(&arguments),
         Command::Transport(arguments) => transport::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),

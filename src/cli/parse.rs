@@ -1,5 +1,7 @@
 //! Parsers of single arguments.
 
+use crate::{physics::colour::Gamut, scene};
+
 /// Pixels of the largest picture: what a card of 4 GB can hold at full precision.
 const MAX_PIXELS: u64 = 1 << 26;
 
@@ -50,22 +52,51 @@ pub fn thickness_nm(text: &str) -> Result<f64, String> {
     }
 }
 
-/// How colours are found: see the crate's documentation.
+/// The range of a table in nm.
+pub fn range_nm(text: &str) -> Result<f64, String> {
+    let value = finite(text)?;
+    if (1.0..=10_000.0).contains(&value) { Ok(value) } else { Err("a table spans 1 to 10000 nm".to_owned()) }
+}
+
+/// Columns and rows of a table, `64x2048`.
+pub fn table_size(text: &str) -> Result<[u32; 2], String> {
+    let size = size(text)?;
+    if size.iter().all(|side| (2..=8192).contains(side)) {
+        Ok(size)
+    } else {
+        Err("a table has 2 to 8192 columns and rows".to_owned())
+    }
+}
+
+/// A thickness of skins in nm.
+pub fn skin_nm(text: &str) -> Result<f64, String> {
+    let value = finite(text)?;
+    if (0.0..=5.0).contains(&value) { Ok(value) } else { Err("a skin is from 0 to 5 nm thick".to_owned()) }
+}
+
+/// How colours are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {
-    /// The lookup table.
-    Standard,
-    /// f64 on the CPU.
+    /// By shaders.
+    Gpu(scene::Quality),
+    /// In f64 on the CPU.
     Reference,
 }
 
-/// `standard` or `reference`; those that will come are refused by name.
+/// `fast`, `standard`, `spectral` or `reference`.
 pub fn quality(text: &str) -> Result<Quality, String> {
+    let named = scene::Quality::ALL.into_iter().find(|quality| quality.name() == text).map(Quality::Gpu);
+    named
+        .or((text == "reference").then_some(Quality::Reference))
+        .ok_or_else(|| "use `fast`, `standard`, `spectral` or `reference`".to_owned())
+}
+
+/// `srgb` or `p3`.
+pub fn gamut(text: &str) -> Result<Gamut, String> {
     match text {
-        "standard" => Ok(Quality::Standard),
-        "reference" => Ok(Quality::Reference),
-        "fast" | "spectral" => Err(format!("quality `{text}` is not built yet; use `standard` or `reference`")),
-        _ => Err("use `standard` or `reference`".to_owned()),
+        "srgb" => Ok(Gamut::Srgb),
+        "p3" => Ok(Gamut::DisplayP3),
+        _ => Err("use `srgb` or `p3`".to_owned()),
     }
 }
 
@@ -99,8 +130,9 @@ mod tests {
     }
 
     #[test]
-    fn qualities_to_come_are_refused_by_name() {
-        assert_eq!(quality("standard"), Ok(Quality::Standard));
-        assert!(quality("spectral").unwrap_err().contains("not built yet"));
+    fn qualities_have_names() {
+        assert_eq!(quality("spectral"), Ok(Quality::Gpu(scene::Quality::Spectral)));
+        assert_eq!(quality("reference"), Ok(Quality::Reference));
+        assert!(quality("best").is_err() && gamut("rec2020").is_err());
     }
 }

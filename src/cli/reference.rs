@@ -1,124 +1,27 @@
-//! `--quality reference`: the picture in f64 on the CPU, from the same keys that the GPU's passes read.
+//! `--quality reference`: the f64 picture as files hold it.
 
 use glam::DVec3;
 
 use crate::{
     output::Picture,
-    physics::{
-        colour::{Display, FilmOptics, bt2020_to_bt709},
-        picture::{FilmSphere, PictureCamera, PictureScene},
-        sphere::{CubedSphere, GridError},
-        transport::FlowMap,
-    },
-    plan::{
-        BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey, TonemapKey,
-    },
+    physics::colour::{Display, bt2020_to_bt709},
+    plan::TonemapKey,
 };
-
-/// Radiance of each pixel, linear BT.2020.
-///
-/// # Errors
-/// A film's grid that is too coarse or too fine.
-pub fn radiance(key: &DrawKey) -> Result<Vec<DVec3>, GridError> {
-    let optics = FilmOptics::new(key.table.index, &key.table.illuminant);
-    let surroundings = |direction: DVec3| key.light.gain * key.environment.0.sample(turned(&key.light, direction));
-    let scene = PictureScene {
-        size: key.size,
-        camera: camera(&key.camera),
-        optics: &optics,
-        spheres: key.bubbles.iter().map(sphere).collect::<Result<_, _>>()?,
-        surroundings: &surroundings,
-        backdrop: match key.light.backdrop {
-            BackdropKey::Environment => None,
-            BackdropKey::Colour(radiance) => Some(radiance),
-        },
-        samples: key.bubbles.iter().map(|bubble| bubble.samples).fold(SAMPLES, u32::max),
-    };
-    Ok(scene.radiance())
-}
-
-/// Samples along each side of a pixel: the environment is looked up in its finest level only, so a pixel must average by itself.
-const SAMPLES: u32 = 2;
 
 /// What a display shows of it.
 pub fn display(key: &TonemapKey, radiance: &[DVec3]) -> Picture {
     let [width, _] = key.draw.size;
-    let display = Display { exposure_ev: key.exposure_ev, dither: key.dither };
+    let display = Display { exposure_ev: key.exposure_ev, balance: key.balance, gamut: key.gamut, dither: key.dither };
     let pixels = radiance.iter().zip(0..);
     let rgba = pixels.flat_map(|(radiance, k): (_, u32)| {
         let [r, g, b] = display.encode(*radiance, [k % width, k / width]);
         [r, g, b, u8::MAX]
     });
-    Picture::Display { size: key.draw.size, rgba: rgba.collect() }
+    Picture::Display { size: key.draw.size, gamut: key.gamut, rgba: rgba.collect() }
 }
 
 /// The radiance itself, as pictures are written.
 pub fn linear(size: [u32; 2], radiance: &[DVec3]) -> Picture {
     let to_bt709 = bt2020_to_bt709();
     Picture::Radiance { size, rgb: radiance.iter().map(|pixel| (to_bt709 * *pixel).as_vec3().to_array()).collect() }
-}
-
-fn camera(key: &CameraKey) -> PictureCamera {
-    PictureCamera {
-        eye_m: key.eye_m,
-        forward: key.forward,
-        right: key.right,
-        up: key.up,
-        pixel_height_m: key.pixel_height_m,
-    }
-}
-
-/// A world direction in the frame of the environment, which is turned about the vertical.
-fn turned(light: &LightKey, direction: DVec3) -> DVec3 {
-    let (sin, cos) = light.rotation_rad.sin_cos();
-    DVec3::new(cos * direction.x + sin * direction.y, cos * direction.y - sin * direction.x, direction.z)
-}
-
-fn sphere(key: &BubbleKey) -> Result<FilmSphere<'static>, GridError> {
-    let field: Box<dyn Fn(DVec3) -> f64 + Send + Sync> = match &key.film {
-        FilmKey::Uniform(thickness_nm) => {
-            let thickness_nm = *thickness_nm;
-            Box::new(move |_| thickness_nm)
-        }
-        FilmKey::Field(field) => {
-            let film = film(field)?;
-            Box::new(move |direction| film.value(direction))
-        }
-    };
-    let (to_film, thinned_nm) = (key.to_film, key.thinned_nm);
-    let thickness_nm = Box::new(move |direction: DVec3| {
-        let thickness_nm = field(to_film * direction);
-        (thickness_nm - thinned_nm).max(thickness_nm.min(BLACK_FILM_NM))
-    });
-    Ok(FilmSphere { centre_m: key.centre_m, radius_m: key.radius_m, thickness_nm })
-}
-
-/// A film at its moment: the scheme of the GPU in f64 by the same steps, remapped when as many ticks have passed as there are at most.
-pub fn film(key: &FieldKey) -> Result<FlowMap, GridError> {
-    let mut film = FlowMap::new(CubedSphere::new(key.cells as usize)?, key.scheme, key.initial.profile())?;
-    let mut since_remap = 0;
-    for step in key.steps_from(0) {
-        let ticks = step.end - step.start;
-        advance(&mut film, key, step.start, ticks as f64);
-        since_remap += ticks;
-        if since_remap >= u64::from(key.remap_ticks) || !key.scheme.keeps_map() {
-            film.remap();
-            since_remap = 0;
-        }
-    }
-    let state = key.state_tick();
-    let ahead = (key.moment.tick - state) as f64 + key.moment.fraction;
-    if ahead > 0.0 {
-        advance(&mut film, key, state, ahead);
-    }
-    Ok(film)
-}
-
-/// Moves a film by so many ticks.
-fn advance(film: &mut FlowMap, key: &FieldKey, tick: u64, ticks: f64) {
-    let law = key.law(tick);
-    if law != FlowLaw::Rest {
-        let flow = law.prescribed();
-        film.step(key.tick_s * tick as f64, key.tick_s * ticks, |x, t| flow.velocity(x, t));
-    }
 }

@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use anyhow::{Context, bail};
 use clap::Args;
 
-use super::{AdapterArguments, measure, parse, reference};
+use super::{AdapterArguments, measure, parse, progress::Progress, reference};
 use crate::{
     gpu::{GpuError, Renderer},
     input::{LoadedScene, load_scene},
     output::{Metadata, Picture},
+    physics::colour::Gamut,
     plan::{Moment, Pace, Shot, Want, want},
+    verify,
 };
 
 /// Draw one picture into a PNG or EXR file.
@@ -30,9 +32,12 @@ pub struct Arguments {
     /// Moment of the film, in seconds from its start
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = parse::time_s)]
     time: f64,
-    /// `standard` (the lookup table) or `reference` (f64 on the CPU, no GPU needed)
-    #[arg(long, value_name = "QUALITY", default_value = "standard", value_parser = parse::quality)]
-    quality: parse::Quality,
+    /// `fast`, `standard`, `spectral` (wavelengths in the shader) or `reference` (f64 on the CPU, no GPU needed) [default: the scene's]
+    #[arg(long, value_name = "QUALITY", value_parser = parse::quality)]
+    quality: Option<parse::Quality>,
+    /// Colours of a PNG: `srgb`, or `p3` for wide displays
+    #[arg(long, value_name = "GAMUT", default_value = "srgb", value_parser = parse::gamut)]
+    gamut: Gamut,
     /// Print the frame plan, and why each pass runs
     #[arg(long)]
     explain: bool,
@@ -54,7 +59,10 @@ const MAX_TICKS: u64 = 10_000_000;
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let format = Format::of(arguments)?;
-    let loaded = load_scene(&arguments.scene)?;
+    let mut loaded = load_scene(&arguments.scene)?;
+    if let Some(parse::Quality::Gpu(quality)) = arguments.quality {
+        loaded.scene.view.quality = quality;
+    }
     let moment = Moment::of_time(arguments.time, loaded.scene.motion.tick_s);
     if moment.tick > MAX_TICKS {
         bail!("--time {} is {} ticks of this scene; at most {MAX_TICKS} can be simulated", arguments.time, moment.tick);
@@ -63,13 +71,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         size: arguments.size,
         moment,
         full_precision: format == Format::Exr,
+        gamut: arguments.gamut,
         yardstick: false,
         pace: Pace::Whole,
     };
     let want = want(&loaded.scene, &loaded.resources, &shot)?;
     let picture = match arguments.quality {
-        parse::Quality::Standard => draw(arguments, &want, format)?,
-        parse::Quality::Reference => compute(arguments, &want, format)?,
+        Some(parse::Quality::Reference) => compute(arguments, &want, format)?,
+        Some(parse::Quality::Gpu(_)) | None => draw(arguments, &want, format)?,
     };
     Ok(picture.save(&arguments.output, &metadata(arguments, &loaded))?)
 }
@@ -110,7 +119,7 @@ fn draw(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result<Pi
         measure::report(&renderer, &first, &cost, arguments.stats.as_deref())?;
     }
     let picture = match format {
-        Format::Png => Picture::Display { size: arguments.size, rgba: bytes },
+        Format::Png => Picture::Display { size: arguments.size, gamut: arguments.gamut, rgba: bytes },
         Format::Exr => Picture::radiance_from_bt2020(arguments.size, &bytemuck::pod_collect_to_vec(&bytes)),
     };
     Ok(picture)
@@ -131,7 +140,9 @@ fn compute(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result
     if arguments.explain || arguments.repeat > 0 || arguments.stats.is_some() {
         bail!("--explain, --repeat and --stats tell of the GPU; leave them out with --quality reference");
     }
-    let radiance = reference::radiance(&want.picture.draw)?;
+    let progress = Progress::new("reference", arguments.size[1] as usize);
+    let radiance = verify::reference::radiance(&want.picture.draw, &|| progress.step())?;
+    drop(progress);
     Ok(match format {
         Format::Png => reference::display(&want.picture, &radiance),
         Format::Exr => reference::linear(arguments.size, &radiance),

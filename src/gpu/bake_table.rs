@@ -1,19 +1,15 @@
-//! Bakes the lookup table (√cosθ × path in the film → colour) from 421 wavelengths.
+//! Bakes the lookup table (√cosθ × path in the film → what is seen of light that one wall reflects) from all wavelengths.
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{Gpu, GpuError, pipelines::ComputeKey, timing::Recorder};
-use crate::{
-    physics::{
-        colour::{BT2020, FilmOptics},
-        optics::REFERENCE_NM,
-        spectra,
-    },
-    plan::TableKey,
-};
+use super::{Gpu, GpuError, bands::spectrum_samples, pipelines::ComputeKey, timing::Recorder};
+use crate::plan::{OpticsKey, TableKey};
 
 /// Format of the table: filterable and storable on every adapter.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+
+/// Rows of one dispatch, so that none runs long.
+const ROWS_A_DISPATCH: usize = 512;
 
 /// What a table spans: see `shaders/optics/table.wgsl`.
 #[repr(C)]
@@ -23,7 +19,7 @@ pub struct TableAxes {
     pub size: [f32; 2],
     /// Thickness at the last row for normal incidence, in nm.
     pub max_thickness_nm: f32,
-    /// Index of the film at [`REFERENCE_NM`].
+    /// Index of the film at the sodium line.
     pub index: f32,
 }
 
@@ -34,19 +30,9 @@ impl TableAxes {
         Self {
             size: [key.columns as f32, key.rows as f32],
             max_thickness_nm: key.max_thickness_nm as f32,
-            index: key.index.n(REFERENCE_NM) as f32,
+            index: key.optics.film.reference_index() as f32,
         }
     }
-}
-
-/// One wavelength of the spectral sum.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct SpectralSample {
-    /// Linear BT.2020 colour that a perfect mirror reflects of it.
-    pub colour: [f32; 3],
-    /// Refractive index of the film.
-    pub index: f32,
 }
 
 /// What one dispatch reads besides the spectra.
@@ -57,18 +43,14 @@ pub struct BakeUniform {
     pub axes: TableAxes,
     /// First row to bake.
     pub first_row: u32,
-    /// First wavelength, in nm.
-    pub first_wavelength_nm: f32,
-    /// Step between wavelengths, in nm.
-    pub wavelength_step_nm: f32,
-    pad: u32,
+    pad: [u32; 3],
 }
 
-/// A table on the device: two layers, s and p light.
+/// A table on the device: a layer for each primary and polarisation that it keeps apart.
 pub struct Table {
     /// What it spans, as a uniform.
     pub axes: wgpu::Buffer,
-    /// View of both layers.
+    /// View of all layers.
     pub view: wgpu::TextureView,
     samples: wgpu::Buffer,
 }
@@ -79,7 +61,7 @@ impl Table {
     pub fn new(gpu: &Gpu, key: &TableKey) -> Self {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("film table"),
-            size: wgpu::Extent3d { width: key.columns, height: key.rows, depth_or_array_layers: 2 },
+            size: wgpu::Extent3d { width: key.columns, height: key.rows, depth_or_array_layers: key.layers() },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -92,7 +74,24 @@ impl Table {
             ..Default::default()
         });
         let axes = gpu.uniform("table axes", &TableAxes::of(key));
-        Self { axes, view, samples: gpu.storage("spectra", &spectral_samples(key)) }
+        Self { axes, view, samples: gpu.storage("spectra", &spectrum_samples(&key.optics.spectra())) }
+    }
+
+    /// A whole table.
+    pub fn baked(gpu: &Gpu, key: &TableKey) -> Result<Self, GpuError> {
+        let table = Self::new(gpu, key);
+        let mut recorder = Recorder::new(gpu);
+        for first in (0..key.rows).step_by(ROWS_A_DISPATCH) {
+            table.bake(&mut recorder, key, first..(first + ROWS_A_DISPATCH as u32).min(key.rows))?;
+        }
+        recorder.submit(&Default::default());
+        Ok(table)
+    }
+
+    /// The smallest table, for the binding of a shader that reads none.
+    #[must_use]
+    pub fn unread(gpu: &Gpu, optics: &OpticsKey) -> Self {
+        Self::new(gpu, &TableKey { columns: 1, rows: 1, ..TableKey::full(optics.clone(), TableKey::MIN_RANGE_NM) })
     }
 
     /// Records the bake of some rows.
@@ -103,15 +102,10 @@ impl Table {
         rows: std::ops::Range<u32>,
     ) -> Result<(), GpuError> {
         let gpu = recorder.gpu;
-        let pipeline_key = ComputeKey { pass: "bake_table", entry: "bake_table", constants: vec![] };
+        let constants = table_constants(key.coloured, key.polarised).to_vec();
+        let pipeline_key = ComputeKey { pass: "bake_table", entry: "bake_table", constants };
         let pipeline = gpu.pipelines.compute(gpu, &pipeline_key)?;
-        let uniform = BakeUniform {
-            axes: TableAxes::of(key),
-            first_row: rows.start,
-            first_wavelength_nm: spectra::FIRST_NM as f32,
-            wavelength_step_nm: 1.0,
-            pad: 0,
-        };
+        let uniform = BakeUniform { axes: TableAxes::of(key), first_row: rows.start, pad: [0; 3] };
         let uniform = gpu.uniform("bake", &uniform);
         let bindings = gpu.bind(
             &pipeline.get_bind_group_layout(0),
@@ -126,17 +120,10 @@ impl Table {
     }
 }
 
-fn spectral_samples(key: &TableKey) -> Vec<SpectralSample> {
-    let optics = FilmOptics::new(key.index, &key.illuminant);
-    let to_bt2020 = BT2020.from_xyz();
-    let weights = optics.weights().as_slice().iter();
-    weights
-        .zip(optics.indices())
-        .map(|(weight, index)| SpectralSample {
-            colour: (to_bt2020 * *weight).as_vec3().to_array(),
-            index: *index as f32,
-        })
-        .collect()
+/// Constants of all passes that write or read a table, or would if the quality had one.
+#[must_use]
+pub fn table_constants(coloured: bool, polarised: bool) -> [(&'static str, u32); 2] {
+    [("COLOURED", u32::from(coloured)), ("POLARISED", u32::from(polarised))]
 }
 
 /// Filters a table: linear, and no wrapping at its ends.

@@ -134,6 +134,15 @@ impl Gpu {
         surface: Option<&wgpu::Surface<'_>>,
     ) -> Result<Self, GpuError> {
         let adapter = find_adapter(&instance, choice, surface).await?;
+        Self::on_adapter(instance, adapter).await
+    }
+
+    /// Another device on the same adapter, with nothing on it.
+    pub async fn another(&self) -> Result<Self, GpuError> {
+        Self::on_adapter(self.instance.clone(), self.adapter.clone()).await
+    }
+
+    async fn on_adapter(instance: wgpu::Instance, adapter: wgpu::Adapter) -> Result<Self, GpuError> {
         let info = adapter.get_info();
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("soapfilm"),

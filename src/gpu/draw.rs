@@ -1,11 +1,12 @@
 //! Draws the linear picture: the backdrop, then each bubble through its bounding quad.
 
 use bytemuck::{Pod, Zeroable};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::{
     Gpu, GpuError,
-    bake_table::{Table, table_sampler},
+    bake_table::{Table, table_constants, table_sampler},
+    bands::{Bands, band_constant},
     environment::{Environment, texel_angle},
     film::{NoFilm, Shown},
     pipelines::RenderKey,
@@ -49,13 +50,16 @@ pub struct LightUniform {
     pub backdrop: [f32; 3],
     /// 1 where the backdrop is the environment.
     pub backdrop_is_environment: f32,
-    /// The illuminant's white.
-    pub white: [f32; 3],
+    /// Factor that makes daylight's white (1, 1, 1).
+    pub scale: [f32; 3],
     /// Cosine of the environment's turn.
     pub turn_cos: f32,
+    /// Direction that a polariser lets pass.
+    pub polariser: [f32; 3],
     /// Sine of the environment's turn.
     pub turn_sin: f32,
-    pad: [f32; 3],
+    /// From light to what is seen of it: columns of a matrix, the fourth number of each is padding.
+    pub seen: [[f32; 4]; 3],
 }
 
 /// One bubble: see `shaders/pass/bubble.wgsl`.
@@ -80,15 +84,21 @@ pub struct BubbleUniform {
     pub to_film: [[f32; 4]; 3],
     /// Thickness at which evaporation ends, in nm.
     pub black_nm: f32,
-    pad: [u32; 3],
+    /// What the film's skins add to its thickness, in nm.
+    pub extra_nm: f32,
+    /// Thickness of both skins, in nm; above 0.
+    pub skins_nm: f32,
+    pad: u32,
 }
 
 /// What a draw reads that other passes left.
 pub struct DrawInputs<'a> {
     /// The environment.
     pub environment: &'a Environment,
-    /// The table.
+    /// The table, where the quality has one.
     pub table: Option<&'a Table>,
+    /// The bands, where there is a bubble.
+    pub bands: Option<&'a Bands>,
     /// What a film shows, by its index.
     pub film: &'a dyn Fn(usize) -> Option<Shown<'a>>,
 }
@@ -130,12 +140,14 @@ impl DrawPass {
         let pipeline = gpu.pipelines.render(gpu, &backdrop_key)?;
         let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &shared);
         let mut pass = Self { backdrop: (pipeline, bindings), bubbles: Vec::new(), width: key.size[0] };
-        let Some(table) = inputs.table else { return Ok(pass) };
+        let Some(bands) = inputs.bands else { return Ok(pass) };
+        let unread = key.table.is_none().then(|| Table::unread(gpu, &key.bands.optics));
+        let Some(table) = unread.as_ref().or(inputs.table) else { return Ok(pass) };
         let sampler = table_sampler(gpu);
         let no_film = NoFilm::new(gpu);
         for bubble in &key.bubbles {
             let pipeline = gpu.pipelines.render(gpu, &bubble_pipeline(key, bubble))?;
-            let uniform = gpu.uniform("bubble", &bubble_uniform(bubble));
+            let uniform = gpu.uniform("bubble", &bubble_uniform(key, bubble));
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let own = [
                 uniform.as_entire_binding(),
@@ -143,6 +155,7 @@ impl DrawPass {
                 wgpu::BindingResource::TextureView(&table.view),
                 wgpu::BindingResource::Sampler(&sampler),
                 wgpu::BindingResource::TextureView(film.film),
+                bands.buffer.as_entire_binding(),
                 film.balance.as_entire_binding(),
                 film.map.as_entire_binding(),
                 film.tracer.as_entire_binding(),
@@ -201,20 +214,30 @@ pub fn radiance_format(full_precision: bool) -> wgpu::TextureFormat {
 
 fn bubble_pipeline(key: &DrawKey, bubble: &BubbleKey) -> RenderKey {
     let uniform = matches!(bubble.film, FilmKey::Uniform(_));
+    let coloured = key.table.as_ref().is_some_and(|table| table.coloured);
     RenderKey {
         pass: "bubble",
         vertex: "bounding_quad",
         fragment: if key.yardstick { "shade_mirror" } else { "shade" },
         format: radiance_format(key.full_precision),
-        constants: vec![
+        constants: [
             ("UNIFORM_FILM", u32::from(uniform)),
             ("MAGNIFIED", u32::from(bubble.magnified)),
             ("SAMPLES", bubble.samples),
             // A film in a scene is moved as a flow map where it is looked up through one, and always limited.
             ("TAPS", Scheme::Map.taps()),
             ("LIMITER", 1),
-        ],
+        ]
+        .into_iter()
+        .chain(table_constants(coloured, key.light.polariser.is_some()))
+        .chain([band_constant(key.bands.quality)])
+        .collect(),
     }
+}
+
+/// A matrix as uniforms and storage buffers hold it: columns of four.
+pub(super) fn matrix(matrix: DMat3) -> [[f32; 4]; 3] {
+    matrix.as_mat3().to_cols_array_2d().map(|[x, y, z]| [x, y, z, 0.0])
 }
 
 fn floats(vector: DVec3) -> [f32; 3] {
@@ -246,14 +269,16 @@ fn light_uniform(key: &DrawKey) -> LightUniform {
         texel_angle: texel_angle(key.environment.size()),
         backdrop: floats(backdrop),
         backdrop_is_environment: is_environment,
-        white: floats(light.white),
+        scale: floats(light.scale),
         turn_cos: light.rotation_rad.cos() as f32,
+        polariser: floats(light.polariser.unwrap_or(DVec3::ZERO)),
         turn_sin: light.rotation_rad.sin() as f32,
-        pad: [0.0; 3],
+        seen: matrix(light.seen),
     }
 }
 
-fn bubble_uniform(bubble: &BubbleKey) -> BubbleUniform {
+fn bubble_uniform(key: &DrawKey, bubble: &BubbleKey) -> BubbleUniform {
+    let film = &key.bands.optics.film;
     let [low, high] = bubble.bounds.map(|corner| corner.as_vec2());
     let (thickness_nm, cells, tracer_cells) = match &bubble.film {
         FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0, 0),
@@ -270,6 +295,8 @@ fn bubble_uniform(bubble: &BubbleKey) -> BubbleUniform {
         thinned_nm: bubble.thinned_nm as f32,
         to_film: DVec3::AXES.map(column),
         black_nm: BLACK_FILM_NM as f32,
-        pad: [0; 3],
+        extra_nm: film.equivalent_extra_nm() as f32,
+        skins_nm: (2.0 * film.skin_nm).max(1e-3) as f32,
+        pad: 0,
     }
 }

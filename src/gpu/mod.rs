@@ -3,6 +3,7 @@
 //! Nothing here decides whether a pass runs: a pass is recorded from its key alone, and the plan says which.
 
 pub mod bake_table;
+pub mod bands;
 pub mod compose_map;
 pub mod conserve;
 pub mod correct_error;
@@ -12,6 +13,7 @@ pub mod draw;
 pub mod environment;
 pub mod film;
 pub mod pipelines;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod probe_colour;
 pub mod read_film;
 pub mod readback;

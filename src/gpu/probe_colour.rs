@@ -1,13 +1,20 @@
 //! Colours of a list of films, through the table and the shader functions that pictures use.
 
 use bytemuck::{Pod, Zeroable};
+use glam::{DVec3, Vec3};
 
 use super::{
     Gpu, GpuError,
-    bake_table::{Table, table_sampler},
+    bake_table::{Table, table_constants, table_sampler},
+    bands::{Bands, band_constant},
     pipelines::ComputeKey,
     readback::Readback,
     timing::Recorder,
+};
+use crate::{
+    physics::colour::Walls,
+    plan::{BandsKey, OpticsKey, TableKey, range_nm},
+    scene::Quality,
 };
 
 /// One ray's walls: see `shaders/pass/probe_colour.wgsl`.
@@ -26,33 +33,85 @@ pub struct ProbePoint {
     pub walls: u32,
 }
 
+impl ProbePoint {
+    /// A point from what physics calls it.
+    #[must_use]
+    pub fn new(cos_theta: f64, walls: Walls) -> Self {
+        let (count, [front_nm, back_nm, exit_nm]) = match walls {
+            Walls::One { thickness_nm } => (1, [thickness_nm, 0.0, 0.0]),
+            Walls::Two { front_nm, back_nm, exit_nm } => (2, [front_nm, back_nm, exit_nm]),
+        };
+        let [front_nm, back_nm, exit_nm] = [front_nm, back_nm, exit_nm].map(|nm| nm as f32);
+        Self { cos_theta: cos_theta as f32, front_nm, back_nm, exit_nm, walls: count }
+    }
+
+    /// The thickest of its walls, in nm.
+    #[must_use]
+    pub fn thickest_nm(&self) -> f64 {
+        f64::from(self.front_nm.max(self.back_nm).max(self.exit_nm))
+    }
+}
+
 /// Points of one dispatch.
 const CHUNK: usize = 1 << 20;
 
-/// Starts to measure the unpolarised colours of some points, linear BT.2020 with a fourth number that means nothing, in chunks.
-pub fn probe_colours(gpu: &Gpu, table: &Table, points: &[ProbePoint]) -> Result<Vec<Readback>, GpuError> {
-    points.chunks(CHUNK).map(|chunk| probe_chunk(gpu, table, chunk)).collect()
+/// All that gives the colour of films on the device, as pictures of one quality have it.
+pub struct ColourProbe {
+    quality: Quality,
+    table: Table,
+    bands: Bands,
 }
 
-fn probe_chunk(gpu: &Gpu, table: &Table, points: &[ProbePoint]) -> Result<Readback, GpuError> {
-    let key = ComputeKey { pass: "probe_colour", entry: "probe_colour", constants: vec![] };
-    let pipeline = gpu.pipelines.compute(gpu, &key)?;
-    let size = points.len() as u64 * 16;
-    let colours = gpu.buffer("colours", size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
-    let points_buffer = gpu.storage("points", points);
-    let sampler = table_sampler(gpu);
-    let bindings = gpu.bind(
-        &pipeline.get_bind_group_layout(0),
-        &[
-            table.axes.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&table.view),
-            wgpu::BindingResource::Sampler(&sampler),
-            points_buffer.as_entire_binding(),
-            colours.as_entire_binding(),
-        ],
-    );
-    let mut recorder = Recorder::new(gpu);
-    recorder.dispatch("probe_colour", &pipeline, &bindings, [points.len().div_ceil(64) as u32, 1, 1]);
-    recorder.submit(&Default::default());
-    Ok(Readback::of_buffer(gpu, &colours, size))
+impl ColourProbe {
+    /// Bakes and fits for films up to a thickness, in white light.
+    pub fn new(gpu: &Gpu, optics: &OpticsKey, quality: Quality, thickest_nm: f64) -> Result<Self, GpuError> {
+        let range_nm = range_nm(thickest_nm);
+        let table = match quality {
+            Quality::Spectral => Table::unread(gpu, optics),
+            Quality::Fast | Quality::Standard => Table::baked(gpu, &TableKey::full(optics.clone(), range_nm))?,
+        };
+        Ok(Self::with_table(gpu, table, BandsKey { optics: optics.clone(), range_nm, quality }))
+    }
+
+    /// With another table than pictures use.
+    #[must_use]
+    pub fn with_table(gpu: &Gpu, table: Table, bands: BandsKey) -> Self {
+        Self { quality: bands.quality, table, bands: Bands::fit(gpu, &bands) }
+    }
+
+    /// Unpolarised colours of some points, linear BT.2020, where a perfect mirror has the illuminant's white.
+    pub fn measure(&self, gpu: &Gpu, points: &[ProbePoint]) -> Result<Vec<DVec3>, GpuError> {
+        let chunks = points.chunks(CHUNK).map(|chunk| self.start(gpu, chunk)).collect::<Result<Vec<_>, _>>()?;
+        let mut colours = Vec::with_capacity(points.len());
+        for chunk in chunks {
+            let rgba: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&chunk.wait(gpu)?);
+            colours.extend(rgba.into_iter().map(|[r, g, b, _]| Vec3::new(r, g, b).as_dvec3()));
+        }
+        Ok(colours)
+    }
+
+    fn start(&self, gpu: &Gpu, points: &[ProbePoint]) -> Result<Readback, GpuError> {
+        let constants = table_constants(false, false).into_iter().chain([band_constant(self.quality)]).collect();
+        let key = ComputeKey { pass: "probe_colour", entry: "probe_colour", constants };
+        let pipeline = gpu.pipelines.compute(gpu, &key)?;
+        let size = points.len() as u64 * 16;
+        let colours = gpu.buffer("colours", size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
+        let points_buffer = gpu.storage("points", points);
+        let sampler = table_sampler(gpu);
+        let bindings = gpu.bind(
+            &pipeline.get_bind_group_layout(0),
+            &[
+                self.table.axes.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&self.table.view),
+                wgpu::BindingResource::Sampler(&sampler),
+                self.bands.buffer.as_entire_binding(),
+                points_buffer.as_entire_binding(),
+                colours.as_entire_binding(),
+            ],
+        );
+        let mut recorder = Recorder::new(gpu);
+        recorder.dispatch("probe_colour", &pipeline, &bindings, [points.len().div_ceil(64) as u32, 1, 1]);
+        recorder.submit(&Default::default());
+        Ok(Readback::of_buffer(gpu, &colours, size))
+    }
 }

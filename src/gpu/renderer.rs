@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::{
     Gpu, GpuError,
     bake_table::Table,
+    bands::Bands,
     decide_remap::RemapRule,
     draw::{DrawInputs, DrawPass, pixels_shaded, radiance_format, strips},
     environment::Environment,
@@ -28,6 +29,7 @@ const CELLS_A_SUBMISSION: u64 = 1_600_000;
 struct Products {
     table: Option<Table>,
     baking: Option<Table>,
+    bands: Option<Bands>,
     environment: Option<Environment>,
     fields: Vec<Option<Field>>,
     radiance: Option<Target>,
@@ -160,6 +162,10 @@ impl Renderer {
                 Ok(())
             }
             Pass::BakeTable { key, rows } => self.bake(key, rows.clone()),
+            Pass::FitBands(key) => {
+                self.products.bands = Some(Bands::fit(&self.gpu, key));
+                Ok(())
+            }
             Pass::SeedField { film, key } => self.seed(*film, key),
             Pass::StepField { film, key, ticks } => self.step(*film, key, ticks.clone()),
             Pass::ShowField { film, key } => self.show(*film, key),
@@ -247,7 +253,12 @@ impl Renderer {
             .get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant(DVec3::ZERO)));
         let fields = &self.products.fields;
         let film = |film: usize| fields.get(film).and_then(Option::as_ref).map(Field::shown);
-        let inputs = DrawInputs { environment, table: self.products.table.as_ref(), film: &film };
+        let inputs = DrawInputs {
+            environment,
+            table: self.products.table.as_ref(),
+            bands: self.products.bands.as_ref(),
+            film: &film,
+        };
         let pass = DrawPass::new(&self.gpu, key, &inputs)?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);

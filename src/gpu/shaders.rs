@@ -21,6 +21,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "film/wind",
     "light/environment",
     "optics/airy",
+    "optics/band",
     "optics/film_colour",
     "optics/table",
     "optics/walls",

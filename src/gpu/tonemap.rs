@@ -2,8 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{GpuError, pipelines::RenderKey, timing::Recorder};
-use crate::{physics::colour::bt2020_to_bt709, plan::TonemapKey};
+use super::{GpuError, draw::matrix, pipelines::RenderKey, timing::Recorder};
+use crate::plan::TonemapKey;
 
 /// Format of the finished picture: gamma-encoded values in a plain format, so that no driver encodes a second time.
 pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -12,8 +12,14 @@ pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct TonemapUniform {
-    /// Columns of the matrix from BT.2020 to BT.709; the fourth number of each is padding.
-    pub to_bt709: [[f32; 4]; 3],
+    /// White balance: columns of a matrix, the fourth number of each is padding.
+    pub balance: [[f32; 4]; 3],
+    /// From BT.2020 to the display's linear RGB.
+    pub to_display: [[f32; 4]; 3],
+    /// From there to XYZ relative to white.
+    pub to_xyz: [[f32; 4]; 3],
+    /// And back.
+    pub from_xyz: [[f32; 4]; 3],
     /// Factor on radiance.
     pub exposure: f32,
     /// Seed of the dither.
@@ -25,9 +31,12 @@ pub struct TonemapUniform {
 
 impl TonemapUniform {
     fn of(key: &TonemapKey) -> Self {
-        let matrix = bt2020_to_bt709().as_mat3();
+        let to_xyz = key.gamut.to_relative_xyz();
         Self {
-            to_bt709: matrix.to_cols_array_2d().map(|[x, y, z]| [x, y, z, 0.0]),
+            balance: matrix(key.balance),
+            to_display: matrix(key.gamut.from_bt2020()),
+            to_xyz: matrix(to_xyz),
+            from_xyz: matrix(to_xyz.inverse()),
             exposure: key.exposure_ev.exp2() as f32,
             dither_seed: key.dither.unwrap_or(0),
             dither_steps: if key.dither.is_some() { 1.0 } else { 0.0 },

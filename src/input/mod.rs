@@ -11,5 +11,5 @@ mod text;
 
 pub use environment::{MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_WIDTH, read_environment};
 pub use error::InputError;
-pub use scene::{LoadError, LoadedScene, load_environment, load_scene};
+pub use scene::{LoadError, LoadedScene, load_environment, load_illuminant, load_liquid, load_scene};
 pub use text::{MAX_TEXT_BYTES, read_text};

@@ -1,6 +1,7 @@
 //! Brings a scene and what it names into memory.
 
 use std::{
+    collections::BTreeMap,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -12,9 +13,11 @@ use crate::{
     physics::{
         colour::{Illuminant, UnknownIlluminant},
         environment::{CubeMap, Procedural},
+        optics::{FilmIndex, FilmIndexError},
+        spectra::SpectrumError,
     },
     plan::Resources,
-    scene::{Environment, Light, Scene, SceneError, preset, preset_names},
+    scene::{Environment, FilmIndexName, Light, Scene, SceneError, preset, preset_names},
 };
 
 /// A scene, where it came from, and what it names.
@@ -50,6 +53,12 @@ pub enum LoadError {
     /// No such light.
     #[error(transparent)]
     Illuminant(#[from] UnknownIlluminant),
+    /// No such film.
+    #[error(transparent)]
+    Film(#[from] FilmIndexError),
+    /// A file of a spectrum or an index with a mistake in it.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
 }
 
 /// Loads a preset by name or a scene file by path, with its environment and light.
@@ -70,7 +79,8 @@ pub fn load_scene(name: &str) -> Result<LoadedScene, LoadError> {
     };
     let resources = Resources {
         environment: load_environment(&scene.light, &folder)?,
-        illuminant: Arc::new(scene.light.illuminant.parse::<Illuminant>()?),
+        illuminant: Arc::new(load_illuminant(&scene.light.illuminant, &folder)?),
+        liquids: load_liquids(&scene, &folder)?,
     };
     Ok(LoadedScene { scene, name: name.to_owned(), folder, resources })
 }
@@ -84,4 +94,33 @@ pub fn load_environment(light: &Light, folder: &Path) -> Result<Arc<CubeMap>, Lo
         Environment::File(path) => CubeMap::from_equirect(&read_environment(&folder.join(path))?),
     };
     Ok(Arc::new(map))
+}
+
+/// A light by its name, or from the `.csv` file of that path.
+pub fn load_illuminant(name: &str, folder: &Path) -> Result<Illuminant, LoadError> {
+    if !is_table(name) {
+        return Ok(name.parse()?);
+    }
+    Ok(Illuminant::from_csv(name, &read_text(&folder.join(name))?)?)
+}
+
+/// A liquid by its name or index, or from the `.csv` file of that path.
+pub fn load_liquid(name: &str, folder: &Path) -> Result<FilmIndex, LoadError> {
+    if !is_table(name) {
+        return Ok(name.parse()?);
+    }
+    Ok(FilmIndex::from_csv(name, &read_text(&folder.join(name))?)?)
+}
+
+fn is_table(name: &str) -> bool {
+    name.trim().to_ascii_lowercase().ends_with(".csv")
+}
+
+/// The liquids that a scene's films name.
+fn load_liquids(scene: &Scene, folder: &Path) -> Result<BTreeMap<String, FilmIndex>, LoadError> {
+    let named = scene.bubbles.iter().filter_map(|bubble| match &bubble.film.index {
+        FilmIndexName::Named(name) => Some(name),
+        FilmIndexName::Water | FilmIndexName::Constant(_) => None,
+    });
+    named.map(|name| Ok((name.clone(), load_liquid(name, folder)?))).collect()
 }

@@ -29,7 +29,7 @@ impl Metadata {
     }
 
     /// One line `key: value` for each entry.
-    pub(super) fn to_lines(&self) -> String {
+    pub fn to_lines(&self) -> String {
         self.entries().map(|(key, value)| format!("{key}: {value}\n")).collect()
     }
 

@@ -3,6 +3,7 @@
 mod atomic;
 mod error;
 mod exr;
+mod icc;
 mod metadata;
 mod picture;
 mod png;

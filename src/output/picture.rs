@@ -5,15 +5,17 @@ use std::path::Path;
 use glam::Vec3;
 
 use super::{ExrPicture, ExrPrimaries, Metadata, OutputError, PngPicture, write_atomically};
-use crate::physics::colour::bt2020_to_bt709;
+use crate::physics::colour::{Gamut, bt2020_to_bt709};
 
 /// A finished picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Picture {
-    /// What a display shows: rows of gamma-encoded sRGB and alpha from the top left.
+    /// What a display shows: rows of RGB, encoded by sRGB's curve, and alpha from the top left.
     Display {
         /// Width and height in pixels.
         size: [u32; 2],
+        /// The colours that RGB are.
+        gamut: Gamut,
         /// 4 · width · height bytes.
         rgba: Vec<u8>,
     },
@@ -42,8 +44,8 @@ impl Picture {
     /// Those of [`write_atomically`].
     pub fn save(&self, path: &Path, metadata: &Metadata) -> Result<(), OutputError> {
         match self {
-            Self::Display { size: [width, height], rgba } => {
-                PngPicture { width: *width, height: *height, rgba, metadata }.save(path)
+            Self::Display { size: [width, height], gamut, rgba } => {
+                PngPicture { width: *width, height: *height, rgba, gamut: *gamut, metadata }.save(path)
             }
             Self::Radiance { size: [width, height], rgb } => {
                 let picture = ExrPicture {

@@ -3,18 +3,20 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::{Metadata, OutputError, write_atomically};
+use super::{Metadata, OutputError, icc::display_p3_profile, write_atomically};
+use crate::physics::colour::Gamut;
 
-/// An 8-bit sRGB picture to be written.
+/// An 8-bit picture to be written.
 #[derive(Debug, Clone, Copy)]
 pub struct PngPicture<'a> {
     /// Pixels in a row, 1 at least.
     pub width: u32,
     /// Rows, 1 at least.
     pub height: u32,
-    /// Red, green, blue and straight alpha of each pixel, gamma-encoded sRGB, row by row from the top left: 4 · width ·
-    /// height bytes.
+    /// Red, green, blue and straight alpha of each pixel, encoded by sRGB's curve, row by row from the top left: 4 · width · height bytes.
     pub rgba: &'a [u8],
+    /// The colours that red, green and blue are; the file says so.
+    pub gamut: Gamut,
     /// What the file says about itself, as tEXt chunks (iTXt where a value is not ASCII).
     pub metadata: &'a Metadata,
 }
@@ -33,12 +35,18 @@ impl PngPicture<'_> {
     /// # Errors
     /// The writer's, and a size that is zero or does not fit the count of bytes.
     pub fn encode(&self, writer: impl Write) -> io::Result<()> {
-        let mut encoder = png::Encoder::new(writer, self.width, self.height);
-        encoder.set_color(png::ColorType::Rgba);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-        // The power that stands for sRGB where a reader knows no sRGB chunk (PNG specification, 11.3.2.5).
-        encoder.set_source_gamma(png::ScaledFloat::from_scaled(45455));
+        let mut info = png::Info::with_size(self.width, self.height);
+        info.color_type = png::ColorType::Rgba;
+        info.bit_depth = png::BitDepth::Eight;
+        if self.gamut == Gamut::DisplayP3 {
+            info.icc_profile = Some(display_p3_profile().into());
+        }
+        let mut encoder = png::Encoder::with_info(writer, info)?;
+        if self.gamut == Gamut::Srgb {
+            encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+            // The power that stands for sRGB where a reader knows no sRGB chunk (PNG specification, 11.3.2.5).
+            encoder.set_source_gamma(png::ScaledFloat::from_scaled(45455));
+        }
         for (key, value) in self.metadata.entries() {
             let (key, value) = (key.to_owned(), value.to_owned());
             if value.is_ascii() {
@@ -69,7 +77,7 @@ mod tests {
         let path = folder.path().join("a.png");
         let metadata = Metadata::new().with("Scene", "tent").with("Author", "Jürgen µ").with("Time", "0.1");
         let rgba = gradient(7, 5);
-        PngPicture { width: 7, height: 5, rgba: &rgba, metadata: &metadata }.save(&path).unwrap();
+        PngPicture { width: 7, height: 5, rgba: &rgba, gamut: Gamut::Srgb, metadata: &metadata }.save(&path).unwrap();
         let read = read_png(&path).unwrap();
         assert_eq!((read.width, read.height, read.rgba), (7, 5, rgba));
         assert_eq!(read.metadata.get("Scene"), Some("tent"));
@@ -78,14 +86,15 @@ mod tests {
     }
 
     #[test]
-    fn says_that_it_is_srgb() {
-        let mut bytes = Vec::new();
-        PngPicture { width: 1, height: 1, rgba: &[1, 2, 3, 255], metadata: &Metadata::new() }
-            .encode(&mut bytes)
-            .unwrap();
-        for chunk in [b"sRGB", b"gAMA"] {
-            assert!(bytes.windows(4).any(|window| window == chunk), "{}", String::from_utf8_lossy(chunk));
-        }
+    fn says_what_its_colours_are() {
+        let chunks = |gamut| {
+            let mut bytes = Vec::new();
+            let picture = PngPicture { width: 1, height: 1, rgba: &[1, 2, 3, 255], gamut, metadata: &Metadata::new() };
+            picture.encode(&mut bytes).unwrap();
+            [b"sRGB", b"gAMA", b"iCCP"].map(|chunk| bytes.windows(4).any(|window| window == chunk))
+        };
+        assert_eq!(chunks(Gamut::Srgb), [true, true, false]);
+        assert_eq!(chunks(Gamut::DisplayP3), [false, false, true]);
     }
 
     #[test]
@@ -94,7 +103,7 @@ mod tests {
         let metadata = Metadata::new();
         for (width, height, bytes) in [(2, 2, 15), (2, 2, 17), (0, 2, 0), (2, 0, 0)] {
             let rgba = vec![0; bytes];
-            let picture = PngPicture { width, height, rgba: &rgba, metadata: &metadata };
+            let picture = PngPicture { width, height, rgba: &rgba, gamut: Gamut::Srgb, metadata: &metadata };
             picture.save(&folder.path().join("a.png")).unwrap_err();
             assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "{width}x{height}");
         }

@@ -17,6 +17,9 @@ pub const SAMPLES: usize = 421;
 /// Total power (sum over the grid) that a file may have: far wider than any unit needs, and no later sum overflows or underflows.
 const POWER_RANGE: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
+/// Refractive indices that a film may have: 1 is no film at all, 4 is beyond every clear liquid and glass.
+pub const INDEX_RANGE: std::ops::RangeInclusive<f64> = 1.0..=4.0;
+
 /// Wavelength of sample `i` in nm, vacuum.
 pub fn wavelength_nm(i: usize) -> f64 {
     FIRST_NM + i as f64
@@ -52,6 +55,16 @@ pub enum SpectrumError {
     /// A negative value.
     #[error("{file}, line {line}: {value} is negative; a spectrum holds zero or positive values")]
     Negative {
+        /// File it stands in.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// The value.
+        value: f64,
+    },
+    /// A refractive index that no film has.
+    #[error("{file}, line {line}: a refractive index of {value} is no film's; write one from 1 to 4")]
+    Index {
         /// File it stands in.
         file: String,
         /// Line, from 1.
@@ -144,12 +157,30 @@ impl Spectrum {
         Ok(columns)
     }
 
+    /// As [`Spectrum::from_csv`] for a refractive index, `wavelength_nm,n` with n from 1 to 4.
+    pub fn index_from_csv(name: &str, text: &str) -> Result<Self, SpectrumError> {
+        let rows = parse_rows::<1>(name, text)?;
+        if let Some(row) = rows.iter().find(|row| !INDEX_RANGE.contains(&row.values[0])) {
+            return Err(SpectrumError::Index { file: name.into(), line: row.line, value: row.values[0] });
+        }
+        check_coverage(name, &rows)?;
+        Ok(Self::from_points(&rows.iter().map(|row| (row.wavelength_nm, row.values[0])).collect::<Vec<_>>()))
+    }
+
     /// Sample `i` of 0..421, at `360 + i` nm.
     ///
     /// # Panics
     /// If `i` is outside the grid, as indexing a slice does.
     pub fn at(&self, i: usize) -> f64 {
         self.samples[i]
+    }
+
+    /// The value at a wavelength, linear between the samples; the first and last go on outside.
+    pub fn at_nm(&self, wavelength_nm: f64) -> f64 {
+        let position = (wavelength_nm - FIRST_NM).clamp(0.0, (SAMPLES - 1) as f64);
+        let left = (position as usize).min(SAMPLES - 2);
+        let t = position - left as f64;
+        self.samples[left] * (1.0 - t) + self.samples[left + 1] * t
     }
 
     /// All samples, by rising wavelength.
@@ -166,6 +197,7 @@ impl Spectrum {
 
 /// One line of a table.
 struct Row<const N: usize> {
+    line: usize,
     wavelength_nm: f64,
     values: [f64; N],
 }
@@ -213,7 +245,7 @@ fn parse_row<const N: usize>(file: &str, line: usize, content: &str) -> Result<R
     let values = <[f64; N]>::try_from(values).map_err(|_| columns())?;
     match values.iter().find(|value| **value < 0.0) {
         Some(&value) => Err(SpectrumError::Negative { file: file.into(), line, value }),
-        None => Ok(Row { wavelength_nm, values }),
+        None => Ok(Row { line, wavelength_nm, values }),
     }
 }
 
@@ -264,6 +296,15 @@ mod tests {
     }
 
     #[test]
+    fn reads_between_its_samples() {
+        let spectrum = Spectrum::from_fn(|nm| nm);
+        for nm in [360.0, 360.25, 589.592, 780.0] {
+            assert!((spectrum.at_nm(nm) - nm).abs() < 1e-12, "{nm}");
+        }
+        assert_eq!((spectrum.at_nm(0.0), spectrum.at_nm(1e9)), (360.0, 780.0));
+    }
+
+    #[test]
     fn points_outside_the_table_hold_the_end_values() {
         let spectrum = Spectrum::from_points(&[(400.0, 2.0), (500.0, 4.0)]);
         assert_eq!((spectrum.at(0), spectrum.at(SAMPLES - 1)), (2.0, 4.0));
@@ -288,6 +329,9 @@ mod tests {
             ("360,0\n780,0", "lamp.csv: has no usable power"),
             ("360,1e300\n780,1e300", "lamp.csv: has no usable power"),
         ];
+        let index = |text| Spectrum::index_from_csv("glass.csv", text).expect_err("must be refused").to_string();
+        assert!(index("nm,n\n360,1.5\n780,0.9").starts_with("glass.csv, line 3: a refractive index of 0.9"));
+        assert!(index("360,1.5\n500,NaN").starts_with("glass.csv, line 2: `NaN` is not"));
         for (text, expected) in cases {
             let message = refusal(text).to_string();
             assert!(message.starts_with(expected), "`{message}` instead of `{expected}…`");

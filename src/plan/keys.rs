@@ -4,37 +4,57 @@ use std::{fmt, ops::Range, sync::Arc};
 
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::physics::{
-    colour::Illuminant,
-    environment::CubeMap,
-    film::{InitialFilm, PrescribedFlow},
-    optics::FilmIndex,
-    sphere::CubedSphere,
-    transport::Scheme,
+use crate::{
+    physics::{
+        colour::{BandTask, FilmOptics, Gamut, Illuminant},
+        environment::CubeMap,
+        film::{InitialFilm, PrescribedFlow},
+        optics::FilmMaterial,
+        sphere::CubedSphere,
+        transport::Scheme,
+    },
+    scene::Quality,
 };
 
-/// The lookup table of film colours.
+/// A film in a light.
 #[derive(Clone, Debug)]
-pub struct TableKey {
-    /// Index of the film.
-    pub index: FilmIndex,
+pub struct OpticsKey {
+    /// What the film is made of.
+    pub film: FilmMaterial,
     /// The light.
     pub illuminant: Arc<Illuminant>,
+}
+
+impl PartialEq for OpticsKey {
+    fn eq(&self, other: &Self) -> bool {
+        self.film == other.film
+            && (Arc::ptr_eq(&self.illuminant, &other.illuminant) || self.illuminant == other.illuminant)
+    }
+}
+
+impl OpticsKey {
+    /// The film and the light with all their spectra.
+    #[must_use]
+    pub fn spectra(&self) -> FilmOptics {
+        FilmOptics::new(self.film.clone(), &self.illuminant)
+    }
+}
+
+/// The lookup table of what single walls reflect.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableKey {
+    /// Film and light.
+    pub optics: OpticsKey,
     /// Thickness at the last row, at normal incidence, in nm.
     pub max_thickness_nm: f64,
     /// Columns, along √cosθ.
     pub columns: u32,
     /// Rows, along thickness times the cosine inside the film.
     pub rows: u32,
-}
-
-impl PartialEq for TableKey {
-    fn eq(&self, other: &Self) -> bool {
-        self.index == other.index
-            && (Arc::ptr_eq(&self.illuminant, &other.illuminant) || self.illuminant == other.illuminant)
-            && self.max_thickness_nm == other.max_thickness_nm
-            && (self.columns, self.rows) == (other.columns, other.rows)
-    }
+    /// Whether it holds what is reflected of each of three primaries, or of white light alone.
+    pub coloured: bool,
+    /// Whether s and p light are apart.
+    pub polarised: bool,
 }
 
 impl TableKey {
@@ -47,19 +67,64 @@ impl TableKey {
     /// Rows at most: the smallest limit on textures that adapters have.
     const MAX_ROWS: u32 = 8192;
 
-    /// A full table for films up to a thickness. The range grows in steps of 250 nm, so that small edits do not bake anew, and the rows
-    /// with it, so that their spacing stays.
+    /// A full table for films up to a range, see [`range_nm`], for unpolarised white light. The rows grow with the range, so that their
+    /// spacing stays.
     #[must_use]
-    pub fn full(index: FilmIndex, illuminant: Arc<Illuminant>, thickest_nm: f64) -> Self {
-        let max_thickness_nm = ((thickest_nm / 250.0).ceil() * 250.0).max(Self::MIN_RANGE_NM);
+    pub fn full(optics: OpticsKey, max_thickness_nm: f64) -> Self {
         let rows = (f64::from(Self::MIN_ROWS) * max_thickness_nm / Self::MIN_RANGE_NM).ceil() as u32;
-        Self { index, illuminant, max_thickness_nm, columns: Self::COLUMNS, rows: rows.min(Self::MAX_ROWS) }
+        let rows = rows.min(Self::MAX_ROWS);
+        Self { optics, max_thickness_nm, columns: Self::COLUMNS, rows, coloured: false, polarised: false }
     }
 
     /// The same range with fewer rows: what a window shows until the full table is there.
     #[must_use]
     pub fn coarser(&self, factor: u32) -> Self {
         Self { rows: (self.rows / factor).max(2), ..self.clone() }
+    }
+
+    /// Layers of the texture: a primary each, first of s and then of p light.
+    #[must_use]
+    pub fn layers(&self) -> u32 {
+        (if self.coloured { 3 } else { 1 }) * (if self.polarised { 2 } else { 1 })
+    }
+}
+
+/// The range of tables and bands for films up to a thickness, in nm: steps of 250 nm, so that small edits make nothing anew.
+#[must_use]
+pub fn range_nm(thickest_nm: f64) -> f64 {
+    ((thickest_nm / 250.0).ceil() * 250.0).max(TableKey::MIN_RANGE_NM)
+}
+
+/// The fitted wavelengths that shaders sum over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BandsKey {
+    /// Film and light.
+    pub optics: OpticsKey,
+    /// Thickness that they are fitted to, in nm.
+    pub range_nm: f64,
+    /// Which errors they may leave.
+    pub quality: Quality,
+}
+
+impl BandsKey {
+    /// Bands at most: thicker films have fringes that the eye cannot tell apart.
+    const MOST: usize = 80;
+
+    /// What the bands are summed for.
+    #[must_use]
+    pub fn task(&self) -> BandTask {
+        if self.quality == Quality::Spectral { BandTask::Everything } else { BandTask::CrossTerms }
+    }
+
+    /// How many there are. Measured for 1500 nm, and as many more as thicker films have more fringes.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        let measured = match self.quality {
+            Quality::Fast => 6.0,
+            Quality::Standard => 13.0,
+            Quality::Spectral => 36.0,
+        };
+        ((measured * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize).min(Self::MOST)
     }
 }
 
@@ -350,10 +415,14 @@ pub enum BackdropKey {
 /// How the environment lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightKey {
-    /// Factor on the environment's radiance, linear BT.2020: intensity and the illuminant's white.
+    /// Factor on the environment's radiance, linear BT.2020.
     pub gain: DVec3,
-    /// The illuminant's white, linear BT.2020.
-    pub white: DVec3,
+    /// From the environment's light to what is seen of it under the illuminant: linear BT.2020, where (1, 1, 1) is daylight's white.
+    pub seen: DMat3,
+    /// Factor that makes daylight's white (1, 1, 1).
+    pub scale: DVec3,
+    /// Direction in the world along which the electric field passes a polariser before the camera, if there is one.
+    pub polariser: Option<DVec3>,
     /// Turn of the environment about the vertical, anticlockwise from above, in radians.
     pub rotation_rad: f64,
     /// The backdrop.
@@ -375,8 +444,10 @@ pub struct DrawKey {
     pub light: LightKey,
     /// The environment.
     pub environment: EnvironmentKey,
-    /// The table.
-    pub table: TableKey,
+    /// The table, where the quality has one.
+    pub table: Option<TableKey>,
+    /// The bands.
+    pub bands: BandsKey,
     /// The bubbles that can be seen, farthest first.
     pub bubbles: Vec<BubbleKey>,
 }
@@ -399,6 +470,8 @@ impl DrawKey {
             "the light"
         } else if self.table != other.table {
             "the table"
+        } else if self.bands != other.bands {
+            "the bands"
         } else if self.bubbles != other.bubbles {
             "a bubble or its film"
         } else {
@@ -414,6 +487,10 @@ pub struct TonemapKey {
     pub draw: DrawKey,
     /// Exposure in stops.
     pub exposure_ev: f64,
+    /// From the linear picture to what the display is given, linear BT.2020: white balance.
+    pub balance: DMat3,
+    /// Colours that the display has.
+    pub gamut: Gamut,
     /// Seed of the dither, if there is any.
     pub dither: Option<u32>,
 }
@@ -426,6 +503,8 @@ impl TonemapKey {
             "the linear picture"
         } else if self.exposure_ev != other.exposure_ev {
             "the exposure"
+        } else if self.balance != other.balance || self.gamut != other.gamut {
+            "the white balance or the gamut"
         } else {
             "the dither"
         }

@@ -10,8 +10,8 @@ mod want;
 use std::{fmt, ops::Range};
 
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment,
-    LightKey, Moment, TableKey, TonemapKey,
+    BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw,
+    FlowSegment, LightKey, Moment, OpticsKey, TableKey, TonemapKey, range_nm,
 };
 pub use want::{Resources, Shot, WantError, want};
 
@@ -40,6 +40,8 @@ pub struct Have {
     pub table: Option<TableKey>,
     /// A table in the making, and how many of its rows are done.
     pub baking: Option<(TableKey, u32)>,
+    /// The bands.
+    pub bands: Option<BandsKey>,
     /// The environment.
     pub environment: Option<EnvironmentKey>,
     /// The field of each film, by the film's index.
@@ -71,6 +73,8 @@ pub enum Pass {
         /// Rows to bake.
         rows: Range<u32>,
     },
+    /// Fits and sends the bands.
+    FitBands(BandsKey),
     /// Sets a film to its initial thickness.
     SeedField {
         /// Index of the film.
@@ -107,6 +111,7 @@ impl Pass {
         match self {
             Self::UploadEnvironment(_) => "upload_environment",
             Self::BakeTable { .. } => "bake_table",
+            Self::FitBands(_) => "fit_bands",
             Self::SeedField { .. } => "seed_field",
             Self::StepField { .. } => "step_field",
             Self::ShowField { .. } => "show_field",
@@ -171,6 +176,9 @@ impl fmt::Display for Plan {
                 Pass::ShowField { film, key } => format!("film {film} at {}", key.moment),
                 Pass::Draw(key) => format!("{}x{}, bubbles: {}", key.size[0], key.size[1], key.bubbles.len()),
                 Pass::Tonemap(key) => format!("exposure {} EV", key.exposure_ev),
+                Pass::FitBands(key) => {
+                    format!("{} wavelengths, {}, films to {} nm", key.count(), key.quality.name(), key.range_nm)
+                }
                 Pass::UploadEnvironment(key) => format!("6x{0}x{0} texels", key.size()),
             };
             writeln!(f, "{:<18} {detail}: {reason}", pass.name())?;
@@ -195,7 +203,8 @@ pub fn plan(want: &Want, have: &Have) -> Plan {
     let mut picture = want.picture.clone();
     let draw = &mut picture.draw;
     if !draw.bubbles.is_empty() {
-        draw.table = planner.table(&want.picture.draw.table);
+        draw.table = draw.table.as_ref().map(|table| planner.table(table));
+        planner.bands(&draw.bands);
     }
     if draw.needs_environment() {
         planner.environment(&draw.environment);
@@ -262,6 +271,13 @@ impl Planner {
         }
         self.after.baking = Some((wanted.clone(), done));
         self.complete = false;
+    }
+
+    fn bands(&mut self, wanted: &BandsKey) {
+        if let Some(reason) = changed(self.after.bands.as_ref(), wanted, |_, _| "film, light or quality") {
+            self.push(Pass::FitBands(wanted.clone()), reason);
+            self.after.bands = Some(wanted.clone());
+        }
     }
 
     fn environment(&mut self, wanted: &EnvironmentKey) {

@@ -1,22 +1,22 @@
 //! From a scene and a shot of it to what the picture needs.
 
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment, LightKey,
-    Moment, Pace, TableKey, TonemapKey, Want,
+    BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment,
+    LightKey, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want, range_nm,
 };
 use crate::{
     physics::{
-        colour::{BT2020, ColourWeights, Illuminant, bt709_to_bt2020},
+        colour::{Gamut, Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
         film::InitialFilm,
-        optics::{FilmIndex, FilmIndexError},
+        optics::{FilmIndex, FilmIndexError, FilmMaterial},
         transport::Scheme,
     },
-    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Motion, Scene, TransportScheme},
+    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Motion, Quality, Scene, TransportScheme},
 };
 
 /// What a scene names and somebody has loaded.
@@ -26,6 +26,8 @@ pub struct Resources {
     pub environment: Arc<CubeMap>,
     /// The light's spectrum.
     pub illuminant: Arc<Illuminant>,
+    /// Liquids from files, by the paths that the scene gives them.
+    pub liquids: BTreeMap<String, FilmIndex>,
 }
 
 /// One picture of a scene.
@@ -37,6 +39,8 @@ pub struct Shot {
     pub moment: Moment,
     /// Whether radiance is kept as f32.
     pub full_precision: bool,
+    /// Colours that the display, or the file, has.
+    pub gamut: Gamut,
     /// Whether films are replaced by the yardstick of the frame's cost.
     pub yardstick: bool,
     /// How much may be done at once.
@@ -46,11 +50,11 @@ pub struct Shot {
 /// A scene that cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WantError {
-    /// Two visible films of different index.
+    /// Two visible films of different liquids.
     #[error(
-        "bubbles of different film index cannot share one picture yet: set the same `index` in every [bubble.film]"
+        "bubbles of different films cannot share one picture: set the same `index` and `skin_nm` in every [bubble.film]"
     )]
-    MixedIndices,
+    MixedFilms,
     /// An index that no film has.
     #[error(transparent)]
     Index(#[from] FilmIndexError),
@@ -67,18 +71,24 @@ pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, W
         .collect();
     let distance = |bubble: &BubbleKey| bubble.centre_m.distance_squared(camera.eye_m);
     bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
+    let optics = OpticsKey { film: material(scene, resources, &bubbles)?, illuminant: resources.illuminant.clone() };
+    let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
     let draw = DrawKey {
         size: shot.size,
         full_precision: shot.full_precision,
         yardstick: shot.yardstick,
+        light: light(scene, resources, &camera),
         camera,
-        light: light(scene, resources),
         environment: EnvironmentKey(resources.environment.clone()),
-        table: table(scene, resources, &bubbles)?,
+        table: table(scene, resources, &optics, range_nm),
+        bands: BandsKey { optics, range_nm, quality: scene.view.quality },
         bubbles,
     };
     let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
-    Ok(Want { picture: TonemapKey { draw, exposure_ev: scene.view.exposure_ev, dither }, pace: shot.pace })
+    let balances = scene.view.white_balance && !resources.illuminant.is_monochromatic();
+    let balance = if balances { white_balance(&resources.illuminant) } else { DMat3::IDENTITY };
+    let exposure_ev = scene.view.exposure_ev;
+    Ok(Want { picture: TonemapKey { draw, exposure_ev, balance, gamut: shot.gamut, dither }, pace: shot.pace })
 }
 
 fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
@@ -92,44 +102,64 @@ fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
     }
 }
 
-fn light(scene: &Scene, resources: &Resources) -> LightKey {
-    let white_of = |illuminant: &Illuminant| BT2020.from_xyz() * ColourWeights::new(illuminant).white();
-    let white = white_of(&resources.illuminant);
-    // Relative to daylight, so that an environment's radiance is shown as it is where the light is the one its file assumes.
-    let tint = white / white_of(&Illuminant::default());
+fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     // A constant environment is a white cube times this factor: exact, where half floats in the cube would round.
     let constant = scene.light.constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
     let backdrop = match scene.view.backdrop {
         Backdrop::Environment => BackdropKey::Environment,
         Backdrop::Radiance(rgb) => BackdropKey::Colour(bt709_to_bt2020() * DVec3::from(rgb)),
     };
+    let polariser = scene.view.polariser_deg.map(|angle| {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        cos * camera.right + sin * camera.up
+    });
     LightKey {
-        gain: scene.light.intensity * tint * constant,
-        white,
+        gain: scene.light.intensity * constant,
+        seen: seen_light(&resources.illuminant),
+        scale: daylight_scale(),
+        polariser,
         rotation_rad: scene.light.rotation_deg.to_radians(),
         backdrop,
     }
 }
 
-fn table(scene: &Scene, resources: &Resources, bubbles: &[BubbleKey]) -> Result<TableKey, WantError> {
-    let index_of = |bubble: &BubbleKey| film_index(&scene.bubbles[bubble.index].film);
-    let index = bubbles.first().map_or(Ok(FilmIndex::Water), index_of)?;
-    for bubble in bubbles {
-        if index_of(bubble)? != index {
-            return Err(WantError::MixedIndices);
-        }
-    }
-    let thickest = bubbles.iter().map(|bubble| match &bubble.film {
-        FilmKey::Uniform(thickness_nm) => *thickness_nm,
-        FilmKey::Field(field) => field.initial.range_nm().1,
-    });
-    Ok(TableKey::full(index, resources.illuminant.clone(), thickest.fold(0.0, f64::max)))
+fn table(scene: &Scene, resources: &Resources, optics: &OpticsKey, range_nm: f64) -> Option<TableKey> {
+    let full = TableKey::full(optics.clone(), range_nm);
+    let is_grey = |rgb: [f64; 3]| rgb.iter().all(|value| *value == rgb[0]);
+    let backdrop = match scene.view.backdrop {
+        Backdrop::Radiance(rgb) => is_grey(rgb),
+        Backdrop::Environment => true,
+    };
+    let neutral = resources.environment.is_neutral() && scene.light.constant.is_none_or(is_grey) && backdrop;
+    let table = TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full };
+    (scene.view.quality != Quality::Spectral).then_some(table)
 }
 
-fn film_index(film: &Film) -> Result<FilmIndex, WantError> {
-    match film.index {
+/// What all visible films are made of.
+fn material(scene: &Scene, resources: &Resources, bubbles: &[BubbleKey]) -> Result<FilmMaterial, WantError> {
+    let mut films = bubbles.iter().map(|bubble| &scene.bubbles[bubble.index].film);
+    let Some(first) = films.next() else { return Ok(FilmMaterial::default()) };
+    if films.any(|film| (&film.index, film.skin_nm) != (&first.index, first.skin_nm)) {
+        return Err(WantError::MixedFilms);
+    }
+    Ok(FilmMaterial { index: film_index(first, resources)?, skin_nm: first.skin_nm })
+}
+
+fn film_index(film: &Film, resources: &Resources) -> Result<FilmIndex, WantError> {
+    match &film.index {
         FilmIndexName::Water => Ok(FilmIndex::Water),
-        FilmIndexName::Constant(n) => Ok(FilmIndex::constant(n)?),
+        FilmIndexName::Constant(n) => Ok(FilmIndex::constant(*n)?),
+        FilmIndexName::Named(name) => match resources.liquids.get(name) {
+            Some(liquid) => Ok(liquid.clone()),
+            None => Ok(name.parse()?),
+        },
+    }
+}
+
+fn thickest_nm(bubble: &BubbleKey) -> f64 {
+    match &bubble.film {
+        FilmKey::Uniform(thickness_nm) => *thickness_nm,
+        FilmKey::Field(field) => field.initial.range_nm().1,
     }
 }
 

@@ -45,6 +45,8 @@ pub struct Film {
     pub stratification: f64,
     /// Refractive index. Default: `water`.
     pub index: FilmIndexName,
+    /// Thickness of the layer of soap molecules (n = 1.45) on each face, nm; part of `thickness_nm`; 0 ..= 5. Default: 0.
+    pub skin_nm: f64,
     /// Seed of the random patches of a `blown` film. Default: 1.
     pub seed: u64,
     /// Thickness cells along an edge of the cubed sphere, 6 `cells`² in all; 16 ..= 1024. Default: 256.
@@ -58,6 +60,7 @@ impl Default for Film {
             thickness_nm: 580.0,
             stratification: 0.7,
             index: FilmIndexName::Water,
+            skin_nm: 0.0,
             seed: 1,
             cells: 256,
         }
@@ -73,11 +76,23 @@ impl Film {
             return Err(Fault::new("thickness_nm", reason));
         }
         check::in_range("stratification", self.stratification, -5.0..=5.0)?;
-        if let FilmIndexName::Constant(index) = self.index {
-            check::in_range("index", index, 1.0..=4.0)?;
+        match &self.index {
+            FilmIndexName::Constant(index) => check::in_range("index", *index, 1.0..=4.0)?,
+            FilmIndexName::Named(name) if !is_liquid(name) => {
+                let known = "\"water\", \"water 25C\", \"glycerol 30%\", the path of a .csv file, or a number";
+                return Err(Fault::new("index", format!("is {name:?}; use {known}")));
+            }
+            _ => {}
         }
+        check::in_range("skin_nm", self.skin_nm, 0.0..=5.0)?;
         check::in_range("cells", self.cells, 16..=1024)
     }
+}
+
+/// Whether a name can be a liquid's or a file's; what it says of temperature or share is read with the film.
+fn is_liquid(name: &str) -> bool {
+    let name = name.trim().to_ascii_lowercase();
+    name.ends_with(".csv") || name.starts_with("water") || name.starts_with("glycerol")
 }
 
 /// How the thickness of a film is spread over its sphere at tick 0.
@@ -93,12 +108,18 @@ pub enum FilmStateName {
 }
 
 /// The refractive index of a film.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase", expecting = "expected \"water\" or a number")]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    rename_all = "lowercase",
+    expecting = "expected \"water\", another liquid's name, the path of a .csv file, or a number"
+)]
 pub enum FilmIndexName {
     /// Water at 20 °C, with its dispersion.
     Water,
     /// The same index at every wavelength; 1 ..= 4.
     #[serde(untagged)]
     Constant(f64),
+    /// Another liquid, as in `water 25C` or `glycerol 30%`, or the path of a `.csv` file with lines `wavelength_nm,n`.
+    #[serde(untagged)]
+    Named(String),
 }

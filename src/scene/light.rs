@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 pub struct Light {
     /// The environment map. Default: `tent`.
     pub environment: Environment,
-    /// Name of the illuminant whose spectrum white light has (`D65`, `A`, `E`, ...). Default: `D65`.
+    /// The illuminant whose spectrum white light has: a name (`D65`, `A`, `sodium`, ...), a black body (`3000 K`), or the path of a `.csv`
+    /// file with lines `wavelength_nm,power`. Default: `D65`.
     pub illuminant: String,
     /// The same radiance from everywhere in place of the environment, linear BT.709; each 0 ..= 65504. Default: absent.
     pub constant: Option<[f64; 3]>,
@@ -81,6 +82,14 @@ pub struct View {
     pub exposure_ev: f64,
     /// What stands straight behind the bubbles. Default: a very dark neutral, on which the film's colours show.
     pub backdrop: Backdrop,
+    /// How exactly colours are computed. Default: `standard`.
+    pub quality: Quality,
+    /// Angle of a polariser before the camera, degrees from the horizontal, anticlockwise as the camera sees it; any finite number. It takes
+    /// half of unpolarised light, which the exposure gives back. Default: absent, no polariser.
+    pub polariser_deg: Option<f64>,
+    /// Whether 8-bit pictures are adapted to the illuminant (Bradford), as cameras and eyes do: its white is then shown as white. Light of
+    /// one hue has no white to adapt to and stays as it is. Default: false.
+    pub white_balance: bool,
     /// Whether 8-bit pictures are dithered. Default: true.
     pub dither: bool,
     /// Seed of the dither. Default: 0.
@@ -89,16 +98,54 @@ pub struct View {
 
 impl Default for View {
     fn default() -> Self {
-        Self { exposure_ev: 1.5, backdrop: Backdrop::Radiance([0.0012, 0.0012, 0.0016]), dither: true, dither_seed: 0 }
+        Self {
+            exposure_ev: 1.5,
+            backdrop: Backdrop::Radiance([0.0012, 0.0012, 0.0016]),
+            quality: Quality::Standard,
+            polariser_deg: None,
+            white_balance: false,
+            dither: true,
+            dither_seed: 0,
+        }
     }
 }
 
 impl View {
     pub(super) fn check(&self) -> Checked {
         check::in_range("exposure_ev", self.exposure_ev, -20.0..=20.0)?;
+        self.polariser_deg.map_or(Ok(()), |angle| check::finite("polariser_deg", angle))?;
         match self.backdrop {
             Backdrop::Environment => Ok(()),
             Backdrop::Radiance(radiance) => check::all_in_range("backdrop", radiance, check::RADIANCE),
+        }
+    }
+}
+
+/// How exactly the shaders compute colours. In all of them single walls and coloured light are right; they differ in the products of two
+/// and more walls, which colours cannot be multiplied for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quality {
+    /// Products from a handful of wavelengths.
+    Fast,
+    /// Products from a dozen wavelengths: the error can hardly be seen.
+    #[default]
+    Standard,
+    /// Everything from some thirty wavelengths, and no table.
+    Spectral,
+}
+
+impl Quality {
+    /// All of them, the fastest first.
+    pub const ALL: [Self; 3] = [Self::Fast, Self::Standard, Self::Spectral];
+
+    /// The name in scenes and on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Standard => "standard",
+            Self::Spectral => "spectral",
         }
     }
 }

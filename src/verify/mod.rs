@@ -1,6 +1,10 @@
 //! Whether this machine's GPU tells the truth: each part measures what the program computes against an independent reference, and holds it
 //! to a limit.
 
+mod optics;
+mod picture;
+mod random;
+pub mod reference;
 mod stability;
 mod transport;
 
@@ -36,6 +40,10 @@ impl Check {
 /// What can be verified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
+    /// Colours of films, against the spectral sum in f64.
+    Optics,
+    /// Whole pictures in coloured light, against the f64 picture.
+    Picture,
     /// Tracers moved by published winds, against exact answers.
     Transport,
     /// What breaks solvers.
@@ -44,12 +52,14 @@ pub enum Part {
 
 impl Part {
     /// All parts, in the order in which they run.
-    pub const ALL: &'static [Self] = &[Self::Transport, Self::Stability];
+    pub const ALL: &'static [Self] = &[Self::Optics, Self::Picture, Self::Transport, Self::Stability];
 
     /// Its name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::Optics => "optics",
+            Self::Picture => "picture",
             Self::Transport => "transport",
             Self::Stability => "stability",
         }
@@ -71,6 +81,8 @@ impl Run<'_> {
     pub fn part(&mut self, part: Part) -> Result<(), GpuError> {
         let started = Instant::now();
         match part {
+            Part::Optics => optics::run(self),
+            Part::Picture => picture::run(self),
             Part::Transport => transport::run(self),
             Part::Stability => stability::run(self),
         }?;

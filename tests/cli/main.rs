@@ -85,7 +85,7 @@ impl Desk {
     }
 }
 
-const COMMANDS: [&str; 5] = ["app", "render", "colour", "transport", "info"];
+const COMMANDS: [&str; 7] = ["app", "render", "colour", "lut", "transport", "verify", "info"];
 
 #[test]
 fn every_help_has_an_example() {
@@ -151,7 +151,8 @@ fn arguments_that_make_no_sense_are_refused() {
         "render default -o a.png --time nan",
         "render default -o a.png --time -1",
         "render default -o a.png --time 1e30",
-        "render default -o a.png --quality fast",
+        "render default -o a.png --quality best",
+        "render default -o a.png --gamut rec2020",
         "render default -o a.png --no-such-option",
         "render default -o a.jpg",
         "render default",
@@ -160,6 +161,12 @@ fn arguments_that_make_no_sense_are_refused() {
         "colour --thickness 300 --cos 1.5",
         "colour --thickness 300 --cos 1 --illuminant neon",
         "colour --thickness 300 --cos 1 --film 0.5",
+        "colour --thickness 300 --cos 1 --film soap",
+        "colour --thickness 300 --cos 1 --illuminant missing.csv",
+        "colour --thickness 300 --cos 1 --skin 9",
+        "lut -o a.png",
+        "lut -o a.exr --range 0",
+        "lut -o a.exr --size 1x1",
         "colour --points missing.csv",
         "transport --wind sb --tracer tc1 --cells 4 --steps 10",
         "transport --wind sb --tracer tc1 --cells 16 --steps 0",
@@ -282,6 +289,95 @@ fn colours_come_in_the_promised_columns() {
     let reference = desk.run("colour --points points.csv --quality reference");
     let truth: f64 = reference.out.lines().nth(1).unwrap().split(',').nth(5).unwrap().parse().unwrap();
     assert!((y(0) / truth - 1.0).abs() < 0.002, "{} {truth}", y(0));
+}
+
+/// A mistake in a spectrum is told with its file and line, and nothing is written.
+#[test]
+fn broken_spectra_are_refused_by_file_and_line() {
+    let desk = Desk::new();
+    for (file, text, told) in [
+        ("nan.csv", "360,1\n500,nan\n780,1\n", "nan.csv, line 2: `nan`"),
+        ("negative.csv", "nm,power\n360,1\n500,-2\n780,1\n", "negative.csv, line 3: -2 is negative"),
+        ("order.csv", "360,1\n700,1\n500,1\n780,1\n", "order.csv, line 3: 500 nm follows 700 nm"),
+        ("short.csv", "400,1\n700,1\n", "short.csv: covers 400 to 700 nm"),
+        ("zero.csv", "360,0\n780,0\n", "zero.csv: has no usable power"),
+        ("empty.csv", "", "empty.csv: holds no data"),
+    ] {
+        desk.write(file, text);
+        let line = desk.refused(&format!("colour --thickness 300 --cos 1 --illuminant {file}"));
+        assert!(line.contains(told), "{file}: {line}");
+        desk.write("scene.toml", format!("version = 1\n[light]\nilluminant = \"{file}\"\n"));
+        let line = desk.refused("render scene.toml -o a.png --size 16x9");
+        assert!(line.contains(told), "{file}: {line}");
+    }
+    desk.write("n.csv", "360,1.4\n500,0.5\n780,1.3\n");
+    assert!(desk.refused("colour --thickness 300 --cos 1 --film n.csv").contains("n.csv, line 2"));
+}
+
+#[test]
+fn films_and_lights_from_files_are_used() {
+    let desk = Desk::new();
+    desk.write("n.csv", "nm,n\n360,1.33\n780,1.33\n");
+    desk.write("light.csv", "nm,power\n360,1\n780,1\n");
+    let y = |arguments: &str| {
+        let run = desk.run(&format!("colour --thickness 300 --cos 0.8 --quality reference {arguments}"));
+        assert!(run.success, "{}", run.err);
+        run.out.lines().nth(1).unwrap().split(',').nth(3).unwrap().parse::<f64>().unwrap()
+    };
+    assert!((y("--film n.csv --illuminant light.csv") - y("--film 1.33 --illuminant E")).abs() < 1e-15);
+    assert!((y("--illuminant sodium") - y("--illuminant D65")).abs() > 1e-3);
+    assert!((y("--film water") - y("--skin 2")).abs() > 1e-5);
+}
+
+/// The table is a picture with its axes in the header, and the functions beside it are shaders.
+#[test]
+fn tables_come_with_shaders_that_compile() {
+    let desk = Desk::new();
+    let run = desk.run("lut -o film.exr --size 8x32 --film 1.4 --illuminant A");
+    assert!(run.success, "{}", run.err);
+    let table = read_exr(&desk.path("film.exr")).unwrap();
+    assert_eq!((table.width, table.height), (8, 32));
+    assert!(table.metadata.get("Columns").unwrap().starts_with("8, "));
+    assert!(table.channel("G").unwrap()[..8].iter().all(|value| *value == 0.0), "no film is black");
+    let text = std::fs::read_to_string(desk.path("film.txt")).unwrap();
+    let snippet = |language: &str| {
+        let start = text.split(&format!("---- {language} ----\n")).nth(1).unwrap();
+        start.split("\n----").next().unwrap().to_owned()
+    };
+    let wgsl = snippet("WGSL")
+        + "@group(0) @binding(0) var t: texture_2d<f32>;\n@group(0) @binding(1) var s: sampler;\n\
+           @fragment fn main() -> @location(0) vec4f { return vec4f(film_reflection(t, s, 0.5, 300.0), 1.0); }\n";
+    validate(&naga::front::wgsl::parse_str(&wgsl).unwrap());
+    let glsl = format!(
+        "#version 450\nlayout(set = 0, binding = 0) uniform sampler2D t;\nlayout(location = 0) out vec4 o;\n{}\
+         void main() {{ o = vec4(film_reflection(t, 0.5, 300.0), 1.0); }}\n",
+        snippet("GLSL")
+    );
+    let hlsl = snippet("HLSL")
+        + "Texture2D<float4> t : register(t0);\nSamplerState s : register(s1);\n\
+           float4 main() : SV_Target { return float4(film_reflection(t, s, 0.5, 300.0), 1.0); }\n";
+    glslang(&desk, "film.frag", &glsl, &[]);
+    glslang(&desk, "film.hlsl", &hlsl, &["-D", "-S", "frag", "-e", "main"]);
+}
+
+fn validate(module: &naga::Module) {
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+    Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module).unwrap();
+}
+
+/// Where the tool is there, or must be (`SOAPFILM_REQUIRE_TOOLS=1`), a shader must compile.
+fn glslang(desk: &Desk, file: &str, text: &str, options: &[&str]) {
+    desk.write(file, text);
+    let run = Command::new("glslangValidator")
+        .arg("-V")
+        .args(options)
+        .args(["-o", "/dev/null"])
+        .arg(desk.path(file))
+        .output();
+    match run {
+        Ok(run) => assert!(run.status.success(), "{file}: {}", String::from_utf8_lossy(&run.stdout)),
+        Err(_) => assert!(std::env::var_os("SOAPFILM_REQUIRE_TOOLS").is_none(), "glslangValidator is not installed"),
+    }
 }
 
 #[test]

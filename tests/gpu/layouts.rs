@@ -5,7 +5,8 @@ use std::mem::offset_of;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 use soapfilm::{
     gpu::{
-        bake_table::{BakeUniform, SpectralSample, TableAxes},
+        bake_table::{BakeUniform, TableAxes},
+        bands::BandSample,
         compose_map::ComposeUniform,
         conserve::ConserveUniform,
         decide_remap::DecideUniform,
@@ -58,9 +59,11 @@ fn mirrors() -> Vec<Mirror> {
             texel_angle = texel_angle,
             backdrop = backdrop,
             backdrop_is_environment = backdrop_is_environment,
-            white = white,
+            scale = scale,
             turn_cos = turn_cos,
-            turn_sin = turn_sin
+            polariser = polariser,
+            turn_sin = turn_sin,
+            seen = seen
         ),
         mirror!(
             "Bubble",
@@ -73,18 +76,13 @@ fn mirrors() -> Vec<Mirror> {
             tracer_cells = tracer_cells,
             thinned_nm = thinned_nm,
             to_film = to_film,
-            black_nm = black_nm
+            black_nm = black_nm,
+            extra_nm = extra_nm,
+            skins_nm = skins_nm
         ),
         mirror!("TableAxes", TableAxes, size = size, max_thickness_nm = max_thickness_nm, index = index),
-        mirror!(
-            "Bake",
-            BakeUniform,
-            axes = axes,
-            first_row = first_row,
-            first_wavelength_nm = first_wavelength_nm,
-            wavelength_step_nm = wavelength_step_nm
-        ),
-        mirror!("SpectralSample", SpectralSample, colour = colour, index = index),
+        mirror!("Bake", BakeUniform, axes = axes, first_row = first_row),
+        mirror!("Band", BandSample, response = response, wavelength_nm = wavelength_nm, index = index),
         mirror!(
             "ProbePoint",
             ProbePoint,
@@ -97,7 +95,10 @@ fn mirrors() -> Vec<Mirror> {
         mirror!(
             "Tonemap",
             TonemapUniform,
-            to_bt709 = to_bt709,
+            balance = balance,
+            to_display = to_display,
+            to_xyz = to_xyz,
+            from_xyz = from_xyz,
             exposure = exposure,
             dither_seed = dither_seed,
             dither_steps = dither_steps

@@ -26,6 +26,9 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
         ("UNIFORM_FILM", vec![0.0, 1.0]),
         ("MAGNIFIED", vec![0.0, 1.0]),
         ("SAMPLES", vec![1.0, 4.0]),
+        ("COLOURED", vec![0.0, 1.0]),
+        ("POLARISED", vec![0.0, 1.0]),
+        ("EVERYTHING", vec![0.0, 1.0]),
     ])
 }
 

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::widgets::{choice, seed, slider};
+use super::widgets::{choice, group, seed, slider};
 use crate::{
     app::model::Model,
     scene::{Film, FilmIndexName, FilmStateName},
@@ -56,6 +56,8 @@ fn edit(ui: &mut Ui, film: &mut Film) {
         slider(ui, "Stratification", &mut film.stratification, -5.0..=5.0, help, |slider| slider.max_decimals(2));
     }
     index(ui, &mut film.index);
+    let help = "Thickness of the layer of soap molecules on each face; soap has about 2 nm.";
+    slider(ui, "Skins", &mut film.skin_nm, 0.0..=5.0, help, |slider| slider.suffix(" nm").max_decimals(1));
     if film.state == FilmStateName::Blown {
         seed(ui, "Film seed", &mut film.seed, "Which of all random films");
     }
@@ -67,15 +69,23 @@ fn edit(ui: &mut Ui, film: &mut Film) {
 /// Water's index varies with the wavelength; any other one is a number.
 fn index(ui: &mut Ui, index: &mut FilmIndexName) {
     const WATER_LIKE: f64 = 1.333;
-    let constant = match *index {
-        FilmIndexName::Water => FilmIndexName::Constant(WATER_LIKE),
-        constant => constant,
-    };
-    let options = [
-        (FilmIndexName::Water, "water", "Water at 20 °C, with its dispersion"),
-        (constant, "constant", "The same index at every wavelength"),
-    ];
-    choice(ui, "Index", index, &options);
+    group(ui, "Index", |ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        let is_constant = matches!(index, FilmIndexName::Constant(_));
+        let liquids = [
+            ("water", FilmIndexName::Water, "Water at 20 °C, with its dispersion"),
+            ("glycerol", FilmIndexName::Named("glycerol 30%".to_owned()), "Water with 30 % of glycerol by mass"),
+        ];
+        for (label, liquid, help) in liquids {
+            if ui.selectable_label(*index == liquid, label).on_hover_text(help).clicked() {
+                *index = liquid;
+            }
+        }
+        let help = "The same index at every wavelength";
+        if ui.selectable_label(is_constant, "constant").on_hover_text(help).clicked() && !is_constant {
+            *index = FilmIndexName::Constant(WATER_LIKE);
+        }
+    });
     if let FilmIndexName::Constant(n) = index {
         slider(ui, "Value", n, 1.0..=4.0, "Refractive index of all films", |slider| slider.fixed_decimals(3));
     }

@@ -4,7 +4,7 @@ use egui::Ui;
 
 use super::{
     header,
-    widgets::{choice, group, slider},
+    widgets::{group, row, slider},
 };
 use crate::{
     app::model::{Model, Request, Target},
@@ -69,20 +69,33 @@ fn environment(ui: &mut Ui, model: &mut Model) {
     model.requests.extend(wanted.map(Request::LoadLight));
 }
 
+/// What the illuminants of [`Illuminant::NAMES`] are.
+const ILLUMINANTS: [&str; 8] = [
+    "Daylight, 6500 K",
+    "Daylight at the horizon, 5000 K",
+    "Incandescent lamp, 2856 K",
+    "Equal power at every wavelength",
+    "Fluorescent lamp, broad bands",
+    "Fluorescent lamp, three narrow bands",
+    "White LED: a blue one and a phosphor",
+    "Sodium street lamp: two yellow lines",
+];
+
 fn illuminant(ui: &mut Ui, model: &mut Model) {
-    const HELP: [&str; 4] = [
-        "Daylight, 6500 K",
-        "Daylight at the horizon, 5000 K",
-        "Incandescent lamp, 2856 K",
-        "Equal power at every wavelength",
-    ];
     let light = &model.scene.light;
-    let current = Illuminant::NAMES.iter().position(|name| light.illuminant.eq_ignore_ascii_case(name));
-    let mut chosen = current.unwrap_or(usize::MAX);
-    let options: Vec<_> =
-        Illuminant::NAMES.iter().zip(HELP).enumerate().map(|(index, (name, help))| (index, *name, help)).collect();
-    if choice(ui, "Illuminant", &mut chosen, &options) {
-        let light = Light { illuminant: Illuminant::NAMES[chosen].to_owned(), ..light.clone() };
-        model.requests.push(Request::LoadLight(light));
-    }
+    let mut chosen: Option<&str> = None;
+    row(ui, "Illuminant", "The spectrum that white light has", |ui| {
+        let list = egui::ComboBox::from_id_salt("illuminant").selected_text(light.illuminant.as_str());
+        list.show_ui(ui, |ui| {
+            for (name, help) in Illuminant::NAMES.iter().zip(ILLUMINANTS) {
+                let is = light.illuminant.eq_ignore_ascii_case(name);
+                if ui.selectable_label(is, *name).on_hover_text(help).clicked() && !is {
+                    chosen = Some(name);
+                }
+            }
+        })
+        .response
+    });
+    let changed = chosen.map(|name| Light { illuminant: name.to_owned(), ..light.clone() });
+    model.requests.extend(changed.map(Request::LoadLight));
 }

@@ -5,7 +5,7 @@ use egui::Ui;
 use super::widgets::{choice, row, slider};
 use crate::{
     app::model::Model,
-    scene::{Backdrop, View},
+    scene::{Backdrop, Quality, View},
 };
 
 /// Shows and edits the view.
@@ -14,6 +14,11 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     let help = "Exposure in stops: the radiance is multiplied by 2 to this power";
     slider(ui, "Exposure", &mut view.exposure_ev, -20.0..=20.0, help, |slider| slider.suffix(" EV").fixed_decimals(2));
     backdrop(ui, view);
+    choice(ui, "Quality", &mut view.quality, &QUALITIES);
+    polariser(ui, view);
+    row(ui, "White balance", "Shows the illuminant's white as white, as cameras do", |ui| {
+        ui.checkbox(&mut view.white_balance, "")
+    });
     row(ui, "Dither", "Hides the steps of 8-bit pictures under fine noise", |ui| ui.checkbox(&mut view.dither, ""));
     let fov = &mut model.scene.camera.fov_y_deg;
     slider(ui, "Field of view", fov, 1.0..=170.0, "Full vertical angle of the view", |slider| {
@@ -24,6 +29,23 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     slider(ui, "Distance", distance, 0.0..=1000.0, help, |slider| {
         slider.logarithmic(true).smallest_positive(0.001).suffix(" m").max_decimals(3)
     });
+}
+
+const QUALITIES: [(Quality, &str, &str); 3] = [
+    (Quality::Fast, "fast", "Products of walls from a handful of wavelengths"),
+    (Quality::Standard, "standard", "Products of walls from a dozen wavelengths"),
+    (Quality::Spectral, "spectral", "Everything from some thirty wavelengths"),
+];
+
+fn polariser(ui: &mut Ui, view: &mut View) {
+    let mut is_there = view.polariser_deg.is_some();
+    row(ui, "Polariser", "A polarising filter before the camera", |ui| ui.checkbox(&mut is_there, ""));
+    view.polariser_deg = is_there.then(|| view.polariser_deg.unwrap_or(0.0));
+    if let Some(angle) = &mut view.polariser_deg {
+        slider(ui, "Its angle", angle, -90.0..=90.0, "From the horizontal, anticlockwise", |slider| {
+            slider.suffix("°").max_decimals(1)
+        });
+    }
 }
 
 fn backdrop(ui: &mut Ui, view: &mut View) {

@@ -1,12 +1,11 @@
 //! The CIE 1931 2° standard observer, and integrals over its colour matching functions.
 
-use std::array;
 use std::sync::LazyLock;
 
 use glam::DVec3;
 
 use super::Illuminant;
-use crate::physics::spectra::{SAMPLES, Spectrum};
+use crate::physics::spectra::{Spectrum, wavelength_nm};
 
 /// A standard observer: the colour matching functions x̄, ȳ, z̄.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,25 +26,34 @@ impl Observer {
         &CIE_1931_2DEG
     }
 
-    /// (x̄, ȳ, z̄) at sample `i` of 0..421.
-    pub fn at(&self, i: usize) -> DVec3 {
-        DVec3::from_array(self.matching.each_ref().map(|function| function.at(i)))
+    /// (x̄, ȳ, z̄) at a wavelength, linear between whole nanometres.
+    pub fn at_nm(&self, wavelength_nm: f64) -> DVec3 {
+        DVec3::from_array(self.matching.each_ref().map(|function| function.at_nm(wavelength_nm)))
     }
 }
 
-/// What reflectance 1 at one wavelength contributes to XYZ under an illuminant: S (x̄, ȳ, z̄) / Σ S ȳ for each of the 421 samples.
+/// What reflectance 1 at one wavelength contributes to XYZ under an illuminant, S (x̄, ȳ, z̄) / Σ S ȳ: for each of the 421 samples of the
+/// continuous spectrum, and for each line where it stands. Wavelengths without power are left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourWeights {
-    weights: Box<[DVec3; SAMPLES]>,
+    wavelengths_nm: Vec<f64>,
+    weights: Vec<DVec3>,
 }
 
 impl ColourWeights {
     /// The weights of `illuminant` for the CIE 1931 2° observer.
     pub fn new(illuminant: &Illuminant) -> Self {
         let observer = Observer::cie_1931_2deg();
-        let power = illuminant.spectrum();
-        let luminance: f64 = (0..SAMPLES).map(|i| power.at(i) * observer.at(i).y).sum();
-        Self { weights: Box::new(array::from_fn(|i| power.at(i) / luminance * observer.at(i))) }
+        let continuous = illuminant.spectrum().iter().enumerate().map(|(i, power)| (wavelength_nm(i), power));
+        let lines = illuminant.lines().iter().map(|line| (line.wavelength_nm, line.power));
+        let (wavelengths_nm, mut weights): (Vec<f64>, Vec<DVec3>) = continuous
+            .chain(lines)
+            .filter(|(_, power)| *power > 0.0)
+            .map(|(nm, power)| (nm, power * observer.at_nm(nm)))
+            .unzip();
+        let luminance: f64 = weights.iter().map(|weight| weight.y).sum();
+        weights.iter_mut().for_each(|weight| *weight /= luminance);
+        Self { wavelengths_nm, weights }
     }
 
     /// XYZ of a perfect mirror; Y = 1 but for rounding.
@@ -53,14 +61,19 @@ impl ColourWeights {
         self.weights.iter().sum()
     }
 
-    /// XYZ of what reflects the fraction `reflectance(i)` at sample `i` (360 + i nm).
+    /// XYZ of what reflects the fraction `reflectance(i)` at wavelength `i` of [`Self::wavelengths_nm`].
     pub fn integrate(&self, mut reflectance: impl FnMut(usize) -> f64) -> DVec3 {
         self.weights.iter().enumerate().map(|(i, &weight)| weight * reflectance(i)).sum()
     }
 
-    /// The weights by rising wavelength, for upload to a GPU.
+    /// Where the light has power, nm: the continuous spectrum's wavelengths rising, then the lines'.
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.wavelengths_nm
+    }
+
+    /// The weight of each wavelength.
     pub fn as_slice(&self) -> &[DVec3] {
-        self.weights.as_slice()
+        &self.weights
     }
 }
 
@@ -91,6 +104,25 @@ mod tests {
     #[test]
     fn the_white_of_d65_has_its_six_digits() {
         assert!((white("D65") - DVec3::new(0.950469, 1.0, 1.088830)).abs().max_element() < 5e-7);
+    }
+
+    #[test]
+    fn lines_count_where_they_stand() {
+        let weights = ColourWeights::new(&"sodium".parse().expect("built in"));
+        assert_eq!(weights.wavelengths_nm(), [588.995, 589.592]);
+        let (observer, white) = (Observer::cie_1931_2deg(), weights.white());
+        let expected = (2.0 * observer.at_nm(588.995) + observer.at_nm(589.592)) / 3.0;
+        assert!((white - expected / expected.y).abs().max_element() < 1e-14, "{white}");
+    }
+
+    #[test]
+    fn whites_of_lamps_are_the_published_ones() {
+        // CIE 015:2018, chromaticities of FL2, FL11 and LED-B3 to four digits; sums at 1 nm and at 5 nm differ in the fourth.
+        for (name, x, y) in [("FL2", 0.3721, 0.3751), ("FL11", 0.3805, 0.3769), ("LED", 0.3756, 0.3723)] {
+            let xyz = white(name);
+            let (found_x, found_y) = (xyz.x / xyz.element_sum(), xyz.y / xyz.element_sum());
+            assert!((found_x - x).abs() < 1.5e-3 && (found_y - y).abs() < 1.5e-3, "{name}: {found_x} {found_y}");
+        }
     }
 
     #[test]

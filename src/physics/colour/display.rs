@@ -1,9 +1,9 @@
 //! From scene radiance to what an 8-bit display shows: exposure, tone curve, gamut, sRGB encoding and dither, as the tonemap's shader does
 //! it.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
-use super::{BT709, bt2020_to_bt709, srgb_encode};
+use super::{BT709, BT2020, DISPLAY_P3, RgbSpace, srgb_encode};
 
 /// Radiance, relative to the brightest channel, at which the tone curve leaves the straight line.
 const SHOULDER: f64 = 0.6;
@@ -12,20 +12,59 @@ const WHITE: f64 = 6.0;
 /// How much of its saturation a colour of [`WHITE`] and beyond loses.
 const BLEACH: f64 = 0.8;
 
+/// The colours that a display, or a picture's file, has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Gamut {
+    /// sRGB, with the primaries of BT.709.
+    #[default]
+    Srgb,
+    /// Display P3, with sRGB's curve.
+    DisplayP3,
+}
+
+impl Gamut {
+    /// The linear space.
+    #[must_use]
+    pub fn space(self) -> &'static RgbSpace {
+        match self {
+            Self::Srgb => &BT709,
+            Self::DisplayP3 => &DISPLAY_P3,
+        }
+    }
+
+    /// The matrix from linear BT.2020.
+    #[must_use]
+    pub fn from_bt2020(self) -> DMat3 {
+        BT2020.matrix_to(self.space())
+    }
+
+    /// The matrix to XYZ relative to the white, as CIELAB takes it.
+    #[must_use]
+    pub fn to_relative_xyz(self) -> DMat3 {
+        let to_xyz = self.space().to_xyz();
+        DMat3::from_diagonal(1.0 / (to_xyz * DVec3::ONE)) * to_xyz
+    }
+}
+
 /// How radiance becomes a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Display {
     /// Exposure in stops: radiance is multiplied by 2 to this power.
     pub exposure_ev: f64,
+    /// White balance, linear BT.2020.
+    pub balance: DMat3,
+    /// Colours of the display.
+    pub gamut: Gamut,
     /// Seed of the dither, if there is any.
     pub dither: Option<u32>,
 }
 
 impl Display {
-    /// The sRGB bytes of a pixel of that column and row (from the top left), from linear BT.2020 radiance.
+    /// The encoded bytes of a pixel of that column and row (from the top left), from linear BT.2020 radiance.
     #[must_use]
     pub fn encode(&self, radiance: DVec3, pixel: [u32; 2]) -> [u8; 3] {
-        let linear = into_gamut(bt2020_to_bt709() * tone_curve(self.exposure_ev.exp2() * radiance));
+        let exposed = self.exposure_ev.exp2() * (self.balance * radiance);
+        let linear = into_gamut(self.gamut, self.gamut.from_bt2020() * tone_curve(exposed.max(DVec3::ZERO)));
         let noise = self.dither.map_or(0.0, |seed| dither(pixel, seed));
         linear.to_array().map(|value| (255.0 * srgb_encode(value) + noise).round().clamp(0.0, 255.0) as u8)
     }
@@ -51,14 +90,41 @@ fn smoothstep(t: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Brings a colour outside [0, 1] back by moving it towards the grey of its own luminance, just as far as needed.
-fn into_gamut(linear: DVec3) -> DVec3 {
-    let grey = BT709.luminance_weights().dot(linear).clamp(0.0, 1.0);
-    let offset = linear - grey;
-    let room = |offset: f64| if offset > 0.0 { 1.0 - grey } else { grey };
-    let leaves = |offset: f64| room(offset) / offset.abs().max(1e-9);
-    let t = offset.to_array().map(leaves).into_iter().fold(1.0, f64::min);
-    (grey + t * offset).clamp(DVec3::ZERO, DVec3::ONE)
+/// Halvings of the chroma's range: it is then right to 1 / 4096.
+const HALVINGS: u32 = 12;
+
+/// Brings a colour outside [0, 1] back by lowering its chroma in CIELAB, lightness and hue kept, just as far as needed. Clipping turns the
+/// hue of film colours by up to 16°, mixing with grey in linear light by 4°.
+fn into_gamut(gamut: Gamut, linear: DVec3) -> DVec3 {
+    let inside = |linear: DVec3| linear.min_element() >= 0.0 && linear.max_element() <= 1.0;
+    if inside(linear) {
+        return linear;
+    }
+    let to_xyz = gamut.to_relative_xyz();
+    let from_xyz = to_xyz.inverse();
+    let response = (to_xyz * linear).to_array().map(lightness_curve);
+    let grey = response[1].clamp(lightness_curve(0.0), lightness_curve(1.0));
+    let with_chroma = |t: f64| from_xyz * DVec3::from(response.map(|value| inverse_curve(grey + t * (value - grey))));
+    let (mut kept, mut step) = (0.0, 0.5);
+    for _ in 0..HALVINGS {
+        if inside(with_chroma(kept + step)) {
+            kept += step;
+        }
+        step *= 0.5;
+    }
+    with_chroma(kept).clamp(DVec3::ZERO, DVec3::ONE)
+}
+
+/// Where the curve of CIELAB leaves the cube root for a straight line (CIE 015:2018).
+const CURVE_START: f64 = 6.0 / 29.0;
+
+/// The compressive curve of CIELAB.
+fn lightness_curve(t: f64) -> f64 {
+    if t > CURVE_START.powi(3) { t.cbrt() } else { t / (3.0 * CURVE_START * CURVE_START) + 4.0 / 29.0 }
+}
+
+fn inverse_curve(f: f64) -> f64 {
+    if f > CURVE_START { f.powi(3) } else { 3.0 * CURVE_START * CURVE_START * (f - 4.0 / 29.0) }
 }
 
 /// Triangular noise in (−1, 1) steps of the display, the same for all channels.
@@ -81,9 +147,11 @@ fn uniform(bits: u32) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{FilmOptics, Illuminant, Walls, xyz_to_lab};
     use super::*;
+    use crate::physics::optics::FilmIndex;
 
-    const PLAIN: Display = Display { exposure_ev: 0.0, dither: None };
+    const PLAIN: Display = Display { exposure_ev: 0.0, balance: DMat3::IDENTITY, gamut: Gamut::Srgb, dither: None };
 
     #[test]
     fn dark_radiance_is_shown_as_it_is() {
@@ -110,14 +178,47 @@ mod tests {
     }
 
     #[test]
-    fn colours_outside_the_gamut_keep_their_luminance() {
-        let green = DVec3::new(-0.2, 0.6, 0.1);
-        let mapped = into_gamut(green);
-        assert!(mapped.min_element() >= 0.0 && mapped.min_element() < 1e-15);
-        let weights = BT709.luminance_weights();
-        assert!((weights.dot(mapped) - weights.dot(green)).abs() < 1e-12);
+    fn colours_inside_the_gamut_stay_and_others_reach_its_surface() {
         let inside = DVec3::new(0.1, 0.9, 0.3);
-        assert!((into_gamut(inside) - inside).abs().max_element() < 1e-15);
+        assert_eq!(into_gamut(Gamut::Srgb, inside), inside);
+        for outside in [DVec3::new(-0.2, 0.6, 0.1), DVec3::new(1.1, 0.2, -0.05), DVec3::new(0.3, 0.9, 1.2)] {
+            let mapped = into_gamut(Gamut::Srgb, outside);
+            let room = mapped.min_element().min(1.0 - mapped.max_element());
+            assert!((0.0..2e-3).contains(&room), "{outside} to {mapped}");
+            let weights = BT709.luminance_weights();
+            assert!((weights.dot(mapped) - weights.dot(outside)).abs() < 1e-9);
+        }
+        assert_eq!(into_gamut(Gamut::Srgb, DVec3::splat(-1.0)), DVec3::ZERO);
+    }
+
+    /// Along the fringes of a film, as bright as the eye would choose: many leave sRGB, some Display P3.
+    #[test]
+    fn saturated_fringes_keep_their_hue() {
+        let optics = FilmOptics::new(FilmIndex::Water, &Illuminant::default());
+        for gamut in [Gamut::Srgb, Gamut::DisplayP3] {
+            let (mut mapped_count, mut worst) = (0, 0.0_f64);
+            for k in 0..1500 {
+                let cos_theta = [1.0, 0.7, 0.4][k % 3];
+                let xyz = optics.xyz(cos_theta, Walls::One { thickness_nm: k as f64 });
+                let exposed = tone_curve(BT2020.from_xyz() * xyz / optics.film().max_reflectance(cos_theta));
+                let linear = gamut.from_bt2020() * exposed;
+                let mapped = into_gamut(gamut, linear);
+                let white = gamut.space().to_xyz() * DVec3::ONE;
+                let [before, after] = [linear, mapped].map(|rgb| xyz_to_lab(gamut.space().to_xyz() * rgb, white));
+                // The hue of what is nearly grey is nobody's business.
+                if linear != mapped && after.a.hypot(after.b) > 2.0 {
+                    mapped_count += 1;
+                    let turn = (before.b.atan2(before.a) - after.b.atan2(after.a)).to_degrees();
+                    worst = worst
+                        .max((turn + 180.0).rem_euclid(360.0) - 180.0)
+                        .max(180.0 - (turn + 180.0).rem_euclid(360.0));
+                }
+            }
+            eprintln!(
+                "measured: {gamut:?}: {mapped_count} of 1500 fringe colours mapped, hue turned by {worst:.3} degrees at most"
+            );
+            assert!(mapped_count > 20 && worst <= 3.0, "{gamut:?}: {mapped_count} {worst}");
+        }
     }
 
     #[test]

@@ -1,11 +1,9 @@
 //! The colour of a film: reflectance under an illuminant, integrated over the visible range.
 
-use std::array;
-
 use glam::{DMat3, DVec3};
 
 use super::{ColourWeights, Illuminant, Uplift, ciede2000, xyz_to_lab};
-use crate::physics::optics::{FilmIndex, Incidence, Polarised, REFERENCE_NM, max_reflectance};
+use crate::physics::optics::{FilmMaterial, Polarised, Wall};
 use crate::physics::spectra::{SAMPLES, wavelength_nm};
 
 /// The film that a ray meets: one wall, or both walls of a bubble. Thickness along the normal, nm.
@@ -36,14 +34,26 @@ impl Walls {
         }
     }
 
-    /// Reflectance of unpolarised light of one wavelength. On a sphere all hits share the plane of incidence, so s and p stay apart
-    /// until the end.
-    pub fn reflectance(&self, n: f64, cos_theta: f64, wavelength_nm: f64) -> f64 {
-        let incidence = Incidence::new(n, cos_theta);
-        let wall = |thickness_nm| incidence.reflectance(thickness_nm, wavelength_nm);
+    /// The walls with each thickness replaced.
+    #[must_use]
+    pub fn map(self, thickness_nm: impl Fn(f64) -> f64) -> Self {
+        match self {
+            Self::One { thickness_nm: nm } => Self::One { thickness_nm: thickness_nm(nm) },
+            Self::Two { front_nm, back_nm, exit_nm } => Self::Two {
+                front_nm: thickness_nm(front_nm),
+                back_nm: thickness_nm(back_nm),
+                exit_nm: thickness_nm(exit_nm),
+            },
+        }
+    }
+
+    /// Reflectance of unpolarised light of one wavelength. On a sphere all hits share angle and plane of incidence, so one [`Wall`] stands
+    /// for all of them and s and p stay apart until the end.
+    pub fn reflectance(&self, wall: &Wall) -> f64 {
+        let at = |thickness_nm| wall.reflectance(thickness_nm);
         match *self {
-            Self::One { thickness_nm } => wall(thickness_nm),
-            Self::Two { front_nm, back_nm, exit_nm } => front_and_back(wall(front_nm), wall(back_nm), wall(exit_nm)),
+            Self::One { thickness_nm } => at(thickness_nm),
+            Self::Two { front_nm, back_nm, exit_nm } => front_and_back(at(front_nm), at(back_nm), at(exit_nm)),
         }
         .mean()
     }
@@ -57,65 +67,67 @@ fn front_and_back(front: Polarised, back: Polarised, exit: Polarised) -> Polaris
 /// One film under one illuminant, with all that does not change from point to point: what a table of colours is baked from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmOptics {
-    film: FilmIndex,
-    indices: Box<[f64; SAMPLES]>,
+    film: FilmMaterial,
+    indices: Vec<f64>,
     weights: ColourWeights,
 }
 
 impl FilmOptics {
     /// Tabulates the film's index and the illuminant's colour weights.
-    pub fn new(film: FilmIndex, illuminant: &Illuminant) -> Self {
-        let indices = Box::new(array::from_fn(|i| film.n(wavelength_nm(i))));
-        Self { film, indices, weights: ColourWeights::new(illuminant) }
+    pub fn new(film: impl Into<FilmMaterial>, illuminant: &Illuminant) -> Self {
+        let (film, weights) = (film.into(), ColourWeights::new(illuminant));
+        let indices = weights.wavelengths_nm().iter().map(|nm| film.index.n(*nm)).collect();
+        Self { film, indices, weights }
     }
 
     /// What the film is made of.
-    pub fn film(&self) -> FilmIndex {
-        self.film
+    pub fn film(&self) -> &FilmMaterial {
+        &self.film
     }
 
-    /// Refractive index at each of the 421 samples.
+    /// Refractive index of the liquid at each wavelength of the weights.
     pub fn indices(&self) -> &[f64] {
-        self.indices.as_slice()
+        &self.indices
     }
 
-    /// XYZ weight of each of the 421 samples.
+    /// XYZ weight of each wavelength.
     pub fn weights(&self) -> &ColourWeights {
         &self.weights
     }
 
+    /// How the film meets light at wavelength `i` of the weights.
+    pub fn wall(&self, i: usize, cos_theta: f64) -> Wall {
+        self.film.wall(self.indices[i], cos_theta, self.weights.wavelengths_nm()[i])
+    }
+
     /// XYZ of white light after reflection, unpolarised; a perfect mirror has Y = 1. `cos_theta` is that of the angle in air, 0 to 1.
     pub fn xyz(&self, cos_theta: f64, walls: Walls) -> DVec3 {
-        self.weights.integrate(|i| self.reflectance(i, cos_theta, walls))
+        self.weights.integrate(|i| walls.reflectance(&self.wall(i, cos_theta)))
     }
 
     /// The matrix from linear BT.709 light to the XYZ of its reflection; see [`Uplift`].
     pub fn light_matrix(&self, cos_theta: f64, walls: Walls) -> DMat3 {
-        let reflectance: [f64; SAMPLES] = array::from_fn(|i| self.reflectance(i, cos_theta, walls));
-        Uplift::bt709().light_matrix(&self.weights, &reflectance)
+        let reflectance = |i| walls.reflectance(&self.wall(i, cos_theta));
+        Uplift::bt709().light_matrix(&self.weights, &(0..self.indices.len()).map(reflectance).collect::<Vec<_>>())
     }
 
     /// Points (wavelength in nm, reflectance of unpolarised light) every 5 nm from 360 to 780 nm.
     pub fn spectrum(&self, cos_theta: f64, walls: Walls) -> Vec<(f64, f64)> {
-        let samples = (0..SAMPLES).step_by(5);
-        samples.map(|i| (wavelength_nm(i), self.reflectance(i, cos_theta, walls))).collect()
-    }
-
-    fn reflectance(&self, i: usize, cos_theta: f64, walls: Walls) -> f64 {
-        walls.reflectance(self.indices[i], cos_theta, wavelength_nm(i))
+        let wavelengths = (0..SAMPLES).step_by(5).map(wavelength_nm);
+        wavelengths.map(|nm| (nm, walls.reflectance(&self.film.wall(self.film.index.n(nm), cos_theta, nm)))).collect()
     }
 }
 
 /// The exposure "M2" at which colour errors are measured: 1 / (walls · Rmax), with Rmax the most that one wall reflects at this angle
 /// (n at 589 nm). It brings L* near 100 at most at every angle. 0 for a film of index 1, which shows no colour to expose.
-pub fn m2_exposure(film: FilmIndex, cos_theta: f64, walls: u32) -> f64 {
-    let brightest = f64::from(walls) * max_reflectance(film.n(REFERENCE_NM), cos_theta);
+pub fn m2_exposure(film: &FilmMaterial, cos_theta: f64, walls: u32) -> f64 {
+    let brightest = f64::from(walls) * film.max_reflectance(cos_theta);
     if brightest > 0.0 { 1.0 / brightest } else { 0.0 }
 }
 
 /// CIEDE2000 between two colours of the same film at the same angle, at exposure [`m2_exposure`], without clamping; `white` is the
 /// integrated white of the illuminant ([`ColourWeights::white`]) and `walls` the number of walls.
-pub fn m2_delta_e(xyz_a: DVec3, xyz_b: DVec3, film: FilmIndex, cos_theta: f64, walls: u32, white: DVec3) -> f64 {
+pub fn m2_delta_e(xyz_a: DVec3, xyz_b: DVec3, film: &FilmMaterial, cos_theta: f64, walls: u32, white: DVec3) -> f64 {
     let exposure = m2_exposure(film, cos_theta, walls);
     let lab = |xyz: DVec3| xyz_to_lab(exposure * xyz, white);
     ciede2000(lab(xyz_a), lab(xyz_b))
@@ -125,6 +137,7 @@ pub fn m2_delta_e(xyz_a: DVec3, xyz_b: DVec3, film: FilmIndex, cos_theta: f64, w
 mod tests {
     use super::*;
     use crate::physics::colour::{BT709, BT2020, srgb_encode};
+    use crate::physics::optics::{FilmIndex, Incidence};
 
     fn water() -> FilmOptics {
         FilmOptics::new(FilmIndex::Water, &Illuminant::default())
@@ -144,7 +157,7 @@ mod tests {
 
     fn mean_delta_e(count: u32, other: impl Fn(f64, f64) -> DVec3) -> f64 {
         let (optics, white) = (water(), water().weights().white());
-        let error = |(c, d)| m2_delta_e(optics.xyz(c, one(d)), other(c, d), FilmIndex::Water, c, 1, white);
+        let error = |(c, d)| m2_delta_e(optics.xyz(c, one(d)), other(c, d), &FilmMaterial::default(), c, 1, white);
         points(count).map(error).sum::<f64>() / f64::from(count)
     }
 
@@ -205,7 +218,11 @@ mod tests {
         let (cos_theta, nm) = (0.6, 550.0);
         let s = Incidence::new(n, cos_theta).reflectance(300.0, nm).s;
         let walls = Walls::Two { front_nm: 300.0, back_nm: 300.0, exit_nm: 300.0 };
-        assert!((walls.reflectance(n, cos_theta, nm) - 0.5 * (s + (1.0 - s).powi(2) * s)).abs() < 1e-15);
+        assert!(
+            (walls.reflectance(&FilmMaterial::default().wall(n, cos_theta, nm)) - 0.5 * (s + (1.0 - s).powi(2) * s))
+                .abs()
+                < 1e-15
+        );
     }
 
     #[test]
@@ -220,7 +237,10 @@ mod tests {
     fn spectrum_runs_from_360_to_780_every_5_nm() {
         let spectrum = water().spectrum(0.8, one(333.0));
         assert_eq!((spectrum.len(), spectrum[0].0, spectrum[84].0), (85, 360.0, 780.0));
-        assert_eq!(spectrum[38].1, one(333.0).reflectance(FilmIndex::Water.n(550.0), 0.8, 550.0));
+        assert_eq!(
+            spectrum[38].1,
+            one(333.0).reflectance(&FilmMaterial::default().wall(FilmIndex::Water.n(550.0), 0.8, 550.0))
+        );
     }
 
     #[test]
@@ -228,6 +248,21 @@ mod tests {
         let (optics, to_bt2020) = (water(), BT2020.from_xyz());
         let lowest = points(4000).map(|(c, d)| (to_bt2020 * optics.xyz(c, one(d))).min_element()).fold(1.0, f64::min);
         assert!(lowest >= 0.0, "{lowest}");
+    }
+
+    #[test]
+    fn skins_are_nearly_a_thicker_film() {
+        let coated = FilmMaterial { skin_nm: 2.0, ..FilmMaterial::default() };
+        let (optics, plain) = (FilmOptics::new(coated.clone(), &Illuminant::default()), water());
+        let (mut ignored, mut replaced) = (0.0_f64, 0.0_f64);
+        let white = plain.weights().white();
+        for (c, d) in points(2000) {
+            let truth = optics.xyz(c, one(d));
+            let error = |nm: f64| m2_delta_e(truth, plain.xyz(c, one(nm)), &coated, c, 1, white);
+            (ignored, replaced) = (ignored.max(error(d)), replaced.max(error(coated.equivalent_nm(d))));
+        }
+        eprintln!("measured: soap skins ignored {ignored:.2}, as an equivalent thickness {replaced:.2}");
+        assert!(ignored > 3.0 && replaced < 0.8, "{ignored} {replaced}");
     }
 
     #[test]
@@ -243,12 +278,12 @@ mod tests {
 
     #[test]
     fn m2_exposure_holds_lightness_near_100() {
-        assert!((m2_exposure(FilmIndex::Water, 1.0, 1) * 0.0784 - 1.0).abs() < 1e-3);
-        assert_eq!(m2_exposure(FilmIndex::Water, 0.0, 2), 0.5);
-        assert_eq!(m2_exposure(FilmIndex::Constant(1.0), 0.5, 1), 0.0);
+        assert!((m2_exposure(&FilmMaterial::default(), 1.0, 1) * 0.0784 - 1.0).abs() < 1e-3);
+        assert_eq!(m2_exposure(&FilmMaterial::default(), 0.0, 2), 0.5);
+        assert_eq!(m2_exposure(&FilmIndex::Constant(1.0).into(), 0.5, 1), 0.0);
         let (optics, white) = (water(), water().weights().white());
         for (c, d) in points(500) {
-            let exposed = m2_exposure(FilmIndex::Water, c, 1) * optics.xyz(c, one(d));
+            let exposed = m2_exposure(&FilmMaterial::default(), c, 1) * optics.xyz(c, one(d));
             assert!(xyz_to_lab(exposed, white).l < 101.0, "cos={c} d={d}");
         }
     }

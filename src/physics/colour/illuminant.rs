@@ -9,32 +9,59 @@ use crate::physics::spectra::{Spectrum, SpectrumError};
 const D65: &str = include_str!("../../../assets/spectra/illuminant_d65.csv");
 const D50: &str = include_str!("../../../assets/spectra/illuminant_d50.csv");
 const A: &str = include_str!("../../../assets/spectra/illuminant_a.csv");
+const FL2: &str = include_str!("../../../assets/spectra/illuminant_fl2.csv");
+const FL11: &str = include_str!("../../../assets/spectra/illuminant_fl11.csv");
+const LED: &str = include_str!("../../../assets/spectra/illuminant_led_b3.csv");
+
+/// The sodium doublet D₂, D₁ in air, nm, and relative powers of a thin vapour lamp (NIST Atomic Spectra Database).
+const SODIUM: [Line; 2] = [Line { wavelength_nm: 588.995, power: 2.0 }, Line { wavelength_nm: 589.592, power: 1.0 }];
+
+/// Second radiation constant hc/k, nm K (CODATA 2018).
+const SECOND_RADIATION_NM_K: f64 = 1.438_776_877e7;
+
+/// Temperatures of black bodies whose light has a shape in f64 and a use: embers to the bluest stars, K.
+const TEMPERATURES_K: std::ops::RangeInclusive<f64> = 800.0..=100_000.0;
 
 /// A name that is no built-in illuminant's.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("unknown illuminant `{name}`; known are {}", Illuminant::NAMES.join(", "))]
-pub struct UnknownIlluminant {
-    /// The name asked for.
-    pub name: String,
+pub enum UnknownIlluminant {
+    /// No light of that name.
+    #[error("unknown illuminant `{0}`; known are {known}, a black body like `3000 K`, or a file like `lamp.csv`", known = Illuminant::NAMES.join(", "))]
+    Name(String),
+    /// A black body too cold or too hot.
+    #[error("a black body of {0} K is no lamp here; name one from 800 K to 100000 K")]
+    Temperature(f64),
 }
 
-/// A light source: its name and relative spectral power. The unit of power is free, as every integral divides it out.
+/// All of a lamp's light at one wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Where it is, 360 to 780 nm.
+    pub wavelength_nm: f64,
+    /// Its power, in the unit of the continuous spectrum times one nanometre.
+    pub power: f64,
+}
+
+/// A light source: its name and relative spectral power, continuous and in lines. The unit of power is free, as every integral divides it
+/// out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Illuminant {
     name: String,
     spectrum: Spectrum,
+    lines: Vec<Line>,
 }
 
 impl Illuminant {
-    /// Names of the built-in illuminants, which [`FromStr`] takes in any case: CIE daylights D65 and D50, CIE A (tungsten, 2856 K) and
-    /// E (equal power at every wavelength).
-    pub const NAMES: [&str; 4] = ["D65", "D50", "A", "E"];
+    /// Names of the built-in illuminants, which [`FromStr`] takes in any case: CIE daylights D65 and D50, CIE A (tungsten, 2856 K), E (equal
+    /// power at every wavelength), the CIE fluorescent lamps FL2 (broad) and FL11 (three bands), the CIE white LED B3, and sodium vapour
+    /// (its two lines alone).
+    pub const NAMES: [&str; 8] = ["D65", "D50", "A", "E", "FL2", "FL11", "LED", "sodium"];
 
     /// A light source of one's own; refuses a spectrum without power in the visible range.
     pub fn new(name: impl Into<String>, spectrum: Spectrum) -> Result<Self, SpectrumError> {
         let name = name.into();
         spectrum.check_power(&name)?;
-        Ok(Self { name, spectrum })
+        Ok(Self { name, spectrum, lines: Vec::new() })
     }
 
     /// Reads a light source from the text of a CSV file, see [`Spectrum::from_csv`]; `name` is the file's name.
@@ -42,19 +69,44 @@ impl Illuminant {
         Spectrum::from_csv(name, text).and_then(|spectrum| Self::new(name, spectrum))
     }
 
+    /// A black body (M. Planck 1901), 800 to 100 000 K.
+    pub fn black_body(temperature_k: f64) -> Result<Self, UnknownIlluminant> {
+        if !TEMPERATURES_K.contains(&temperature_k) {
+            return Err(UnknownIlluminant::Temperature(temperature_k));
+        }
+        let exponent = |nm: f64| SECOND_RADIATION_NM_K / (nm * temperature_k);
+        // Relative to 560 nm, so that no temperature leaves the range of powers.
+        let power = |nm: f64| (560.0 / nm).powi(5) * exponent(560.0).exp_m1() / exponent(nm).exp_m1();
+        Ok(Self { name: format!("{temperature_k} K"), spectrum: Spectrum::from_fn(power), lines: Vec::new() })
+    }
+
     /// What it is called.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Relative spectral power.
+    /// Relative spectral power of the continuous part.
     pub fn spectrum(&self) -> &Spectrum {
         &self.spectrum
     }
 
+    /// Its lines, which stand beside the continuous part and are never spread over a grid.
+    pub fn lines(&self) -> &[Line] {
+        &self.lines
+    }
+
+    /// Whether all of its light has nearly one hue, so that there is no white to balance to: lines within ten nanometres alone.
+    pub fn is_monochromatic(&self) -> bool {
+        let ends = self.lines.iter().fold([f64::INFINITY, 0.0], |[low, high], line| {
+            [line.wavelength_nm.min(low), line.wavelength_nm.max(high)]
+        });
+        self.spectrum.iter().all(|power| power == 0.0) && ends[1] - ends[0] < 10.0
+    }
+
     fn built_in(name: &str, text: &str) -> Self {
         // The text is part of the program, and a test below parses every built-in.
-        Self::from_csv(name, text).expect("built-in illuminants are valid")
+        let light = Self::from_csv(name, text).expect("built-in illuminants are valid");
+        Self { name: name.into(), ..light }
     }
 }
 
@@ -68,13 +120,22 @@ impl Default for Illuminant {
 impl FromStr for Illuminant {
     type Err = UnknownIlluminant;
 
+    /// One of [`Illuminant::NAMES`], or a temperature like `3000 K`.
     fn from_str(name: &str) -> Result<Self, Self::Err> {
-        match name.trim().to_ascii_uppercase().as_str() {
+        let upper = name.trim().to_ascii_uppercase();
+        if let Some(temperature) = upper.strip_suffix('K').and_then(|number| number.trim().parse().ok()) {
+            return Self::black_body(temperature);
+        }
+        match upper.as_str() {
             "D65" => Ok(Self::default()),
             "D50" => Ok(Self::built_in("D50", D50)),
             "A" => Ok(Self::built_in("A", A)),
-            "E" => Ok(Self { name: "E".into(), spectrum: Spectrum::constant(1.0) }),
-            _ => Err(UnknownIlluminant { name: name.into() }),
+            "E" => Ok(Self { name: "E".into(), spectrum: Spectrum::constant(1.0), lines: Vec::new() }),
+            "FL2" => Ok(Self::built_in("FL2", FL2)),
+            "FL11" => Ok(Self::built_in("FL11", FL11)),
+            "LED" => Ok(Self::built_in("LED", LED)),
+            "SODIUM" => Ok(Self { name: "sodium".into(), spectrum: Spectrum::constant(0.0), lines: SODIUM.to_vec() }),
+            _ => Err(UnknownIlluminant::Name(name.into())),
         }
     }
 }
@@ -83,28 +144,53 @@ impl FromStr for Illuminant {
 mod tests {
     use super::*;
 
+    fn light(name: &str) -> Illuminant {
+        name.parse().expect("built in")
+    }
+
     #[test]
     fn every_name_is_known_in_any_case() {
         for name in Illuminant::NAMES {
-            assert_eq!(name.to_lowercase().parse::<Illuminant>().expect("built in").name(), name);
+            assert_eq!(light(&name.to_lowercase()).name(), name);
         }
     }
 
     #[test]
     fn tables_are_the_published_ones() {
-        let power = |name: &str, nm: usize| name.parse::<Illuminant>().expect("built in").spectrum().at(nm - 360);
+        let power = |name: &str, nm: usize| light(name).spectrum().at(nm - 360);
         // CIE tables give D illuminants and A the value 100 at 560 nm; 562 nm lies on the straight line to 565 nm.
         for name in ["D65", "D50", "A"] {
             assert_eq!(power(name, 560), 100.0, "{name}");
         }
         assert!((power("D65", 562) - (100.0 + 0.4 * (98.1671 - 100.0))).abs() < 1e-12);
         assert_eq!(power("E", 400), power("E", 700));
+        assert!(power("FL11", 545) > 5.0 * power("FL11", 560), "the green band of FL11");
+    }
+
+    #[test]
+    fn illuminant_a_is_a_black_body() {
+        // CIE A is Planck's law at 2848 K with the radiation constant of its day, 1.4350e-2 m K: 2855.5 K with today's.
+        let body = Illuminant::black_body(2848.0 * 1.438_776_877 / 1.4350).expect("in range");
+        for i in (0..421).step_by(10) {
+            let (tabulated, computed) = (light("A").spectrum().at(i), 100.0 * body.spectrum().at(i));
+            assert!((tabulated / computed - 1.0).abs() < 2e-5, "sample {i}: {tabulated} {computed}");
+        }
+        assert_eq!(light("2856 k").name(), "2856 K");
+        assert_eq!("500 K".parse::<Illuminant>(), Err(UnknownIlluminant::Temperature(500.0)));
+        assert!(matches!("nan K".parse::<Illuminant>(), Err(UnknownIlluminant::Temperature(_))));
+    }
+
+    #[test]
+    fn only_sodium_is_monochromatic() {
+        for name in Illuminant::NAMES {
+            assert_eq!(light(name).is_monochromatic(), name == "sodium");
+        }
     }
 
     #[test]
     fn an_unknown_name_is_answered_with_the_known_ones() {
         let message = "D66".parse::<Illuminant>().expect_err("unknown").to_string();
-        assert_eq!(message, "unknown illuminant `D66`; known are D65, D50, A, E");
+        assert!(message.starts_with("unknown illuminant `D66`; known are D65, D50, A, E, FL2,"), "{message}");
     }
 
     #[test]

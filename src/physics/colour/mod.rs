@@ -4,21 +4,27 @@
 //! leave sRGB (12.7 % of all samples) and Display P3 (5.9 %), but not BT.2020, which is why everything here stays XYZ or linear BT.2020
 //! until a picture is written.
 
+mod adaptation;
+mod bands;
 mod cie;
 mod delta_e;
 mod display;
 mod film;
 mod illuminant;
 mod spaces;
+mod table;
 mod uplift;
 
 #[cfg(test)]
 mod reference_tests;
 
+pub use adaptation::{adapted_to_d50, daylight_scale, seen_light, white_balance};
+pub use bands::{Band, BandTask, fit_bands, responses};
 pub use cie::{ColourWeights, Observer};
 pub use delta_e::{Lab, ciede2000, xyz_to_lab};
-pub use display::Display;
+pub use display::{Display, Gamut};
 pub use film::{FilmOptics, Walls, m2_delta_e, m2_exposure};
-pub use illuminant::{Illuminant, UnknownIlluminant};
+pub use illuminant::{Illuminant, Line, UnknownIlluminant};
 pub use spaces::{BT709, BT2020, DISPLAY_P3, RgbSpace, bt709_to_bt2020, bt2020_to_bt709, srgb_decode, srgb_encode};
+pub use table::FilmTable;
 pub use uplift::Uplift;

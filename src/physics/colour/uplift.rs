@@ -31,15 +31,15 @@ impl Uplift {
         &BT709
     }
 
-    /// (ρ_r, ρ_g, ρ_b) at sample `i` of 0..421.
-    pub fn at(&self, i: usize) -> DVec3 {
-        DVec3::from_array(self.rho.each_ref().map(|rho| rho.at(i)))
+    /// (ρ_r, ρ_g, ρ_b) at a wavelength.
+    pub fn at_nm(&self, wavelength_nm: f64) -> DVec3 {
+        DVec3::from_array(self.rho.each_ref().map(|rho| rho.at_nm(wavelength_nm)))
     }
 
-    /// The matrix from linear BT.709 light to the XYZ of what is left of it after reflection with `reflectance[i]` at sample `i`.
-    /// Under an illuminant other than D65 nothing is adapted: white light has that illuminant's white.
+    /// The matrix from linear BT.709 light to the XYZ of what is left of it after reflection with `reflectance[i]` at wavelength `i` of
+    /// the weights. Under an illuminant other than D65 nothing is adapted: white light has that illuminant's white.
     pub fn light_matrix(&self, weights: &ColourWeights, reflectance: &[f64]) -> DMat3 {
-        let column = |rho: &Spectrum| weights.integrate(|i| rho.at(i) * reflectance[i]);
+        let column = |rho: &Spectrum| weights.integrate(|i| rho.at_nm(weights.wavelengths_nm()[i]) * reflectance[i]);
         let [r, g, b] = self.rho.each_ref().map(column);
         DMat3::from_cols(r, g, b)
     }
@@ -49,7 +49,7 @@ impl Uplift {
 mod tests {
     use super::super::{BT709 as BT709_SPACE, Illuminant};
     use super::*;
-    use crate::physics::spectra::SAMPLES;
+    use crate::physics::spectra::{SAMPLES, wavelength_nm};
 
     #[test]
     fn reproduces_the_primaries_under_d65() {
@@ -65,7 +65,7 @@ mod tests {
     fn white_light_is_the_illuminant_itself() {
         for name in Illuminant::NAMES {
             let weights = ColourWeights::new(&name.parse().expect("built in"));
-            let mirror = Uplift::bt709().light_matrix(&weights, &[1.0; SAMPLES]) * DVec3::ONE;
+            let mirror = Uplift::bt709().light_matrix(&weights, &vec![1.0; weights.as_slice().len()]) * DVec3::ONE;
             assert!((mirror - weights.white()).abs().max_element() < 1e-13, "{name}");
         }
     }
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn spectra_are_nonnegative_and_sum_to_one() {
         for i in 0..SAMPLES {
-            let rho = Uplift::bt709().at(i);
+            let rho = Uplift::bt709().at_nm(wavelength_nm(i));
             assert!(rho.min_element() >= 0.0 && (rho.element_sum() - 1.0).abs() < 1e-14, "sample {i}: {rho}");
         }
     }

@@ -21,6 +21,7 @@ pub struct CubeLevel {
 pub struct CubeMap {
     mips: Vec<CubeLevel>,
     id: u64,
+    neutral: bool,
     repairs: Repairs,
 }
 
@@ -37,8 +38,8 @@ impl CubeMap {
             repairs = repairs + fill_face(&mut texels, face, size, supersampling, &radiance);
             store_mips(&mut mips, face, texels);
         }
-        let id = content_id(&mips[0]);
-        Self { mips, id, repairs }
+        let (id, neutral) = (content_id(&mips[0]), mips[0].is_neutral());
+        Self { mips, id, neutral, repairs }
     }
 
     /// The same radiance from every direction.
@@ -70,6 +71,11 @@ impl CubeMap {
     /// A hash of the content: equal maps have equal ids on every machine.
     pub fn id(&self) -> u64 {
         self.id
+    }
+
+    /// Whether all of it is grey, but for the rounding of half floats.
+    pub fn is_neutral(&self) -> bool {
+        self.neutral
     }
 
     /// What had to be repaired: pixels of the panorama, or texels where the map was made from a formula.
@@ -113,6 +119,14 @@ impl CubeLevel {
     fn radiance(&self, layer: usize, index: usize) -> DVec3 {
         let [r, g, b, _] = self.faces[layer][index].map(f64::from);
         DVec3::new(r, g, b)
+    }
+
+    fn is_neutral(&self) -> bool {
+        let grey = |texel: &[f16; 4]| {
+            let [r, g, b] = [texel[0], texel[1], texel[2]].map(f16::to_f32);
+            r.max(g).max(b) - r.min(g).min(b) <= 1e-3 * r.max(g).max(b)
+        };
+        self.faces.iter().flatten().all(grey)
     }
 }
 

@@ -1,11 +1,10 @@
 //! One ray through one bubble: the hits on the film, and how much of the light each direction contributes.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::physics::{
-    colour::{BT2020, FilmOptics},
-    optics::{Incidence, Polarised, REFERENCE_NM, amplitudes},
-    spectra::wavelength_nm,
+    colour::{FilmOptics, daylight_scale, responses},
+    optics::{Polarised, amplitudes},
 };
 
 /// Inner reflections followed at most; only rays within a hair of the rim have more to give.
@@ -16,24 +15,30 @@ const NEGLIGIBLE: f64 = 1e-6;
 /// A film under an illuminant, ready to have rays traced through bubbles of it.
 pub(super) struct LightPath<'a> {
     optics: &'a FilmOptics,
-    /// Share of each wavelength in the linear BT.2020 colour of reflected light, where a perfect mirror is (1, 1, 1).
-    shares: Vec<DVec3>,
+    /// For each wavelength, from light to what is seen of it; together they show white daylight as (1, 1, 1).
+    responses: Vec<DMat3>,
+    /// Direction that a polariser lets pass.
+    polariser: Option<DVec3>,
 }
 
-/// What comes along a ray: for each direction, the factor on the radiance from there.
+/// What comes along a ray: for each direction, the matrix from the light there to what is seen of it.
 pub(super) struct Arrivals {
     /// On what stands straight behind the bubble.
-    pub straight: DVec3,
+    pub straight: DMat3,
     /// On the surroundings in a direction: the outer reflection, if there is one, then each inner one.
-    pub reflected: Vec<(DVec3, DVec3)>,
+    pub reflected: Vec<(DVec3, DMat3)>,
 }
 
 impl<'a> LightPath<'a> {
-    pub fn new(optics: &'a FilmOptics) -> Self {
-        let to_bt2020 = BT2020.from_xyz();
-        let white = to_bt2020 * optics.weights().white();
-        let shares = optics.weights().as_slice().iter().map(|weight| to_bt2020 * *weight / white).collect();
-        Self { optics, shares }
+    pub fn new(optics: &'a FilmOptics, polariser: Option<DVec3>) -> Self {
+        let scale = DMat3::from_diagonal(daylight_scale());
+        let responses = responses(optics).into_iter().map(|response| scale * response).collect();
+        Self { optics, responses, polariser }
+    }
+
+    /// What is seen of light that met no bubble.
+    pub fn seen(&self) -> DMat3 {
+        self.responses.iter().fold(DMat3::ZERO, |sum, response| sum + *response)
     }
 
     /// Follows a ray (a unit vector) from an eye in units of the radius, the sphere's centre at the origin; nothing if it misses.
@@ -47,7 +52,7 @@ impl<'a> LightPath<'a> {
         let cos_theta = (1.0 - foot.length_squared()).sqrt();
         let hits = Hits::new(foot, ray, cos_theta, self.inner_reflections(cos_theta));
         let thickness_nm: Vec<f64> = hits.points.iter().map(|point| thickness_nm(*point)).collect();
-        let factors = self.factors(cos_theta, &thickness_nm, inside);
+        let factors = self.factors(cos_theta, &thickness_nm, inside, self.polarisation(foot, ray));
         let first = usize::from(inside);
         let reflected = hits.directions.into_iter().zip(factors.reflected).skip(first).collect();
         Some(Arrivals { straight: factors.straight, reflected })
@@ -55,46 +60,63 @@ impl<'a> LightPath<'a> {
 
     /// How many inner reflections to follow, by the most that any film reflects at this angle.
     fn inner_reflections(&self, cos_theta: f64) -> usize {
-        let r2 = amplitudes(self.optics.film().n(REFERENCE_NM), cos_theta).s.powi(2);
+        let r2 = amplitudes(self.optics.film().reference_index(), cos_theta).s.powi(2);
         let most = 4.0 * r2 / (1.0 + r2).powi(2);
         let needed = NEGLIGIBLE.ln() / most.ln();
         // `most` is 1 at the very rim, where no number of reflections is enough.
         if needed.is_finite() && needed > 0.0 { (needed.ceil() as usize).clamp(1, MAX_INNER) } else { MAX_INNER }
     }
 
-    fn factors(&self, cos_theta: f64, thickness_nm: &[f64], inside: bool) -> Factors {
-        let mut factors = Factors { straight: DVec3::ZERO, reflected: vec![DVec3::ZERO; thickness_nm.len()] };
-        for (i, (share, n)) in self.shares.iter().zip(self.optics.indices()).enumerate() {
-            let incidence = Incidence::new(*n, cos_theta);
-            let wall = |thickness_nm: &f64| incidence.reflectance(*thickness_nm, wavelength_nm(i));
-            factors.add(*share, thickness_nm.iter().map(wall), inside);
+    /// Shares of s and p light that are seen: halves without a polariser. With one, the share of the light's power that passes it,
+    /// together 1 as well, which is half of what an ideal polariser takes given back.
+    fn polarisation(&self, foot: DVec3, ray: DVec3) -> Polarised {
+        let across = ray.cross(foot).try_normalize();
+        let (Some(axis), Some(across)) = (self.polariser, across) else { return Polarised { s: 0.5, p: 0.5 } };
+        let [s, p] = [across, ray.cross(across)].map(|field| axis.dot(field).powi(2));
+        // An axis along the ray passes nothing of either.
+        if s + p > 1e-12 { Polarised { s: s / (s + p), p: p / (s + p) } } else { Polarised { s: 0.5, p: 0.5 } }
+    }
+
+    fn factors(&self, cos_theta: f64, thickness_nm: &[f64], inside: bool, polarisation: Polarised) -> Factors {
+        let mut factors = Factors { straight: DMat3::ZERO, reflected: vec![DMat3::ZERO; thickness_nm.len()] };
+        for (i, response) in self.responses.iter().enumerate() {
+            let wall = self.optics.wall(i, cos_theta);
+            let walls = thickness_nm.iter().map(|nm| wall.reflectance(*nm));
+            factors.add(*response, walls, inside, polarisation);
         }
         factors
     }
 }
 
-/// Factors of a ray's directions, summed over wavelengths and polarisations.
+/// Matrices of a ray's directions, summed over wavelengths and polarisations.
 struct Factors {
-    straight: DVec3,
+    straight: DMat3,
     /// Outer reflection first, then each inner one.
-    reflected: Vec<DVec3>,
+    reflected: Vec<DMat3>,
 }
 
 impl Factors {
     /// Adds one wavelength, by the reflectances of its hits in order.
-    fn add(&mut self, share: DVec3, mut walls: impl Iterator<Item = Polarised>, inside: bool) {
+    fn add(
+        &mut self,
+        response: DMat3,
+        mut walls: impl Iterator<Item = Polarised>,
+        inside: bool,
+        polarisation: Polarised,
+    ) {
         let [front, back] = [walls.next(), walls.next()].map(|wall| wall.unwrap_or(Polarised { s: 0.0, p: 0.0 }));
-        self.reflected[0] += share * front.mean();
-        // What is inside and heads for the back wall, half of it s and half p.
+        let Polarised { s: share_s, p: share_p } = polarisation;
+        self.reflected[0] += response * (share_s * front.s + share_p * front.p);
+        // What is inside and heads for the back wall.
         let entered = if inside { [1.0, 1.0] } else { [1.0 - front.s, 1.0 - front.p] };
-        let [s, p] = [0.5 * entered[0], 0.5 * entered[1]];
-        self.straight += share * (s * (1.0 - back.s) + p * (1.0 - back.p));
+        let [s, p] = [share_s * entered[0], share_p * entered[1]];
+        self.straight += response * (s * (1.0 - back.s) + p * (1.0 - back.p));
         let (mut s, mut p) = (s * back.s, p * back.p);
         let last = self.reflected.len() - 1;
         for (k, factor) in self.reflected.iter_mut().enumerate().skip(1) {
             // The last direction followed keeps all that is left.
             let exit = if k == last { None } else { walls.next() }.unwrap_or(Polarised { s: 0.0, p: 0.0 });
-            *factor += share * (s * (1.0 - exit.s) + p * (1.0 - exit.p));
+            *factor += response * (s * (1.0 - exit.s) + p * (1.0 - exit.p));
             (s, p) = (s * exit.s, p * exit.p);
         }
     }

@@ -10,14 +10,13 @@
 //! where v is the ray, v₀ its outer reflection and vₖ its direction after k inner reflections; what is left after the last direction
 //! followed is given to that direction, so that no energy is lost. From inside the bubble the sum starts at hit 1.
 //!
-//! What is and is not exact: the products of walls are formed at each of 421 wavelengths, and only their sum becomes a colour, which is then
-//! multiplied with the surroundings' RGB. For neutral light that is the full spectral answer; saturated lights stand for no spectrum here.
-//! Rays are straight (refraction shifts them by less than the film's thickness). A bubble behind another is not seen through it.
+//! What is and is not exact: the products of walls are formed at each wavelength of the light, and only their sum becomes a colour. RGB
+//! surroundings stand for spectra (see [`Uplift`](super::colour::Uplift)), so that coloured light too is the full spectral answer. Rays are straight (refraction shifts them by less than the film's thickness). A bubble behind another is not seen through it.
 
 mod light_path;
 mod view;
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::colour::FilmOptics;
@@ -34,7 +33,7 @@ pub struct FilmSphere<'a> {
     pub thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a>,
 }
 
-/// All that a picture is computed from. Radiance is linear BT.2020.
+/// All that a picture is computed from. Light is linear BT.2020 relative to the illuminant's white.
 pub struct PictureScene<'a> {
     /// Width and height in pixels.
     pub size: [u32; 2],
@@ -44,10 +43,13 @@ pub struct PictureScene<'a> {
     pub optics: &'a FilmOptics,
     /// The bubbles, farthest first: where two overlap the later one hides the earlier.
     pub spheres: Vec<FilmSphere<'a>>,
-    /// Radiance that arrives from a direction; it already includes the colour of the illuminant.
+    /// Light that arrives from a direction.
     pub surroundings: &'a (dyn Fn(DVec3) -> DVec3 + Sync),
-    /// Radiance straight behind the bubbles, or nothing where that is the surroundings.
+    /// Light straight behind the bubbles, or nothing where that is the surroundings.
     pub backdrop: Option<DVec3>,
+    /// Direction along which the electric field passes a polariser before the camera. The light that it takes from unpolarised light is
+    /// given back.
+    pub polariser: Option<DVec3>,
     /// Samples along each side of a pixel, 1 or more. Pixels that an outline crosses take [`RIM_SAMPLES`] at least.
     pub samples: u32,
 }
@@ -56,20 +58,28 @@ pub struct PictureScene<'a> {
 pub const RIM_SAMPLES: u32 = 8;
 
 impl PictureScene<'_> {
-    /// Radiance of each pixel, linear BT.2020, row by row from the top left: the mean over the pixel's samples.
+    /// Radiance of each pixel, linear BT.2020 with daylight's white at (1, 1, 1), row by row from the top left: the mean over the pixel's
+    /// samples. `progress` hears of each finished row, from any thread.
     #[must_use]
-    pub fn radiance(&self) -> Vec<DVec3> {
+    pub fn radiance(&self, progress: &(dyn Fn() + Sync)) -> Vec<DVec3> {
         let [width, height] = self.size;
-        let paths = LightPath::new(self.optics);
-        (0..width * height).into_par_iter().map(|k| self.pixel(&paths, [k % width, k / width])).collect()
+        let paths = LightPath::new(self.optics, self.polariser);
+        let seen = paths.seen();
+        let row = |y: u32| {
+            let row: Vec<DVec3> = (0..width).map(|x| self.pixel(&paths, seen, [x, y])).collect();
+            progress();
+            row
+        };
+        let rows: Vec<Vec<DVec3>> = (0..height).into_par_iter().map(row).collect();
+        rows.concat()
     }
 
-    fn pixel(&self, paths: &LightPath, corner: [u32; 2]) -> DVec3 {
+    fn pixel(&self, paths: &LightPath, seen: DMat3, corner: [u32; 2]) -> DVec3 {
         let corner = DVec2::new(f64::from(corner[0]), f64::from(corner[1]));
         let side = if self.meets_outline(corner + 0.5) { self.samples.max(RIM_SAMPLES) } else { self.samples.max(1) };
         let offset = |k: u32| (f64::from(k) + 0.5) / f64::from(side);
         let samples = (0..side * side).map(|k| corner + DVec2::new(offset(k % side), offset(k / side)));
-        let total: DVec3 = samples.map(|position| self.sample(paths, self.camera.ray(self.size, position))).sum();
+        let total: DVec3 = samples.map(|position| self.sample(paths, seen, self.camera.ray(self.size, position))).sum();
         total / f64::from(side * side)
     }
 
@@ -84,14 +94,14 @@ impl PictureScene<'_> {
         })
     }
 
-    fn sample(&self, paths: &LightPath, ray: DVec3) -> DVec3 {
+    fn sample(&self, paths: &LightPath, seen: DMat3, ray: DVec3) -> DVec3 {
         let hit = self.spheres.iter().rev().find_map(|sphere| {
             let eye = (self.camera.eye_m - sphere.centre_m) / sphere.radius_m;
             paths.trace(eye, ray, &*sphere.thickness_nm)
         });
         let behind = || self.backdrop.unwrap_or_else(|| (self.surroundings)(ray));
         match hit {
-            None => behind(),
+            None => seen * behind(),
             Some(arrivals) => {
                 let reflected =
                     arrivals.reflected.iter().map(|(direction, colour)| *colour * (self.surroundings)(*direction));

@@ -178,8 +178,9 @@ fn no_bubbles_is_not_the_default_bubble() {
 #[test]
 fn words_and_values_share_a_key() {
     let read = |text: &str| Scene::from_toml(&with_version(text), "s.toml").unwrap();
-    let index = |value: &str| read(&format!("[[bubble]]\nfilm.index = {value}")).bubbles[0].film.index;
+    let index = |value: &str| read(&format!("[[bubble]]\nfilm.index = {value}")).bubbles[0].film.index.clone();
     assert_eq!((index("\"water\""), index("2")), (FilmIndexName::Water, FilmIndexName::Constant(2.0)));
+    assert_eq!(index("\"glycerol 30%\""), FilmIndexName::Named("glycerol 30%".to_owned()));
     let environment = |value: &str| read(&format!("light.environment = \"{value}\"")).light.environment;
     assert_eq!((environment("tent"), environment("windows")), (Environment::Tent, Environment::Windows));
     assert_eq!(environment("sky/Noon.EXR"), Environment::File("sky/Noon.EXR".to_owned()));

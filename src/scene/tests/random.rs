@@ -5,13 +5,15 @@ use proptest::prelude::*;
 
 fn film() -> impl Strategy<Value = Film> {
     let state = prop_oneof![Just(FilmStateName::Uniform), Just(FilmStateName::Rest), Just(FilmStateName::Blown)];
-    let index = prop_oneof![Just(FilmIndexName::Water), (1.0..4.0).prop_map(FilmIndexName::Constant)];
-    (state, 1.0..10_000.0, -5.0..5.0, index, any::<u64>(), 16u32..=1024).prop_map(
-        |(state, thickness_nm, stratification, index, seed, cells)| Film {
+    let named = "(glycerol [0-9]{1,2}%|[a-z]{1,6}\\.csv)".prop_map(FilmIndexName::Named);
+    let index = prop_oneof![Just(FilmIndexName::Water), (1.0..4.0).prop_map(FilmIndexName::Constant), named];
+    (state, 1.0..10_000.0, -5.0..5.0, index, 0.0..5.0, any::<u64>(), 16u32..=1024).prop_map(
+        |(state, thickness_nm, stratification, index, skin_nm, seed, cells)| Film {
             state,
             thickness_nm,
             stratification,
             index,
+            skin_nm,
             seed,
             cells,
         },
@@ -58,12 +60,19 @@ fn light() -> impl Strategy<Value = Light> {
 
 fn view() -> impl Strategy<Value = View> {
     let backdrop = prop_oneof![Just(Backdrop::Environment), radiance().prop_map(Backdrop::Radiance)];
-    (-20.0..20.0, backdrop, any::<bool>(), any::<u64>()).prop_map(|(exposure_ev, backdrop, dither, dither_seed)| View {
-        exposure_ev,
-        backdrop,
-        dither,
-        dither_seed,
-    })
+    let quality = prop::sample::select(Quality::ALL.to_vec());
+    let look = (quality, prop::option::of(-1e9..1e9), any::<bool>());
+    (-20.0..20.0, backdrop, look, any::<bool>(), any::<u64>()).prop_map(
+        |(exposure_ev, backdrop, (quality, polariser_deg, white_balance), dither, dither_seed)| View {
+            exposure_ev,
+            backdrop,
+            quality,
+            polariser_deg,
+            white_balance,
+            dither,
+            dither_seed,
+        },
+    )
 }
 
 fn flow() -> impl Strategy<Value = Flow> {

@@ -100,7 +100,7 @@ fn values_have_their_type() {
         ),
         (
             "[[bubble]]\n[bubble.film]\nindex = \"watr\"",
-            "4: `index` in [bubble.film] is wrong: expected \"water\" or a number",
+            "4: `index` in [bubble.film] is \"watr\"; use \"water\", \"water 25C\", \"glycerol 30%\", the path of a .csv file, or a number",
         ),
         (
             "[[event]]\nkind = \"motion\"\ntick = 0.5",

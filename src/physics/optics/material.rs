@@ -1,0 +1,75 @@
+//! What a film is made of: its liquid, and the skins of soap on both faces.
+
+use super::{FilmIndex, Incidence, Polarised, REFERENCE_NM, coated_reflectance, equivalent_extra_nm, max_reflectance};
+
+/// A film's liquid and skins.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FilmMaterial {
+    /// The liquid.
+    pub index: FilmIndex,
+    /// Thickness of each of the two layers of soap molecules, nm; part of the film's total thickness. 0 for none.
+    pub skin_nm: f64,
+}
+
+impl From<FilmIndex> for FilmMaterial {
+    fn from(index: FilmIndex) -> Self {
+        Self { index, skin_nm: 0.0 }
+    }
+}
+
+impl FilmMaterial {
+    /// Index of the liquid at the sodium line, the one number that stands for the film.
+    pub fn reference_index(&self) -> f64 {
+        self.index.n(REFERENCE_NM)
+    }
+
+    /// Light of one wavelength that meets the film at an angle; `n` is the liquid's index there.
+    pub fn wall(&self, n: f64, cos_theta: f64, wavelength_nm: f64) -> Wall {
+        let skin = (self.skin_nm > 0.0).then_some(Skin { n, cos_theta, skin_nm: self.skin_nm });
+        Wall { incidence: Incidence::new(n, cos_theta), skin, wavelength_nm }
+    }
+
+    /// What the skins add to the thickness of a plain film that looks nearly the same, nm; see [`equivalent_extra_nm`].
+    pub fn equivalent_extra_nm(&self) -> f64 {
+        equivalent_extra_nm(self.reference_index(), self.skin_nm)
+    }
+
+    /// The thickness of a plain film that looks nearly like this one. The skins of a film thinner than both count in part, so that no
+    /// film stays none.
+    pub fn equivalent_nm(&self, thickness_nm: f64) -> f64 {
+        let part = if self.skin_nm > 0.0 { (thickness_nm / (2.0 * self.skin_nm)).min(1.0) } else { 0.0 };
+        thickness_nm + part * self.equivalent_extra_nm()
+    }
+
+    /// The most that the liquid reflects at an angle, unpolarised.
+    pub fn max_reflectance(&self, cos_theta: f64) -> f64 {
+        max_reflectance(self.reference_index(), cos_theta)
+    }
+}
+
+/// Light of one wavelength at one angle, for films of any thickness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wall {
+    incidence: Incidence,
+    skin: Option<Skin>,
+    wavelength_nm: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Skin {
+    n: f64,
+    cos_theta: f64,
+    skin_nm: f64,
+}
+
+impl Wall {
+    /// Reflectance of a film of that total thickness; what it does not reflect goes through.
+    pub fn reflectance(&self, thickness_nm: f64) -> Polarised {
+        match self.skin {
+            None => self.incidence.reflectance(thickness_nm, self.wavelength_nm),
+            Some(Skin { n, cos_theta, skin_nm }) => {
+                coated_reflectance(n, skin_nm, cos_theta, thickness_nm, self.wavelength_nm)
+            }
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Whole pictures of random scenes in coloured light: the GPU's against the f64 picture.
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use glam::{DVec2, DVec3};
+
+use super::{Run, random::Random, reference};
+use crate::{
+    gpu::{GpuError, Renderer},
+    physics::{
+        colour::{BT2020, Gamut, bt709_to_bt2020, ciede2000, xyz_to_lab},
+        environment::CubeMap,
+    },
+    plan::{DrawKey, Moment, Pace, Resources, Shot, Want, want},
+    scene::{Backdrop, Bubble, Camera, Film, FilmStateName, Flow, Motion, Quality, Scene, View},
+};
+
+/// Pixels of each picture.
+const SIZE: [u32; 2] = [256, 144];
+/// Soft lamps of a random environment.
+const LAMPS: usize = 6;
+/// Lights of the scenes in turn.
+const LIGHTS: [&str; 4] = ["D65", "A", "LED", "FL2"];
+/// Limits on the mean and the 99.9th percentile of CIEDE2000.
+const LIMITS: [(Quality, [f64; 2]); 2] = [(Quality::Standard, [0.3, 3.0]), (Quality::Spectral, [0.05, 0.6])];
+
+pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let mut renderer = Renderer::new(pollster::block_on(run.gpu.another())?);
+    let scenes = if run.long { 12 } else { LIGHTS.len() };
+    let mut errors: [Vec<f64>; 2] = Default::default();
+    for seed in 0..scenes {
+        let (mut scene, resources) = random_scene(seed)?;
+        let truth = reference::radiance(&wanted(&scene, &resources)?.picture.draw, &|| ());
+        let truth = truth.map_err(|error| GpuError::Refused(error.to_string()))?;
+        for ((quality, _), errors) in LIMITS.iter().zip(&mut errors) {
+            scene.view.quality = *quality;
+            let want = wanted(&scene, &resources)?;
+            errors.extend(differences(&want.picture.draw, &truth, &radiance(&mut renderer, &want)?));
+        }
+    }
+    for ((quality, limits), mut errors) in LIMITS.into_iter().zip(errors) {
+        errors.sort_by(f64::total_cmp);
+        let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+        let rare = errors[(errors.len() - 1) * 999 / 1000];
+        let name = format!("{scenes} pictures in coloured light, {}: dE2000", quality.name());
+        run.at_most(format!("{name} mean"), mean, limits[0]);
+        run.at_most(format!("{name} 99.9th percentile"), rare, limits[1]);
+    }
+    Ok(())
+}
+
+/// A bubble of random film among soft lamps of saturated colours. Lamps have no edges finer than pixels: the pictures compare optics, not
+/// filters of environments.
+fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
+    let mut random = Random::new(seed as u64);
+    let mut lamps = Vec::new();
+    for _ in 0..LAMPS {
+        let towards = DVec3::new(random.next() - 0.5, random.next() - 0.5, random.next() - 0.5).normalize_or(DVec3::Z);
+        let colour = DVec3::new(random.next(), random.next(), random.next()).powf(3.0);
+        let width = 0.4 + 0.6 * random.next();
+        lamps.push((towards, 3.0 * colour / colour.max_element().max(1e-3), width));
+    }
+    let to_bt2020 = bt709_to_bt2020();
+    let light = move |direction: DVec3| {
+        let lamp = |(towards, colour, width): &(DVec3, DVec3, f64)| {
+            *colour * ((direction.normalize().dot(*towards) - 1.0) / (width * width)).exp()
+        };
+        to_bt2020 * (0.05 + lamps.iter().map(lamp).sum::<DVec3>())
+    };
+    let state = [FilmStateName::Rest, FilmStateName::Uniform][seed % 2];
+    let thickness_nm = 150.0 + 600.0 * random.next();
+    let film = Film { state, thickness_nm, stratification: 0.8 * random.next(), ..Film::default() };
+    let scene = Scene {
+        bubbles: vec![Bubble { film, ..Bubble::default() }],
+        camera: Camera { azimuth_deg: 360.0 * random.next(), ..Camera::default() },
+        view: View {
+            backdrop: if seed % 3 == 0 { Backdrop::Environment } else { Backdrop::Radiance([0.01, 0.01, 0.02]) },
+            ..View::default()
+        },
+        motion: Motion { flow: Flow::Rest, ..Motion::default() },
+        ..Scene::default()
+    };
+    let illuminant = LIGHTS[seed % LIGHTS.len()].parse().map_err(|error| GpuError::Refused(format!("{error}")))?;
+    let environment = Arc::new(CubeMap::from_fn(128, 1, light));
+    Ok((scene, Resources { environment, illuminant: Arc::new(illuminant), liquids: BTreeMap::new() }))
+}
+
+fn wanted(scene: &Scene, resources: &Resources) -> Result<Want, GpuError> {
+    let shot = Shot {
+        size: SIZE,
+        moment: Moment::default(),
+        full_precision: true,
+        gamut: Gamut::Srgb,
+        yardstick: false,
+        pace: Pace::Whole,
+    };
+    want(scene, resources, &shot).map_err(|error| GpuError::Refused(error.to_string()))
+}
+
+fn radiance(renderer: &mut Renderer, want: &Want) -> Result<Vec<DVec3>, GpuError> {
+    renderer.bring(want)?;
+    let Some(picture) = renderer.read_radiance() else { return Ok(Vec::new()) };
+    let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&picture.wait(&renderer.gpu)?);
+    Ok(pixels.into_iter().map(|[r, g, b, _]| DVec3::new(r.into(), g.into(), b.into())).collect())
+}
+
+/// Colour differences of the pixels that the bubble covers, scaled so that the truth's 99th percentile of Y is 1; white is D65's.
+fn differences(key: &DrawKey, truth: &[DVec3], seen: &[DVec3]) -> Vec<f64> {
+    let covered: Vec<usize> = (0..truth.len()).filter(|k| is_covered(key, *k)).collect();
+    let to_xyz = BT2020.to_xyz();
+    let mut levels: Vec<f64> = covered.iter().map(|k| (to_xyz * truth[*k]).y).collect();
+    levels.sort_by(f64::total_cmp);
+    let scale = levels[(levels.len() - 1) * 99 / 100].max(f64::MIN_POSITIVE);
+    let lab = |rgb: DVec3| xyz_to_lab(to_xyz * rgb / scale, to_xyz * DVec3::ONE);
+    covered.into_iter().map(|k| ciede2000(lab(truth[k]), lab(seen[k]))).collect()
+}
+
+/// Whether a pixel's middle shows a bubble.
+fn is_covered(key: &DrawKey, pixel: usize) -> bool {
+    let [column, row] = [pixel % SIZE[0] as usize, pixel / SIZE[0] as usize].map(|k| k as f64 + 0.5);
+    let ray = reference::camera(&key.camera).ray(SIZE, DVec2::new(column, row));
+    key.bubbles.iter().any(|bubble| {
+        let offset = bubble.centre_m - key.camera.eye_m;
+        offset.reject_from_normalized(ray).length() < bubble.radius_m
+    })
+}
