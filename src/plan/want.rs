@@ -15,7 +15,7 @@ use crate::{
         film::InitialFilm,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
     },
-    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Quality, Scene},
+    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Scene},
 };
 
 /// What a scene names and somebody has loaded.
@@ -72,6 +72,7 @@ pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, W
     bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
     let optics = OpticsKey { film: material(scene, resources, &bubbles)?, illuminant: resources.illuminant.clone() };
     let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
+    let bands = BandsKey { optics: optics.clone(), range_nm, quality: scene.view.quality };
     let draw = DrawKey {
         size: shot.size,
         full_precision: shot.full_precision,
@@ -79,8 +80,8 @@ pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, W
         light: light(scene, resources, &camera),
         camera,
         environment: EnvironmentKey(resources.environment.clone()),
-        table: table(scene, resources, &optics, range_nm),
-        bands: BandsKey { optics, range_nm, quality: scene.view.quality },
+        table: bands.needs_table().then(|| table(scene, resources, &optics, range_nm)),
+        bands,
         bubbles,
     };
     let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
@@ -122,7 +123,7 @@ fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     }
 }
 
-fn table(scene: &Scene, resources: &Resources, optics: &OpticsKey, range_nm: f64) -> Option<TableKey> {
+fn table(scene: &Scene, resources: &Resources, optics: &OpticsKey, range_nm: f64) -> TableKey {
     let full = TableKey::full(optics.clone(), range_nm);
     let is_grey = |rgb: [f64; 3]| rgb.iter().all(|value| *value == rgb[0]);
     let backdrop = match scene.view.backdrop {
@@ -130,8 +131,7 @@ fn table(scene: &Scene, resources: &Resources, optics: &OpticsKey, range_nm: f64
         Backdrop::Environment => true,
     };
     let neutral = resources.environment.is_neutral() && scene.light.constant.is_none_or(is_grey) && backdrop;
-    let table = TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full };
-    (scene.view.quality != Quality::Spectral).then_some(table)
+    TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full }
 }
 
 /// What all visible films are made of.
