@@ -44,25 +44,25 @@ fn film_reflectance(n: f32, cos_theta: f32, thickness_nm: f32, wavelength_nm: f3
     return interference / max(gap * gap + interference, vec2f(1e-30));
 }
 
-// Reflectances of three films for s and p light.
+// Reflectances of four films for s and p light.
 struct Reflectances {
-    s: vec3f,
-    p: vec3f,
+    s: vec4f,
+    p: vec4f,
 }
 
-fn sin_pi3(x: vec3f) -> vec3f {
+fn sin_pi4(x: vec4f) -> vec4f {
     let y = x * x;
     return x * (3.14159264 + y * (-5.16771008 + y * (2.55007752 + y * (-0.598291286 + y * 0.0776576603))));
 }
 
-// film_reflectance() for three films that light of one wavelength meets at one angle.
-fn film_reflectances(n: f32, cos_theta: f32, thickness_nm: vec3f, wavelength_nm: f32) -> Reflectances {
+// film_reflectance() for four films that light of one wavelength meets at one angle.
+fn film_reflectances(n: f32, cos_theta: f32, thickness_nm: vec4f, wavelength_nm: f32) -> Reflectances {
     let r2 = surface_reflectance(n, cos_theta);
     let half_turns = (2.0 * n * cos_refracted(n, cos_theta) / wavelength_nm) * thickness_nm;
-    let sine = sin_pi3(half_turns - round(half_turns));
+    let sine = sin_pi4(half_turns - round(half_turns));
     let interference = 4.0 * sine * sine;
     let gap = (1.0 - r2) * (1.0 - r2);
     let s = r2.x * interference;
     let p = r2.y * interference;
-    return Reflectances(s / max(gap.x + s, vec3f(1e-30)), p / max(gap.y + p, vec3f(1e-30)));
+    return Reflectances(s / max(gap.x + s, vec4f(1e-30)), p / max(gap.y + p, vec4f(1e-30)));
 }

@@ -14,40 +14,48 @@ import package::optics::band::Band;
 
 // 1: the sum over bands gives everything. 0: it gives the products, and single walls come from the table.
 override EVERYTHING: u32;
+// How many bands there are.
+override BANDS: u32;
 
-// Factors on the steps E0 - B, E1 - B and E2 - E1.
-fn step_factors(r: vec3f) -> vec3f {
+// Factors on the steps E0 - B, E1 - B, E2 - E1 and E3 - E2, from the reflectances at four hits.
+fn step_factors(r: vec4f) -> vec4f {
     let through = (1.0 - r.x) * r.y;
+    let factors = vec4f(r.x, through, through * r.z, through * r.z * r.w);
     if (EVERYTHING == 1u) {
-        return vec3f(r.x, through, through * r.z);
+        return factors;
     }
-    return vec3f(0.0, through - r.y, through * r.z);
+    return factors - vec4f(r.x, r.y, 0.0, 0.0);
 }
 
-// Factors on the steps E3 - E2, E4 - E3 and E5 - E4, from the factor before them.
-fn deep_factors(before: f32, r: vec3f) -> vec3f {
-    return before * vec3f(r.x, r.x * r.y, r.x * r.y * r.z);
+// Factors on the next four steps, from the factor before them and the next four hits.
+fn deep_factors(before: f32, r: vec4f) -> vec4f {
+    let first = before * r.x;
+    let second = first * r.y;
+    let third = second * r.z;
+    return vec4f(first, second, third, third * r.w);
 }
 
-// One band's part of L - B, in light of that band: steps are the columns E0 - B, E1 - B, E2 - E1.
-fn band_radiance(band: Band, cos_theta: f32, walls_nm: vec3f, steps: mat3x3f, polarisation: vec2f) -> vec3f {
+// One band's part of L - B, in light of that band; the steps are columns.
+fn band_radiance(band: Band, cos_theta: f32, walls_nm: vec4f, steps: mat4x3f, polarisation: vec2f) -> vec3f {
     let r = film_reflectances(band.index, cos_theta, walls_nm, band.wavelength_nm);
     let factors = polarisation.x * step_factors(r.s) + polarisation.y * step_factors(r.p);
     return band.response * (steps * factors);
 }
 
-// The same for three more inner reflections, whose light matters at the rim alone.
+// The same with four more inner reflections.
 fn deep_band_radiance(
     band: Band,
     cos_theta: f32,
-    walls_nm: vec3f,
-    deep_nm: vec3f,
-    deep_steps: mat3x3f,
+    walls_nm: vec4f,
+    steps: mat4x3f,
+    deep_nm: vec4f,
+    deep_steps: mat4x3f,
     polarisation: vec2f,
 ) -> vec3f {
-    let near = film_reflectances(band.index, cos_theta, walls_nm, band.wavelength_nm);
-    let far = film_reflectances(band.index, cos_theta, deep_nm, band.wavelength_nm);
-    let factors = polarisation.x * deep_factors(step_factors(near.s).z, far.s)
-        + polarisation.y * deep_factors(step_factors(near.p).z, far.p);
-    return band.response * (deep_steps * factors);
+    let r = film_reflectances(band.index, cos_theta, walls_nm, band.wavelength_nm);
+    let deep = film_reflectances(band.index, cos_theta, deep_nm, band.wavelength_nm);
+    let s = step_factors(r.s);
+    let p = step_factors(r.p);
+    let more = polarisation.x * deep_factors(s.w, deep.s) + polarisation.y * deep_factors(p.w, deep.p);
+    return band.response * (steps * (polarisation.x * s + polarisation.y * p) + deep_steps * more);
 }

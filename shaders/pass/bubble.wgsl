@@ -7,7 +7,7 @@ import package::light::environment::{Light, backdrop_radiance, environment_radia
 import package::optics::band::Band;
 import package::optics::film_colour::{POLARISED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{EVERYTHING, band_radiance, deep_band_radiance};
+import package::optics::walls::{BANDS, EVERYTHING, band_radiance, deep_band_radiance};
 import package::sphere::cubed::{HALO, locate};
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::silhouette::{Silhouette, silhouette};
@@ -50,7 +50,7 @@ struct Bubble {
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;
 @group(0) @binding(8) var film: texture_2d_array<f32>;
-@group(0) @binding(9) var<storage, read> bands: array<Band>;
+@group(0) @binding(9) var<uniform> bands: array<Band, 80>;
 @group(0) @binding(10) var<uniform> film_balance: Balance;
 @group(0) @binding(11) var<storage, read> film_map: array<vec4f>;
 @group(0) @binding(12) var<storage, read> film_tracer: array<f32>;
@@ -127,7 +127,7 @@ struct Path {
     // Foot of the perpendicular from the centre on the ray: |foot| = sin theta.
     foot: vec3f,
     cos_theta: f32,
-    // Angle that one pixel spans.
+    // Angle that the sample spans.
     pixel: f32,
     // Rate at which theta turns as the ray turns, radians a radian.
     theta_rate: f32,
@@ -144,9 +144,6 @@ fn footprint(path: Path, direction: vec3f, turns: f32) -> f32 {
     return max(sqrt(along * across), 0.25 * max(along, across));
 }
 
-// Below this cosine a wall reflects so much that light of more than two inner reflections can be seen.
-const DEEP_COS: f32 = 0.3;
-
 // Shares of s and p light that a polariser leaves: their fields stand across the plane of incidence and in it.
 fn polarisation_along(path: Path) -> vec2f {
     if (POLARISED == 0u) {
@@ -159,75 +156,92 @@ fn polarisation_along(path: Path) -> vec2f {
     return (vec2f(s * s, p * p) + 5e-13) / (s * s + p * p + 1e-12);
 }
 
+// A ray inside that heads for the wall at a point of the unit sphere.
+struct Hop {
+    point: vec3f,
+    direction: vec3f,
+}
+
+fn reflected(hop: Hop, chord: f32) -> Hop {
+    let direction = hop.direction - chord * hop.point;
+    return Hop(hop.point + chord * direction, direction);
+}
+
+// Light from where a ray leaves after so many inner reflections.
+fn light_from(path: Path, hop: Hop, reflections: f32) -> vec3f {
+    return surroundings(hop.direction, footprint(path, hop.direction, -2.0 * reflections));
+}
+
+// Below this cosine `spectral` follows seven inner reflections in place of three.
+const DEEP_COS: f32 = 0.7;
+
 // What is seen along a ray: see optics/walls.wgsl. From inside the bubble there is no front wall.
 fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     let chord = 2.0 * path.cos_theta;
     let polarisation = polarisation_along(path);
     let behind = backdrop(path.direction, path.pixel);
-    let front = path.foot - path.cos_theta * path.direction;
-    let back = path.foot + path.cos_theta * path.direction;
-    let v1 = path.direction - chord * back;
-    let second = back + chord * v1;
-    let v2 = v1 - chord * second;
-    let light1 = surroundings(v1, footprint(path, v1, -2.0));
-    let light2 = surroundings(v2, footprint(path, v2, -4.0));
-    var walls_nm = vec3f(0.0, optical_nm(back), optical_nm(second));
-    var steps = mat3x3f(vec3f(0.0), light1 - behind, light2 - light1);
+    let hop0 = Hop(path.foot + path.cos_theta * path.direction, path.direction);
+    let hop1 = reflected(hop0, chord);
+    let hop2 = reflected(hop1, chord);
+    let hop3 = reflected(hop2, chord);
+    let light1 = light_from(path, hop1, 1.0);
+    let light2 = light_from(path, hop2, 2.0);
+    let light3 = light_from(path, hop3, 3.0);
+    var walls_nm = vec4f(0.0, optical_nm(hop0.point), optical_nm(hop1.point), optical_nm(hop2.point));
+    var steps = mat4x3f(vec3f(0.0), light1 - behind, light2 - light1, light3 - light2);
     if (!is_inside) {
+        let front = path.foot - path.cos_theta * path.direction;
         let v0 = path.direction + chord * front;
         walls_nm.x = optical_nm(front);
         steps[0] = surroundings(v0, footprint(path, v0, 2.0)) - behind;
     }
     var seen = vec3f(0.0);
+    if (EVERYTHING == 1u && path.cos_theta < DEEP_COS) {
+        seen = deep_radiance(path, walls_nm, steps, hop3, light3, polarisation);
+    } else {
+        for (var k = 0u; k < BANDS; k++) {
+            seen += band_radiance(bands[k], path.cos_theta, walls_nm, steps, polarisation);
+        }
+    }
     if (EVERYTHING == 0u) {
-        seen = wall_reflection(path, walls_nm.x, polarisation, steps[0])
+        seen += wall_reflection(path, walls_nm.x, polarisation, steps[0])
             + wall_reflection(path, walls_nm.y, polarisation, steps[1]);
     }
-    for (var k = 0u; k < arrayLength(&bands); k++) {
-        seen += band_radiance(bands[k], path.cos_theta, walls_nm, steps, polarisation);
-    }
-    if (path.cos_theta < DEEP_COS) {
-        seen += deep_radiance(path, walls_nm, second + chord * v2, v2, light2, polarisation);
-    }
     return light.seen * behind + light.scale * seen;
+}
+
+fn deep_radiance(
+    path: Path,
+    walls_nm: vec4f,
+    steps: mat4x3f,
+    hop3: Hop,
+    light3: vec3f,
+    polarisation: vec2f,
+) -> vec3f {
+    let chord = 2.0 * path.cos_theta;
+    let hop4 = reflected(hop3, chord);
+    let hop5 = reflected(hop4, chord);
+    let hop6 = reflected(hop5, chord);
+    let light4 = light_from(path, hop4, 4.0);
+    let light5 = light_from(path, hop5, 5.0);
+    let light6 = light_from(path, hop6, 6.0);
+    let light7 = light_from(path, reflected(hop6, chord), 7.0);
+    let deep_nm =
+        vec4f(optical_nm(hop3.point), optical_nm(hop4.point), optical_nm(hop5.point), optical_nm(hop6.point));
+    let deep_steps = mat4x3f(light4 - light3, light5 - light4, light6 - light5, light7 - light6);
+    var seen = vec3f(0.0);
+    for (var k = 0u; k < BANDS; k++) {
+        seen += deep_band_radiance(bands[k], path.cos_theta, walls_nm, steps, deep_nm, deep_steps, polarisation);
+    }
+    return seen;
 }
 
 fn wall_reflection(path: Path, nm: f32, polarisation: vec2f, step: vec3f) -> vec3f {
     return film_reflection(table, table_sampler, axes, FilmPoint(path.cos_theta, nm), polarisation, step);
 }
 
-// What three more inner reflections add, from the hit after the second one on.
-fn deep_radiance(
-    path: Path,
-    walls_nm: vec3f,
-    third: vec3f,
-    v2: vec3f,
-    light2: vec3f,
-    polarisation: vec2f,
-) -> vec3f {
-    let chord = 2.0 * path.cos_theta;
-    var point = third;
-    var direction = v2;
-    var before = light2;
-    var deep_nm = vec3f(0.0);
-    var steps = mat3x3f();
-    for (var k = 0u; k < 3u; k++) {
-        deep_nm[k] = optical_nm(point);
-        direction -= chord * point;
-        point += chord * direction;
-        let radiance = surroundings(direction, footprint(path, direction, -2.0 * f32(k + 3u)));
-        steps[k] = radiance - before;
-        before = radiance;
-    }
-    var seen = vec3f(0.0);
-    for (var k = 0u; k < arrayLength(&bands); k++) {
-        seen += deep_band_radiance(bands[k], path.cos_theta, walls_nm, deep_nm, steps, polarisation);
-    }
-    return seen;
-}
-
 // Geometry of a view ray that meets the sphere.
-fn path_along(direction: vec3f) -> Path {
+fn path_along(direction: vec3f, width: f32) -> Path {
     let eye = (view.eye_m - bubble.centre_m) / bubble.radius_m;
     let foot = eye - dot(eye, direction) * direction;
     let cos_theta = sqrt(max(1.0 - dot(foot, foot), 0.0));
@@ -237,15 +251,15 @@ fn path_along(direction: vec3f) -> Path {
         direction,
         foot,
         cos_theta,
-        pixel_angle(view, direction),
+        width * pixel_angle(view, direction),
         distance * cos_view / max(cos_theta, 1e-3),
         length(foot) / distance,
     );
 }
 
 // What is seen of the bubble along a ray that is known to meet it.
-fn bubble_radiance(direction: vec3f) -> vec3f {
-    return film_radiance(path_along(direction), distance(view.eye_m, bubble.centre_m) <= bubble.radius_m);
+fn bubble_radiance(direction: vec3f, width: f32) -> vec3f {
+    return film_radiance(path_along(direction, width), distance(view.eye_m, bubble.centre_m) <= bubble.radius_m);
 }
 
 // One sample: the bubble as far as it covers the sample's square, the backdrop in the rest.
@@ -254,7 +268,7 @@ fn sample_radiance(position: vec2f, width: f32) -> vec3f {
     let edge = silhouette(view, bubble.centre_m, bubble.radius_m, plane, width);
     var radiance = vec3f(0.0);
     if (edge.coverage > 0.0) {
-        radiance = bubble_radiance(edge.inside);
+        radiance = bubble_radiance(edge.inside, width);
     }
     if (edge.coverage < 1.0) {
         let ray = normalize(plane);
@@ -275,8 +289,6 @@ fn mean_radiance(position: vec2f, side: u32) -> vec3f {
     return total * width * width;
 }
 
-// Samples along each side of a pixel at the rim, where the film turns into a mirror within a few pixels.
-const RIM_SAMPLES: u32 = 3;
 // Relative change of cos theta from pixel to pixel above which a pixel is at the rim.
 const RIM_CHANGE: f32 = 0.3;
 
@@ -285,19 +297,20 @@ fn is_at_rim(position: vec2f) -> bool {
     if (edge.coverage < 1.0) {
         return edge.coverage > 0.0;
     }
-    let path = path_along(edge.inside);
+    let path = path_along(edge.inside, 1.0);
     return path.pixel * path.theta_rate * length(path.foot) > RIM_CHANGE * path.cos_theta;
 }
 
 @fragment
 fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    if (SAMPLES > 1u) {
-        return vec4f(mean_radiance(position.xy, SAMPLES), 1.0);
+    // At the rim the film turns into a mirror within a few pixels.
+    if (SAMPLES < 4u && is_at_rim(position.xy)) {
+        return vec4f(mean_radiance(position.xy, 2u * SAMPLES), 1.0);
     }
-    if (is_at_rim(position.xy)) {
-        return vec4f(mean_radiance(position.xy, RIM_SAMPLES), 1.0);
+    if (SAMPLES == 1u) {
+        return vec4f(sample_radiance(position.xy, 1.0), 1.0);
     }
-    return vec4f(sample_radiance(position.xy, 1.0), 1.0);
+    return vec4f(mean_radiance(position.xy, SAMPLES), 1.0);
 }
 
 // The yardstick of the frame's cost: a plain mirror with one filtered environment lookup.
@@ -309,7 +322,7 @@ fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if (edge.coverage <= 0.0) {
         return vec4f(behind, 1.0);
     }
-    let path = path_along(edge.inside);
+    let path = path_along(edge.inside, 1.0);
     let point = path.foot - path.cos_theta * path.direction;
     let mirrored = path.direction + 2.0 * path.cos_theta * point;
     let shown = light.seen * surroundings(mirrored, footprint(path, mirrored, 2.0));

@@ -3,7 +3,7 @@
 import package::optics::band::Band;
 import package::optics::film_colour::film_reflection;
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{EVERYTHING, band_radiance};
+import package::optics::walls::{BANDS, EVERYTHING, band_radiance};
 
 // Front, back and exit wall of one ray. Mirrors `ProbePoint` in src/gpu/probe_colour.rs.
 struct ProbePoint {
@@ -18,7 +18,7 @@ struct ProbePoint {
 @group(0) @binding(0) var<uniform> axes: TableAxes;
 @group(0) @binding(1) var table: texture_2d_array<f32>;
 @group(0) @binding(2) var table_sampler: sampler;
-@group(0) @binding(3) var<storage, read> bands: array<Band>;
+@group(0) @binding(3) var<uniform> bands: array<Band, 80>;
 @group(0) @binding(4) var<storage, read> points: array<ProbePoint>;
 @group(0) @binding(5) var<storage, read_write> colours: array<vec4f>;
 
@@ -36,13 +36,13 @@ fn probe_colour(@builtin(global_invocation_id) id: vec3u) {
     }
     let at = points[id.x];
     let both = f32(at.walls == 2u);
-    let steps = mat3x3f(vec3f(1.0), vec3f(both), vec3f(-both));
+    let steps = mat4x3f(vec3f(1.0), vec3f(both), vec3f(-both), vec3f(0.0));
     var seen = vec3f(0.0);
     if (EVERYTHING == 0u) {
         seen = wall(at.cos_theta, at.front_nm) + both * wall(at.cos_theta, at.back_nm);
     }
-    let walls_nm = vec3f(at.front_nm, at.back_nm, at.exit_nm);
-    for (var k = 0u; k < arrayLength(&bands); k++) {
+    let walls_nm = vec4f(at.front_nm, at.back_nm, at.exit_nm, 0.0);
+    for (var k = 0u; k < BANDS; k++) {
         seen += band_radiance(bands[k], at.cos_theta, walls_nm, steps, UNPOLARISED);
     }
     colours[id.x] = vec4f(seen, 1.0);

@@ -4,9 +4,8 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{Gpu, draw::matrix};
 use crate::{
-    physics::colour::{Band, FilmOptics, fit_bands, responses},
+    physics::colour::{Band, BandTask, FilmOptics, fit_bands, responses},
     plan::BandsKey,
-    scene::Quality,
 };
 
 /// One wavelength: see `shaders/optics/band.wgsl`.
@@ -43,22 +42,30 @@ pub(super) fn spectrum_samples(optics: &FilmOptics) -> Vec<BandSample> {
 
 /// Fitted wavelengths on the device.
 pub struct Bands {
-    /// An array of [`BandSample`].
+    /// [`MOST_BANDS`] of [`BandSample`], those beyond the count zero. A uniform, for all lanes of a processor read the same one at once.
     pub buffer: wgpu::Buffer,
+    /// How many count.
+    pub count: u32,
+    task: BandTask,
 }
+
+/// Room for bands: what `array<Band, ...>` in the passes that sum over them has.
+pub const MOST_BANDS: usize = 80;
+const _: () = assert!(BandsKey::MOST <= MOST_BANDS);
 
 impl Bands {
     /// Fits and sends them.
     #[must_use]
     pub fn fit(gpu: &Gpu, key: &BandsKey) -> Self {
         let bands = fit_bands(&key.optics.spectra(), key.task(), key.count(), key.range_nm);
-        let samples: Vec<BandSample> = bands.iter().map(BandSample::from).collect();
-        Self { buffer: gpu.storage("bands", &samples) }
+        let mut samples = [BandSample::zeroed(); MOST_BANDS];
+        samples.iter_mut().zip(&bands).for_each(|(sample, band)| *sample = band.into());
+        Self { buffer: gpu.uniform("bands", &samples), count: bands.len() as u32, task: key.task() }
     }
 }
 
-/// The constant of all passes that sum over bands.
+/// The constants of all passes that sum over bands.
 #[must_use]
-pub fn band_constant(quality: Quality) -> (&'static str, u32) {
-    ("EVERYTHING", u32::from(quality == Quality::Spectral))
+pub fn band_constants(bands: &Bands) -> [(&'static str, u32); 2] {
+    [("EVERYTHING", u32::from(bands.task == BandTask::Everything)), ("BANDS", bands.count)]
 }

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 use super::{
     Gpu, GpuError,
     bake_table::{Table, table_constants, table_sampler},
-    bands::{Bands, band_constant},
+    bands::{Bands, band_constants},
     environment::{Environment, texel_angle},
     film::{NoFilm, Shown},
     pipelines::RenderKey,
@@ -146,7 +146,7 @@ impl DrawPass {
         let sampler = table_sampler(gpu);
         let no_film = NoFilm::new(gpu);
         for bubble in &key.bubbles {
-            let pipeline = gpu.pipelines.render(gpu, &bubble_pipeline(key, bubble))?;
+            let pipeline = gpu.pipelines.render(gpu, &bubble_pipeline(key, bubble, bands))?;
             let uniform = gpu.uniform("bubble", &bubble_uniform(key, bubble));
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let own = [
@@ -212,7 +212,7 @@ pub fn radiance_format(full_precision: bool) -> wgpu::TextureFormat {
     if full_precision { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float }
 }
 
-fn bubble_pipeline(key: &DrawKey, bubble: &BubbleKey) -> RenderKey {
+fn bubble_pipeline(key: &DrawKey, bubble: &BubbleKey, bands: &Bands) -> RenderKey {
     let uniform = matches!(bubble.film, FilmKey::Uniform(_));
     let coloured = key.table.as_ref().is_some_and(|table| table.coloured);
     RenderKey {
@@ -230,7 +230,7 @@ fn bubble_pipeline(key: &DrawKey, bubble: &BubbleKey) -> RenderKey {
         ]
         .into_iter()
         .chain(table_constants(coloured, key.light.polariser.is_some()))
-        .chain([band_constant(key.bands.quality)])
+        .chain(band_constants(bands))
         .collect(),
     }
 }

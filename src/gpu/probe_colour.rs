@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use super::{
     Gpu, GpuError,
     bake_table::{Table, table_constants, table_sampler},
-    bands::{Bands, band_constant},
+    bands::{Bands, band_constants},
     pipelines::ComputeKey,
     readback::Readback,
     timing::Recorder,
@@ -57,7 +57,6 @@ const CHUNK: usize = 1 << 20;
 
 /// All that gives the colour of films on the device, as pictures of one quality have it.
 pub struct ColourProbe {
-    quality: Quality,
     table: Table,
     bands: Bands,
 }
@@ -66,17 +65,18 @@ impl ColourProbe {
     /// Bakes and fits for films up to a thickness, in white light.
     pub fn new(gpu: &Gpu, optics: &OpticsKey, quality: Quality, thickest_nm: f64) -> Result<Self, GpuError> {
         let range_nm = range_nm(thickest_nm);
-        let table = match quality {
-            Quality::Spectral => Table::unread(gpu, optics),
-            Quality::Fast | Quality::Standard => Table::baked(gpu, &TableKey::full(optics.clone(), range_nm))?,
+        let bands = BandsKey { optics: optics.clone(), range_nm, quality };
+        let table = match bands.needs_table() {
+            true => Table::baked(gpu, &TableKey::full(optics.clone(), range_nm))?,
+            false => Table::unread(gpu, optics),
         };
-        Ok(Self::with_table(gpu, table, BandsKey { optics: optics.clone(), range_nm, quality }))
+        Ok(Self::with_table(gpu, table, bands))
     }
 
     /// With another table than pictures use.
     #[must_use]
     pub fn with_table(gpu: &Gpu, table: Table, bands: BandsKey) -> Self {
-        Self { quality: bands.quality, table, bands: Bands::fit(gpu, &bands) }
+        Self { table, bands: Bands::fit(gpu, &bands) }
     }
 
     /// Unpolarised colours of some points, linear BT.2020, where a perfect mirror has the illuminant's white.
@@ -91,7 +91,7 @@ impl ColourProbe {
     }
 
     fn start(&self, gpu: &Gpu, points: &[ProbePoint]) -> Result<Readback, GpuError> {
-        let constants = table_constants(false, false).into_iter().chain([band_constant(self.quality)]).collect();
+        let constants = table_constants(false, false).into_iter().chain(band_constants(&self.bands)).collect();
         let key = ComputeKey { pass: "probe_colour", entry: "probe_colour", constants };
         let pipeline = gpu.pipelines.compute(gpu, &key)?;
         let size = points.len() as u64 * 16;

@@ -107,24 +107,37 @@ pub struct BandsKey {
 }
 
 impl BandsKey {
-    /// Bands at most: thicker films have fringes that the eye cannot tell apart.
-    const MOST: usize = 80;
+    /// Bands at most: what a uniform buffer has room for.
+    pub const MOST: usize = 80;
 
     /// What the bands are summed for.
     #[must_use]
     pub fn task(&self) -> BandTask {
-        if self.quality == Quality::Spectral { BandTask::Everything } else { BandTask::CrossTerms }
+        // Thicker films have single walls from the table at every quality, for more bands than there are would be needed.
+        let is_enough = self.quality == Quality::Spectral && self.wanted() <= Self::MOST;
+        if is_enough { BandTask::Everything } else { BandTask::CrossTerms }
     }
 
-    /// How many there are. Measured for 1500 nm, and as many more as thicker films have more fringes.
+    /// Whether single walls come from a table.
+    #[must_use]
+    pub fn needs_table(&self) -> bool {
+        self.task() == BandTask::CrossTerms
+    }
+
+    /// How many there are.
     #[must_use]
     pub fn count(&self) -> usize {
+        self.wanted().min(Self::MOST)
+    }
+
+    /// How many would do. Measured for 1500 nm, and as many more as thicker films have more fringes.
+    fn wanted(&self) -> usize {
         let measured = match self.quality {
             Quality::Fast => 6.0,
             Quality::Standard => 13.0,
             Quality::Spectral => 36.0,
         };
-        ((measured * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize).min(Self::MOST)
+        (measured * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
     }
 }
 

@@ -16,7 +16,7 @@ use crate::{
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
         transport::Scheme,
     },
-    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Motion, Quality, Scene, TransportScheme},
+    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Motion, Scene, TransportScheme},
 };
 
 /// What a scene names and somebody has loaded.
@@ -73,6 +73,7 @@ pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, W
     bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
     let optics = OpticsKey { film: material(scene, resources, &bubbles)?, illuminant: resources.illuminant.clone() };
     let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
+    let bands = BandsKey { optics: optics.clone(), range_nm, quality: scene.view.quality };
     let draw = DrawKey {
         size: shot.size,
         full_precision: shot.full_precision,
@@ -80,8 +81,8 @@ pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, W
         light: light(scene, resources, &camera),
         camera,
         environment: EnvironmentKey(resources.environment.clone()),
-        table: table(scene, resources, &optics, range_nm),
-        bands: BandsKey { optics, range_nm, quality: scene.view.quality },
+        table: bands.needs_table().then(|| table(scene, resources, &optics, range_nm)),
+        bands,
         bubbles,
     };
     let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
@@ -123,7 +124,7 @@ fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     }
 }
 
-fn table(scene: &Scene, resources: &Resources, optics: &OpticsKey, range_nm: f64) -> Option<TableKey> {
+fn table(scene: &Scene, resources: &Resources, optics: &OpticsKey, range_nm: f64) -> TableKey {
     let full = TableKey::full(optics.clone(), range_nm);
     let is_grey = |rgb: [f64; 3]| rgb.iter().all(|value| *value == rgb[0]);
     let backdrop = match scene.view.backdrop {
@@ -131,8 +132,7 @@ fn table(scene: &Scene, resources: &Resources, optics: &OpticsKey, range_nm: f64
         Backdrop::Environment => true,
     };
     let neutral = resources.environment.is_neutral() && scene.light.constant.is_none_or(is_grey) && backdrop;
-    let table = TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full };
-    (scene.view.quality != Quality::Spectral).then_some(table)
+    TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full }
 }
 
 /// What all visible films are made of.

@@ -8,7 +8,7 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 11] = presets![
+const PRESETS: [(&str, &str); 13] = presets![
     "default",
     "fresh",
     "bands",
@@ -16,6 +16,8 @@ const PRESETS: [(&str, &str); 11] = presets![
     "windows",
     "bright",
     "lamplight",
+    "sodium",
+    "polarised",
     "trio",
     "inside",
     "far",

@@ -64,6 +64,8 @@ fn cases() -> Vec<Case> {
         cases.push(water(light, Standard, 1500.0, 2, standard));
         cases.push(water(light, Spectral, 1500.0, 2, spectral));
     }
+    // Beyond the last visible fringe.
+    cases.push(water("D65", Spectral, 6000.0, 2, standard));
     let glycerol = FilmIndex::Glycerol(40.0);
     cases.push(Case { film: glycerol, ..water("D65", Standard, 1500.0, 2, standard) });
     cases

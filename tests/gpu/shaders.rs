@@ -29,6 +29,7 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
         ("COLOURED", vec![0.0, 1.0]),
         ("POLARISED", vec![0.0, 1.0]),
         ("EVERYTHING", vec![0.0, 1.0]),
+        ("BANDS", vec![13.0]),
     ])
 }
 

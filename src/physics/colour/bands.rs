@@ -280,7 +280,7 @@ impl Fit {
 mod tests {
     use super::*;
     use crate::physics::{
-        colour::{Illuminant, Walls, m2_delta_e},
+        colour::{Walls, m2_delta_e},
         optics::FilmIndex,
     };
 

@@ -50,12 +50,16 @@ pub struct PictureScene<'a> {
     /// Direction along which the electric field passes a polariser before the camera. The light that it takes from unpolarised light is
     /// given back.
     pub polariser: Option<DVec3>,
-    /// Samples along each side of a pixel, 1 or more. Pixels that an outline crosses take [`RIM_SAMPLES`] at least.
+    /// Samples along each side of a pixel, 1 or more. Pixels near an outline take more.
     pub samples: u32,
 }
 
-/// Samples along each side of a pixel that a bubble's outline crosses: coverage is then right to about 1 / 32.
-pub const RIM_SAMPLES: u32 = 8;
+/// Samples along each side of a pixel that a bubble's outline crosses: coverage is then right to about 1 / 100.
+const OUTLINE_SAMPLES: u32 = 12;
+/// Samples along each side of a pixel near an outline, where the film turns into a mirror within a few pixels.
+const RIM_SAMPLES: u32 = 6;
+/// How near that is, in pixels.
+const RIM_PIXELS: f64 = 2.5;
 
 impl PictureScene<'_> {
     /// Radiance of each pixel, linear BT.2020 with daylight's white at (1, 1, 1), row by row from the top left: the mean over the pixel's
@@ -76,22 +80,27 @@ impl PictureScene<'_> {
 
     fn pixel(&self, paths: &LightPath, seen: DMat3, corner: [u32; 2]) -> DVec3 {
         let corner = DVec2::new(f64::from(corner[0]), f64::from(corner[1]));
-        let side = if self.meets_outline(corner + 0.5) { self.samples.max(RIM_SAMPLES) } else { self.samples.max(1) };
+        let side = self.samples_at(corner + 0.5);
         let offset = |k: u32| (f64::from(k) + 0.5) / f64::from(side);
         let samples = (0..side * side).map(|k| corner + DVec2::new(offset(k % side), offset(k / side)));
         let total: DVec3 = samples.map(|position| self.sample(paths, seen, self.camera.ray(self.size, position))).sum();
         total / f64::from(side * side)
     }
 
-    /// Whether a bubble's outline passes within a pixel of a position.
-    fn meets_outline(&self, position: DVec2) -> bool {
+    /// Samples along each side of the pixel around a position, by how near a bubble's outline is.
+    fn samples_at(&self, position: DVec2) -> u32 {
         let ray = self.camera.ray(self.size, position);
-        self.spheres.iter().any(|sphere| {
+        let pixels = |sphere: &FilmSphere| {
             let offset = sphere.centre_m - self.camera.eye_m;
             let limb = (sphere.radius_m / offset.length()).asin();
-            // Not a number inside the bubble, which has no outline: the comparison is then false.
-            (ray.angle_between(offset) - limb).abs() < self.camera.pixel_height_m
-        })
+            (ray.angle_between(offset) - limb).abs() / self.camera.pixel_height_m
+        };
+        // Not a number inside the bubble, which has no outline: the smaller of two numbers is then the other.
+        match self.spheres.iter().map(pixels).fold(f64::INFINITY, f64::min) {
+            near if near < 1.0 => OUTLINE_SAMPLES.max(self.samples),
+            near if near < RIM_PIXELS => RIM_SAMPLES.max(self.samples),
+            _ => self.samples.max(1),
+        }
     }
 
     fn sample(&self, paths: &LightPath, seen: DMat3, ray: DVec3) -> DVec3 {
