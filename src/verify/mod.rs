@@ -1,6 +1,7 @@
 //! Whether this machine's GPU tells the truth: each part measures what the program computes against an independent reference, and holds it
 //! to a limit.
 
+mod flow;
 mod transport;
 
 use std::time::Instant;
@@ -37,17 +38,20 @@ impl Check {
 pub enum Part {
     /// Tracers moved by published winds, against exact answers.
     Transport,
+    /// The flow solver, against exact flows.
+    Flow,
 }
 
 impl Part {
     /// All parts, in the order in which they run.
-    pub const ALL: &'static [Self] = &[Self::Transport];
+    pub const ALL: &'static [Self] = &[Self::Transport, Self::Flow];
 
     /// Its name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Transport => "transport",
+            Self::Flow => "flow",
         }
     }
 }
@@ -68,6 +72,7 @@ impl Run<'_> {
         let started = Instant::now();
         match part {
             Part::Transport => transport::run(self),
+            Part::Flow => flow::run(self),
         }?;
         log::info!("{} verified in {:.0} s", part.name(), started.elapsed().as_secs_f64());
         Ok(())

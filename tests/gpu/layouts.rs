@@ -10,6 +10,7 @@ use soapfilm::{
         compose_map::ComposeUniform,
         draw::{BubbleUniform, LightUniform, ViewUniform},
         film::GridUniform,
+        flow::{CoarseLevel, CoarseUniform, CombineUniform, FlowMeasures, FlowUniform, SolveUniform},
         probe_colour::ProbePoint,
         tonemap::TonemapUniform,
     },
@@ -100,6 +101,55 @@ fn mirrors() -> Vec<Mirror> {
         ),
         mirror!("Compose", ComposeUniform, cells = cells, step_cells = step_cells, map_is_identity = map_is_identity),
         mirror!("Grid", GridUniform, cells = cells),
+        mirror!(
+            "Flow",
+            FlowUniform,
+            gravity = gravity,
+            dt_s = dt_s,
+            half_decay = half_decay,
+            cell_angle = cell_angle,
+            cells = cells
+        ),
+        mirror!(
+            "Measures",
+            FlowMeasures,
+            zeta_mean = zeta_mean,
+            guess_mean = guess_mean,
+            max_speed = max_speed,
+            unusable = unusable
+        ),
+        mirror!("Combine", CombineUniform, first = first, second = second, mean = mean),
+        mirror!(
+            "Solve",
+            SolveUniform,
+            weights = weights,
+            shift = shift,
+            gain = gain,
+            cell_angle = cell_angle,
+            cells = cells,
+            coarse_cells = coarse_cells,
+            coarse_field = coarse_field
+        ),
+        mirror!(
+            "Coarse",
+            CoarseUniform,
+            levels = levels,
+            values = values,
+            shift = shift,
+            sweeps = sweeps,
+            level = level,
+            coarsest = coarsest
+        ),
+        mirror!(
+            "Level",
+            CoarseLevel,
+            weights = weights,
+            cell_angle = cell_angle,
+            cells = cells,
+            field = field,
+            tangent = tangent,
+            halo = halo
+        ),
         mirror!("HaloEntry", HaloEntry, cell = target, sources = source, weights = weights),
         mirror!(
             "Step",

@@ -18,6 +18,8 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
         ("FLOW", vec![0.0, 1.0, 2.0, 3.0]),
         ("UNIFORM_FILM", vec![0.0, 1.0]),
         ("SAMPLES", vec![1.0, 4.0]),
+        ("BACKTRACE_ITERATIONS", vec![f64::from(soapfilm::gpu::flow::BACKTRACE[0].1)]),
+        ("SWEEP", vec![0.0, 1.0, 2.0]),
     ])
 }
 

@@ -1,0 +1,25 @@
+// What the passes of one step of the flow share.
+
+// Mirrors `FlowUniform` in src/gpu/flow/mod.rs.
+struct Flow {
+    // Gravity over the radius, 1/s2.
+    gravity: vec3f,
+    dt_s: f32,
+    // What drag leaves of vorticity in half a step.
+    half_decay: f32,
+    cell_angle: f32,
+    // Cells along a panel's edge.
+    cells: u32,
+}
+
+// Mirrors `FlowMeasures` in src/gpu/flow/mod.rs.
+struct Measures {
+    // Mean vorticity, 1/s.
+    zeta_mean: f32,
+    // Mean of 2 psi - psi_before.
+    guess_mean: f32,
+    // Fastest flow, rad/s.
+    max_speed: f32,
+    // Values that could not be used, since the film was seeded.
+    unusable: u32,
+}
