@@ -5,8 +5,11 @@ struct Flow {
     // Gravity over the radius, 1/s2.
     gravity: vec3f,
     dt_s: f32,
-    // What drag leaves of vorticity in half a step.
-    half_decay: f32,
+    // Drag that is the same everywhere, 1/s.
+    drag: f32,
+    // Drag of air over the root of the speed, times the thickness, nm / sqrt(s), and the slowest speed that it is reckoned with.
+    air_drag: f32,
+    min_air_speed: f32,
     cell_angle: f32,
     // Cells along a panel's edge.
     cells: u32,

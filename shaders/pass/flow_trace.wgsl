@@ -1,5 +1,5 @@
 // Carries a field along a steady flow for one step: its value is that of where the liquid came from. What acts in the second half of the
-// step follows: a push, then decay. One invocation a cell.
+// step follows: drag and a push. One invocation a cell.
 
 import package::flow::backtrace::backtrace;
 import package::flow::step::Flow;
@@ -10,7 +10,7 @@ import package::sphere::cubed::{HALO, cubic_stencil, locate, padded_index, panel
 @group(0) @binding(2) var<storage, read> velocity: array<vec4f>;
 @group(0) @binding(3) var<storage, read> field: array<f32>;
 @group(0) @binding(4) var<storage, read_write> moved: array<f32>;
-@group(0) @binding(5) var<storage, read> push: array<f32>;
+@group(0) @binding(5) var<storage, read> half_step: array<vec2f>;
 
 fn field_row(row: u32, w: vec4f) -> f32 {
     return dot(w, vec4f(field[row], field[row + 1u], field[row + 2u], field[row + 3u]));
@@ -37,7 +37,7 @@ fn carried(id: vec3u, at: u32) -> f32 {
 fn trace_vorticity(@builtin(global_invocation_id) id: vec3u) {
     if (id.x < flow.cells) {
         let at = padded_index(id.z, i32(id.x), i32(id.y), flow.cells);
-        moved[at] = flow.half_decay * (carried(id, at) + push[at]);
+        moved[at] = half_step[at].x * carried(id, at) + half_step[at].y;
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use cpu_time::ProcessTime;
 use rayon::prelude::*;
 
 use super::{
@@ -30,7 +31,9 @@ pub struct FlowOutcome {
     /// The oscillation of the mode, in sloshing.
     pub oscillation: Option<Oscillation>,
     /// Wall time of a step.
-    pub step: Duration,
+    pub wall: Duration,
+    /// Process time of a step, all threads.
+    pub cpu: Duration,
     /// Dispatches of a step.
     pub dispatches: u64,
 }
@@ -64,9 +67,9 @@ impl FlowRun {
         self.seed(gpu, &mut solver)?;
         let first = State::read(gpu, &solver)?;
         let mode = self.sample(solver.sphere(), |x| self.case.mode_at(x));
-        let wall = Instant::now();
+        let (cpu, wall) = (ProcessTime::now(), Instant::now());
         let (samples, dispatches) = self.steps(gpu, &mut solver, &mode)?;
-        let step = wall.elapsed() / self.all_steps().max(1);
+        let [cpu, wall] = [cpu.elapsed(), wall.elapsed()].map(|time| time / self.all_steps().max(1));
         let last = State::read(gpu, &solver)?;
         let grid = solver.sphere();
         let [before, after] = [&first, &last].map(|state| invariants(grid, &state.zeta, &state.psi));
@@ -79,7 +82,8 @@ impl FlowRun {
             enstrophy_drift: drift(&|sum| sum.enstrophy),
             angular_momentum_drift: momentum_drift(&before, &after),
             oscillation: fit_oscillation(&samples, self.dt_s()),
-            step,
+            wall,
+            cpu,
             dispatches,
         })
     }

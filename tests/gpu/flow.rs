@@ -96,7 +96,7 @@ fn a_film_sloshes_with_and_without_drag_and_overturns() {
 #[test]
 fn the_gpu_does_what_its_f64_twin_does() {
     let Some(gpu) = gpu() else { return };
-    let forces = FlowForces { gravity: DVec3::new(0.3, -0.2, -2.0), drag: 0.5, viscosity: 0.01 };
+    let forces = FlowForces { gravity: DVec3::new(0.3, -0.2, -2.0), drag: 0.5, air_drag: 1.5, viscosity: 0.01 };
     let start = case(FlowCaseKind::RossbyHaurwitz, (1, 1), 0.3);
     let thickness = |x: DVec3| 0.2 * (3.0 * x.x).sin() - 0.5 * x.z;
     let mut solver = FlowSolver::new(&gpu, 32);
@@ -141,7 +141,7 @@ fn nonsense_is_contained() {
     thickness[5] = f32::NEG_INFINITY;
     gpu.upload(solver.zeta(), &solver.padded(&zeta));
     gpu.upload(solver.log_thickness(), &solver.padded(&thickness));
-    let forces = FlowForces { gravity: DVec3::NEG_Z, drag: 0.1, viscosity: 0.01 };
+    let forces = FlowForces { gravity: DVec3::NEG_Z, drag: 0.1, air_drag: 100.0, viscosity: 0.01 };
     submit(&gpu, |recorder| solver.step(recorder, 0.01, &forces).unwrap());
     // The trial of the first step and the step itself both meet the four.
     assert_eq!(read_measures(&gpu, &solver).unwrap().unusable, 8);

@@ -106,7 +106,9 @@ fn mirrors() -> Vec<Mirror> {
             FlowUniform,
             gravity = gravity,
             dt_s = dt_s,
-            half_decay = half_decay,
+            drag = drag,
+            air_drag = air_drag,
+            min_air_speed = min_air_speed,
             cell_angle = cell_angle,
             cells = cells
         ),

@@ -10,7 +10,7 @@ use multigrid::{Multigrid, System, halo_entries};
 
 use super::{Gpu, GpuError, pipelines::ComputeKey, timing::Recorder};
 use crate::physics::{
-    flow::{BACKTRACE_ITERATIONS, FlowForces, POISSON_CYCLES, VISCOUS_CYCLES},
+    flow::{BACKTRACE_ITERATIONS, FlowForces, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES},
     sphere::{CubedSphere, HALO},
 };
 
@@ -22,13 +22,17 @@ pub struct FlowUniform {
     pub gravity: [f32; 3],
     /// Length of the step, seconds.
     pub dt_s: f32,
-    /// What drag leaves of vorticity in half a step.
-    pub half_decay: f32,
+    /// Drag that is the same everywhere, 1/s.
+    pub drag: f32,
+    /// Drag of air over the root of the speed, times the thickness, nm/√s.
+    pub air_drag: f32,
+    /// Slowest speed that it is reckoned with, rad/s.
+    pub min_air_speed: f32,
     /// Angle of a cell, radians.
     pub cell_angle: f32,
     /// Cells along a panel's edge.
     pub cells: u32,
-    pad: u32,
+    pad: [u32; 3],
 }
 
 /// What was measured of the whole film at the start of the last step: see `shaders/flow/step.wgsl`.
@@ -112,7 +116,8 @@ pub struct FlowSolver {
     pushed: wgpu::Buffer,
     moved: wgpu::Buffer,
     stages: [wgpu::Buffer; 2],
-    push: wgpu::Buffer,
+    /// What drag leaves of a cell's vorticity in half a step, and what is added.
+    half_step: wgpu::Buffer,
     velocity: wgpu::Buffer,
     velocity_ahead: wgpu::Buffer,
     measures: wgpu::Buffer,
@@ -151,7 +156,7 @@ impl FlowSolver {
             pushed: field("pushed vorticity"),
             moved: field("moved vorticity"),
             stages: ["first viscous stage", "second viscous stage"].map(field),
-            push: field("push of buoyancy"),
+            half_step: buffer(gpu, "half step", sphere.padded_len() as u64 * 8),
             velocity: velocity("velocity"),
             velocity_ahead: velocity("velocity ahead"),
             measures: buffer(gpu, "flow measures", size_of::<FlowMeasures>() as u64),
@@ -183,7 +188,8 @@ impl FlowSolver {
         &self.velocity
     }
 
-    /// Where the caller puts ln h before each step: f32 in padded storage. Its halo is filled by the step. Only differences matter.
+    /// Where the caller puts ln h before each step: f32 in padded storage, of the thickness in nm. Its halo is filled by the step. Without
+    /// drag of air only differences matter.
     #[must_use]
     pub fn log_thickness(&self) -> &wgpu::Buffer {
         &self.log_thickness
@@ -193,12 +199,6 @@ impl FlowSolver {
     #[must_use]
     pub fn measures(&self) -> &wgpu::Buffer {
         &self.measures
-    }
-
-    /// Bytes that one state holds: for copies kept by whoever goes back in time.
-    #[must_use]
-    pub fn state(&self) -> [&wgpu::Buffer; 4] {
-        [&self.zeta, &self.psi, &self.psi_before, &self.velocity]
     }
 
     /// Sets vorticity in 1/s in each cell, in the grid's order, finds its stream function, and forgets all motion. A mean is left out.
@@ -259,10 +259,19 @@ impl FlowSolver {
             measures,
         ];
         grid.run(recorder, ("flow_measure", "flow_measure"), &[], &measured, [1; 3])?;
-        let forced = [uniform, &grid.tangents, measures, &self.zeta, &self.log_thickness, &self.pushed, &self.push];
+        let forced = [
+            uniform,
+            &grid.tangents,
+            measures,
+            &self.zeta,
+            &self.log_thickness,
+            &self.velocity_ahead,
+            &self.pushed,
+            &self.half_step,
+        ];
         grid.run(recorder, ("flow_force", "flow_force"), &[], &forced, grid.groups())?;
         grid.fill_halo(recorder, &self.pushed)?;
-        let traced = [uniform, &grid.tangents, &self.velocity_ahead, &self.pushed, &self.moved, &self.push];
+        let traced = [uniform, &grid.tangents, &self.velocity_ahead, &self.pushed, &self.moved, &self.half_step];
         grid.run(recorder, ("flow_trace", "trace_vorticity"), BACKTRACE, &traced, grid.groups())?;
         let zeta = match forces.viscous_stage(dt_s) {
             None => &self.moved,
@@ -330,10 +339,12 @@ impl FlowSolver {
         let uniform = FlowUniform {
             gravity: forces.gravity.as_vec3().to_array(),
             dt_s: dt_s as f32,
-            half_decay: (-0.5 * forces.drag * dt_s).exp() as f32,
+            drag: forces.drag as f32,
+            air_drag: forces.air_drag as f32,
+            min_air_speed: MIN_AIR_SPEED as f32,
             cell_angle: self.grid.sphere.cell_angle() as f32,
             cells: self.grid.sphere.n() as u32,
-            pad: 0,
+            pad: [0; 3],
         };
         gpu.uniform("flow step", &uniform)
     }

@@ -183,9 +183,11 @@ impl FlowCase {
     #[must_use]
     pub fn forces(&self) -> FlowForces {
         match self.kind {
-            FlowCaseKind::Sloshing => {
-                FlowForces { gravity: self.from_world.transpose() * DVec3::NEG_Z, drag: self.drag, viscosity: 0.0 }
-            }
+            FlowCaseKind::Sloshing => FlowForces {
+                gravity: self.from_world.transpose() * DVec3::NEG_Z,
+                drag: self.drag,
+                ..FlowForces::default()
+            },
             FlowCaseKind::Decay => FlowForces { viscosity: 1.0, ..FlowForces::default() },
             _ => FlowForces::default(),
         }

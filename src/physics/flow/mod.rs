@@ -3,7 +3,7 @@
 //! On the unit sphere, with lengths in radii and h the thickness,
 //!
 //! ```text
-//! Dζ/Dt = n·(∇ ln h × G) + ν (Δ + 2) ζ − α ζ,     Δψ = ζ,     u = n × ∇ψ
+//! Dζ/Dt = n·(∇ ln h × G) + ν (Δ + 2) ζ − n·curl(αu),     Δψ = ζ,     u = n × ∇ψ
 //! ```
 //!
 //! ν is the kinematic viscosity over R², in 1/s, G gravity over R, in 1/s², α the drag of the air, in 1/s. The film is nearly incompressible in
@@ -23,6 +23,6 @@ pub use multigrid::{MAX_COARSEST_SWEEPS, Multigrid, SWEEPS, Shift, coarser, coar
 pub use operators::{CellMetric, Order, laplacian, turned_gradient};
 pub use oscillation::{Oscillation, fit_oscillation};
 pub use solver::{
-    BACKTRACE_ITERATIONS, FlowForces, FlowSolver, POISSON_CYCLES, VISCOUS_CYCLES, VISCOUS_STAGE, advected,
-    stable_step_s,
+    AIR_DRAG, BACKTRACE_ITERATIONS, FlowForces, FlowSolver, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES,
+    VISCOUS_STAGE, advected, stable_step_s,
 };

@@ -4,7 +4,7 @@
 //!
 //! 1. The velocity at t is 1.5 u(t − ½dt) − 0.5 u(t − 3/2 dt); each cell is traced back along it, by the implicit midpoint rule on the
 //!    sphere, which is symmetric in time and so neither gains nor loses energy.
-//! 2. Vorticity is looked up there by cubic interpolation. Half of the buoyancy acts before and half after; so does the drag.
+//! 2. Vorticity is looked up there by cubic interpolation. Half of the drag and of the buoyancy acts before and half after.
 //! 3. Viscosity acts by an L-stable rule of second order.
 //! 4. ψ(t + ½dt) is found from it by multigrid, starting from 2ψ(t − ½dt) − ψ(t − 3/2 dt).
 //!
@@ -13,6 +13,8 @@
 use glam::DVec3;
 
 use super::{multigrid::Multigrid, operators::turned_gradient};
+#[cfg(doc)]
+use crate::physics::film::properties::air_drag;
 use crate::physics::sphere::{CubedSphere, HaloTable, PaddedField};
 
 /// Cycles that find ψ, each of which leaves less than a fifth of the residual.
@@ -26,13 +28,22 @@ pub const BACKTRACE_ITERATIONS: usize = 3;
 /// ν dt beyond which nothing is left but solid rotation, in rad²: more would only magnify the discretisation's error in that.
 const MAX_VISCOUS_STEP: f64 = 2.0;
 
+/// [`FlowForces::air_drag`] of air at 25 °C: α = ρ_a √(ν_a U/R) / (ρ h/2) is `AIR_DRAG √|u| / h` with |u| = U/R in rad/s and h in nm,
+/// whatever the radius. See [`air_drag`].
+pub const AIR_DRAG: f64 = 9359.0;
+/// Slowest speed against the air that drag is reckoned with, rad/s: air is never quite at rest.
+pub const MIN_AIR_SPEED: f64 = 0.02;
+
 /// What acts on the film during a step, on the unit sphere.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FlowForces {
     /// Gravity, less the bubble's acceleration, over the radius: 1/s².
     pub gravity: DVec3,
-    /// Drag of the air α, 1/s.
+    /// Drag that is the same everywhere, 1/s.
     pub drag: f64,
+    /// Drag of air over the root of the speed, times the thickness: nm/√s. See [`AIR_DRAG`]; 0 for none. If it is not 0, ln h must be
+    /// that of the thickness in nm.
+    pub air_drag: f64,
     /// Kinematic viscosity over R², 1/s.
     pub viscosity: f64,
 }
@@ -46,7 +57,8 @@ impl FlowForces {
     }
 }
 
-/// The longest stable step in seconds under gravity `g` (over the radius, 1/s²) where ln h changes by at most `slope` a radian.
+/// The longest step in seconds that is stable under gravity `g` (over the radius, 1/s²) where ln h changes by at most `slope` a radian: the
+/// leapfrog's 2/σ for the fastest wave of buoyancy. Take shorter ones where a tick is longer.
 #[must_use]
 pub fn stable_step_s(g: f64, slope: f64) -> f64 {
     2.0 / (g * slope).abs().sqrt()
@@ -131,14 +143,14 @@ impl FlowSolver {
         log_thickness: &PaddedField<f64>,
         before: &PaddedField<f64>,
     ) -> PaddedField<f64> {
-        let half_decay = (-0.5 * forces.drag * dt).exp();
-        let push = |cell| 0.5 * dt * forces.gravity.dot(turned_gradient(log_thickness, cell));
-        let zeta = self.zeta.cells();
-        let pushed = self.field(|cell| half_decay * zeta[cell] + push(cell));
         let psi = combined(self.halo(), [(1.5, &self.psi), (-0.5, before)]);
         let velocity = self.field(|cell| turned_gradient(&psi, cell));
+        let (zeta, at, thickness) = (self.zeta.cells(), velocity.cells(), log_thickness.cells());
+        let half_step =
+            |cell: usize| HalfStep::new(forces, dt, at[cell], thickness[cell], turned_gradient(log_thickness, cell));
+        let pushed = self.field(|cell| half_step(cell).applied(zeta[cell]));
         let moved = advected(self.halo(), &pushed, &velocity, dt).cells();
-        self.field(|cell| half_decay * (moved[cell] + push(cell)))
+        self.field(|cell| half_step(cell).applied(moved[cell]))
     }
 
     /// Vorticity after a step of viscosity: with S the implicit stage `(1 − ε (Δ + 2))⁻¹`, ε = (1 − 1/√2) ν dt, it is
@@ -174,6 +186,31 @@ impl FlowSolver {
     }
 }
 
+/// What drag and buoyancy do to a cell's vorticity in half a step: exactly what they do under forces that hold still, however strong.
+struct HalfStep {
+    /// What drag leaves.
+    decay: f64,
+    /// What is added, 1/s.
+    push: f64,
+}
+
+impl HalfStep {
+    /// For a cell's velocity and ln h, and `n × ∇ ln h`. The air slows thin film down more than thick, which makes vorticity where
+    /// liquid flows along an edge: of `−n·curl(αu)` that is `n·(u × ∇α) = α_h u·(n × ∇ ln h)`, for α_h goes as 1/h.
+    fn new(forces: &FlowForces, dt: f64, u: DVec3, log_thickness: f64, turned: DVec3) -> Self {
+        let of_air = forces.air_drag * u.length().max(MIN_AIR_SPEED).sqrt() * (-log_thickness).exp();
+        let drag = forces.drag + of_air;
+        let source = (forces.gravity + of_air * u).dot(turned);
+        let x = 0.5 * dt * drag;
+        let decayed = if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 };
+        Self { decay: (-x).exp(), push: 0.5 * dt * decayed * source }
+    }
+
+    fn applied(&self, zeta: f64) -> f64 {
+        self.decay * zeta + self.push
+    }
+}
+
 /// A sum of two fields with factors.
 fn combined(halo: &HaloTable, [a, b]: [(f64, &PaddedField<f64>); 2]) -> PaddedField<f64> {
     let (first, second) = (a.1.cells(), b.1.cells());
@@ -201,6 +238,7 @@ pub fn advected(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::film::properties;
     use crate::physics::flow::{FlowCase, FlowCaseKind, Mode, Oscillation, fit_oscillation, relative_l2};
 
     fn case(kind: FlowCaseKind, mode: (u32, u32), k: f64) -> FlowCase {
@@ -237,6 +275,41 @@ mod tests {
     fn viscosity_wears_a_harmonic_down() {
         let decay = error(&case(FlowCaseKind::Decay, (5, 3), 0.0), 24, 20, 20);
         assert!(decay < 3e-3, "{decay}");
+    }
+
+    #[test]
+    fn the_stable_step_is_where_the_fastest_wave_begins_to_grow() {
+        // The (l, l) mode of a film of unit slope nearly has the bound's frequency: σ² = l/(l + 1).
+        let case = FlowCase::new(FlowCaseKind::Sloshing, DVec3::Z, Mode::new(9, 9, 1).unwrap(), 1.0, 0.0).unwrap();
+        let largest_after = |dt: f64| {
+            let grid = CubedSphere::new(24).unwrap();
+            let mut solver = FlowSolver::new(grid, |_| 0.0);
+            let mut film = PaddedField::sample(grid, solver.halo(), |x| case.log_thickness(x));
+            for _ in 0..40 {
+                solver.step(dt, &case.forces(), &film);
+                film = advected(solver.halo(), &film, &solver.velocity(), dt);
+            }
+            solver.zeta().cells().iter().fold(0.0, |most: f64, zeta| most.max(zeta.abs()))
+        };
+        let limit = stable_step_s(1.0, 1.0);
+        assert!(largest_after(0.9 * limit) < 0.1, "{}", largest_after(0.9 * limit));
+        assert!(largest_after(1.3 * limit) > 1.0, "{}", largest_after(1.3 * limit));
+    }
+
+    #[test]
+    fn air_drags_as_a_boundary_layer_does() {
+        let (radius, speed, thickness) = (0.03, 0.2_f64, 4e-7);
+        let ours = AIR_DRAG * (speed / radius).sqrt() / (1e9 * thickness);
+        assert!((ours / properties::air_drag(thickness, speed, radius) - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn strong_drag_leaves_the_speed_at_which_forces_balance() {
+        let forces = FlowForces { gravity: DVec3::NEG_Z, drag: 500.0, ..FlowForces::default() };
+        let step = HalfStep::new(&forces, 1.0, DVec3::X, 6.0, DVec3::new(0.0, 3.0, -4.0));
+        assert!((step.applied(7.0) - 4.0 / 500.0).abs() < 1e-12);
+        let none = HalfStep::new(&FlowForces { drag: 0.0, ..forces }, 0.1, DVec3::X, 6.0, DVec3::NEG_Z);
+        assert_eq!(none.applied(7.0), 7.05);
     }
 
     fn slosh(stratification: f64, drag: f64) -> (FlowCase, Oscillation) {
