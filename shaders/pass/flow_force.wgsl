@@ -10,9 +10,11 @@ import package::sphere::cubed::{HALO, padded_index};
 @group(0) @binding(3) var<storage, read> zeta: array<f32>;
 @group(0) @binding(4) var<storage, read> log_thickness: array<f32>;
 @group(0) @binding(5) var<storage, read> velocity: array<vec4f>;
-@group(0) @binding(6) var<storage, read_write> pushed: array<f32>;
+// What stirs the film besides, 1/s2.
+@group(0) @binding(6) var<storage, read> forcing: array<f32>;
+@group(0) @binding(7) var<storage, read_write> pushed: array<f32>;
 // What drag leaves of vorticity in half a step, and what is added.
-@group(0) @binding(7) var<storage, read_write> half_step: array<vec2f>;
+@group(0) @binding(8) var<storage, read_write> half_step: array<vec2f>;
 
 fn slope(at: u32, step: u32) -> f32 {
     return first_difference(vec4f(
@@ -45,5 +47,6 @@ fn half_of_forces(at: u32, turned: vec3f) -> vec2f {
     let decay = exp(-x);
     // (1 - exp(-x)) / x, by its series where the difference would be all rounding.
     let decayed = select((1.0 - decay) / x, 1.0 - x * (0.5 - x / 6.0), x < 0.02);
-    return vec2f(decay, usable_or_zero(0.5 * flow.dt_s * decayed * dot(flow.gravity + of_air * u, turned)));
+    let source = dot(flow.gravity + of_air * u, turned) + usable_or_zero(forcing[at]);
+    return vec2f(decay, usable_or_zero(0.5 * flow.dt_s * decayed * source));
 }

@@ -108,6 +108,7 @@ pub struct FlowSolver {
     multigrid: Multigrid,
     zeta: wgpu::Buffer,
     log_thickness: wgpu::Buffer,
+    forcing: wgpu::Buffer,
     psi: wgpu::Buffer,
     psi_before: wgpu::Buffer,
     /// Where the next step's ψ goes.
@@ -150,6 +151,7 @@ impl FlowSolver {
             multigrid: Multigrid::new(gpu, sphere),
             zeta: field("vorticity"),
             log_thickness: field("ln h"),
+            forcing: field("forcing"),
             psi: field("stream function"),
             psi_before: field("stream function before"),
             psi_next: field("next stream function"),
@@ -193,6 +195,12 @@ impl FlowSolver {
     #[must_use]
     pub fn log_thickness(&self) -> &wgpu::Buffer {
         &self.log_thickness
+    }
+
+    /// Where the caller puts what stirs the film besides, if anything: a source of vorticity in 1/s², f32 in padded storage, without halo.
+    #[must_use]
+    pub fn forcing(&self) -> &wgpu::Buffer {
+        &self.forcing
     }
 
     /// One [`FlowMeasures`].
@@ -266,6 +274,7 @@ impl FlowSolver {
             &self.zeta,
             &self.log_thickness,
             &self.velocity_ahead,
+            &self.forcing,
             &self.pushed,
             &self.half_step,
         ];

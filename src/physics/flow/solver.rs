@@ -71,6 +71,8 @@ pub struct FlowSolver {
     psi: PaddedField<f64>,
     /// ψ one step before; nothing before the first step.
     psi_before: Option<PaddedField<f64>>,
+    /// What stirs the film besides, 1/s².
+    forcing: PaddedField<f64>,
 }
 
 impl FlowSolver {
@@ -79,7 +81,7 @@ impl FlowSolver {
         let multigrid = Multigrid::new(grid);
         let zeta = PaddedField::sample(grid, multigrid.halo(), zeta);
         let psi = PaddedField::from_cells(grid, multigrid.halo(), |_| 0.0);
-        let mut solver = Self { multigrid, zeta, psi, psi_before: None };
+        let mut solver = Self { multigrid, zeta, forcing: psi.clone(), psi, psi_before: None };
         solver.psi = solver.stream_function(solver.psi.clone(), &solver.zeta, Self::FIRST_CYCLES);
         solver
     }
@@ -105,6 +107,11 @@ impl FlowSolver {
     /// The velocity of ψ, rad/s.
     pub fn velocity(&self) -> PaddedField<DVec3> {
         self.field(|cell| turned_gradient(&self.psi, cell))
+    }
+
+    /// Sets what stirs the film from now on: a source of vorticity in 1/s², such as α n·curl of the air's velocity.
+    pub fn stir(&mut self, forcing: PaddedField<f64>) {
+        self.forcing = forcing;
     }
 
     /// Takes a step under forces, with ln h half a step from now.
@@ -146,8 +153,11 @@ impl FlowSolver {
         let psi = combined(self.halo(), [(1.5, &self.psi), (-0.5, before)]);
         let velocity = self.field(|cell| turned_gradient(&psi, cell));
         let (zeta, at, thickness) = (self.zeta.cells(), velocity.cells(), log_thickness.cells());
-        let half_step =
-            |cell: usize| HalfStep::new(forces, dt, at[cell], thickness[cell], turned_gradient(log_thickness, cell));
+        let forcing = self.forcing.cells();
+        let half_step = |cell: usize| {
+            let turned = turned_gradient(log_thickness, cell);
+            HalfStep::new(forces, dt, at[cell], (thickness[cell], turned), forcing[cell])
+        };
         let pushed = self.field(|cell| half_step(cell).applied(zeta[cell]));
         let moved = advected(self.halo(), &pushed, &velocity, dt).cells();
         self.field(|cell| half_step(cell).applied(moved[cell]))
@@ -195,12 +205,12 @@ struct HalfStep {
 }
 
 impl HalfStep {
-    /// For a cell's velocity and ln h, and `n × ∇ ln h`. The air slows thin film down more than thick, which makes vorticity where
+    /// For a cell's velocity, its ln h with `n × ∇ ln h`, and what stirs it besides. The air slows thin film down more than thick, which makes vorticity where
     /// liquid flows along an edge: of `−n·curl(αu)` that is `n·(u × ∇α) = α_h u·(n × ∇ ln h)`, for α_h goes as 1/h.
-    fn new(forces: &FlowForces, dt: f64, u: DVec3, log_thickness: f64, turned: DVec3) -> Self {
+    fn new(forces: &FlowForces, dt: f64, u: DVec3, (log_thickness, turned): (f64, DVec3), forcing: f64) -> Self {
         let of_air = forces.air_drag * u.length().max(MIN_AIR_SPEED).sqrt() * (-log_thickness).exp();
         let drag = forces.drag + of_air;
-        let source = (forces.gravity + of_air * u).dot(turned);
+        let source = (forces.gravity + of_air * u).dot(turned) + forcing;
         let x = 0.5 * dt * drag;
         let decayed = if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 };
         Self { decay: (-x).exp(), push: 0.5 * dt * decayed * source }
@@ -306,9 +316,9 @@ mod tests {
     #[test]
     fn strong_drag_leaves_the_speed_at_which_forces_balance() {
         let forces = FlowForces { gravity: DVec3::NEG_Z, drag: 500.0, ..FlowForces::default() };
-        let step = HalfStep::new(&forces, 1.0, DVec3::X, 6.0, DVec3::new(0.0, 3.0, -4.0));
-        assert!((step.applied(7.0) - 4.0 / 500.0).abs() < 1e-12);
-        let none = HalfStep::new(&FlowForces { drag: 0.0, ..forces }, 0.1, DVec3::X, 6.0, DVec3::NEG_Z);
+        let step = HalfStep::new(&forces, 1.0, DVec3::X, (6.0, DVec3::new(0.0, 3.0, -4.0)), 1.0);
+        assert!((step.applied(7.0) - 5.0 / 500.0).abs() < 1e-12);
+        let none = HalfStep::new(&FlowForces { drag: 0.0, ..forces }, 0.1, DVec3::X, (6.0, DVec3::NEG_Z), 0.0);
         assert_eq!(none.applied(7.0), 7.05);
     }
 
