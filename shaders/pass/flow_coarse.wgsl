@@ -1,5 +1,6 @@
-// All grids of a multigrid cycle below the finest, by one workgroup: the finest's residual is averaged down to the coarsest, solved there, and each
-// grid on the way up interpolates the correction and smooths it. Grids so small are done sooner by one workgroup than they are handed out.
+// All grids of a multigrid cycle below the finest, by one workgroup: the finest's residual is averaged down to the coarsest, solved
+// there, and each grid on the way up interpolates the correction and smooths it. Grids so small are done sooner by one workgroup than they
+// are handed out.
 
 import package::flow::operators::area_density;
 import package::sphere::cubed::{HALO, padded_index};

@@ -1,4 +1,5 @@
-// The first half of what acts on vorticity in a step, drag and buoyancy; the same is kept for the second half. Values that cannot be used are left out here, so that they reach nothing else. One invocation a cell.
+// The first half of what acts on vorticity in a step, drag and buoyancy; the same is kept for the second half. Values
+// that cannot be used are left out here, so that they reach nothing else. One invocation a cell.
 
 import package::flow::operators::{first_difference, turned_gradient, usable, usable_or_zero};
 import package::flow::step::{Flow, Measures};

@@ -184,7 +184,8 @@ impl FlowSolver {
         &self.psi
     }
 
-    /// Velocity of the stream function in rad/s, Cartesian, `vec4f` in padded storage with its halo: what `shaders/flow/backtrace.wgsl` reads.
+    /// Velocity of the stream function in rad/s, Cartesian, `vec4f` in padded storage with its halo: what
+    /// `shaders/flow/backtrace.wgsl` reads.
     #[must_use]
     pub fn velocity(&self) -> &wgpu::Buffer {
         &self.velocity

@@ -6,8 +6,8 @@
 //! Dζ/Dt = n·(∇ ln h × G) + ν (Δ + 2) ζ − n·curl(αu),     Δψ = ζ,     u = n × ∇ψ
 //! ```
 //!
-//! ν is the kinematic viscosity over R², in 1/s, G gravity over R, in 1/s², α the drag of the air, in 1/s. The film is nearly incompressible in
-//! its plane (its Mach number is below 0.1), so u is free of divergence. This is the f64 twin of what the GPU runs, and cases with known
+//! ν is the kinematic viscosity over R², in 1/s, G gravity over R, in 1/s², α the drag of the air, in 1/s. The film is nearly
+//! incompressible in its plane (its Mach number is below 0.1), so u is free of divergence. This is the f64 twin of what the GPU runs, and cases with known
 //! answers for both.
 
 mod cases;

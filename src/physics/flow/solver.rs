@@ -8,7 +8,8 @@
 //! 3. Viscosity acts by an L-stable rule of second order.
 //! 4. ψ(t + ½dt) is found from it by multigrid, starting from 2ψ(t − ½dt) − ψ(t − 3/2 dt).
 //!
-//! The thickness then moves from t to t + dt with the velocity of ψ(t + ½dt): waves of buoyancy keep their amplitude for ever (Störmer-Verlet).
+//! The thickness then moves from t to t + dt with the velocity of ψ(t + ½dt): waves of buoyancy keep their amplitude for ever
+//! (Störmer-Verlet).
 
 use glam::DVec3;
 
@@ -205,8 +206,9 @@ struct HalfStep {
 }
 
 impl HalfStep {
-    /// For a cell's velocity, its ln h with `n × ∇ ln h`, and what stirs it besides. The air slows thin film down more than thick, which makes vorticity where
-    /// liquid flows along an edge: of `−n·curl(αu)` that is `n·(u × ∇α) = α_h u·(n × ∇ ln h)`, for α_h goes as 1/h.
+    /// For a cell's velocity, its ln h with `n × ∇ ln h`, and what stirs it besides. The air slows thin film down more than thick, which
+    /// makes vorticity where liquid flows along an edge: of `−n·curl(αu)` that is `n·(u × ∇α) = α_h u·(n × ∇ ln h)`, for α_h goes as
+    /// 1/h.
     fn new(forces: &FlowForces, dt: f64, u: DVec3, (log_thickness, turned): (f64, DVec3), forcing: f64) -> Self {
         let of_air = forces.air_drag * u.length().max(MIN_AIR_SPEED).sqrt() * (-log_thickness).exp();
         let drag = forces.drag + of_air;
