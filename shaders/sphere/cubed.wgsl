@@ -79,3 +79,20 @@ fn cubic_weights(t: f32) -> vec4f {
     let c = t - 2.0;
     return vec4f(-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0);
 }
+
+// The 4 x 4 cells around a point: padded index of the first, and weights along i and j.
+struct CubicStencil {
+    first: u32,
+    stride: u32,
+    wi: vec4f,
+    wj: vec4f,
+}
+
+fn cubic_stencil(at: CubePoint, cells: u32) -> CubicStencil {
+    // Rounding must not carry a point on the panel's edge past the halo.
+    let cell = clamp(at.cell, vec2f(-0.5), vec2f(f32(cells) - 0.5));
+    let base = floor(cell);
+    let t = cell - base;
+    let first = padded_index(at.panel, i32(base.x) - 1, i32(base.y) - 1, cells);
+    return CubicStencil(first, cells + 2u * HALO, cubic_weights(t.x), cubic_weights(t.y));
+}

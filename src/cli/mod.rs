@@ -4,6 +4,7 @@
 //! half-written file.
 
 mod colour;
+mod flow;
 mod info;
 mod lut;
 mod measure;
@@ -50,6 +51,8 @@ enum Command {
     Lut(lut::Arguments),
     /// Run a published test of transport on the sphere
     Transport(transport::Arguments),
+    /// Run a test of the flow solver against its exact solution
+    Flow(flow::Arguments),
     /// Measure this machine's GPU against the references
     Verify(verify::Arguments),
     /// List the graphics adapters and what soapfilm uses of them
@@ -118,6 +121,7 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
         Command::Colour(arguments) => colour::run(&arguments),
         Command::Lut(arguments) => lut::run(&arguments),
         Command::Transport(arguments) => transport::run(&arguments),
+        Command::Flow(arguments) => flow::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }

@@ -12,6 +12,9 @@ pub mod device;
 pub mod draw;
 pub mod environment;
 pub mod film;
+pub mod flow;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod flow_case;
 pub mod pipelines;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod probe_colour;

@@ -6,6 +6,7 @@
 pub mod colour;
 pub mod environment;
 pub mod film;
+pub mod flow;
 pub mod optics;
 pub mod picture;
 pub mod spectra;

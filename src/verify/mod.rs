@@ -1,6 +1,7 @@
 //! Whether this machine's GPU tells the truth: each part measures what the program computes against an independent reference, and holds it
 //! to a limit.
 
+mod flow;
 mod optics;
 mod picture;
 mod random;
@@ -46,13 +47,15 @@ pub enum Part {
     Picture,
     /// Tracers moved by published winds, against exact answers.
     Transport,
+    /// The flow solver, against exact flows.
+    Flow,
     /// What breaks solvers.
     Stability,
 }
 
 impl Part {
     /// All parts, in the order in which they run.
-    pub const ALL: &'static [Self] = &[Self::Optics, Self::Picture, Self::Transport, Self::Stability];
+    pub const ALL: &'static [Self] = &[Self::Optics, Self::Picture, Self::Transport, Self::Flow, Self::Stability];
 
     /// Its name on the command line.
     #[must_use]
@@ -61,6 +64,7 @@ impl Part {
             Self::Optics => "optics",
             Self::Picture => "picture",
             Self::Transport => "transport",
+            Self::Flow => "flow",
             Self::Stability => "stability",
         }
     }
@@ -84,6 +88,7 @@ impl Run<'_> {
             Part::Optics => optics::run(self),
             Part::Picture => picture::run(self),
             Part::Transport => transport::run(self),
+            Part::Flow => flow::run(self),
             Part::Stability => stability::run(self),
         }?;
         log::info!("{} verified in {:.0} s", part.name(), started.elapsed().as_secs_f64());

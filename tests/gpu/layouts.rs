@@ -12,12 +12,16 @@ use soapfilm::{
         decide_remap::DecideUniform,
         draw::{BubbleUniform, LightUniform, ViewUniform},
         film::{BalanceBlock, ControlBlock, RemapArguments},
+        flow::{CoarseLevel, CoarseUniform, CombineUniform, FlowMeasures, FlowUniform, SolveUniform},
         probe_colour::ProbePoint,
         sample_tracer::SampleUniform,
         tonemap::TonemapUniform,
         trace_step::{StepUniform, WindMoment},
     },
-    physics::film::{FrozenVortex, FrozenWave},
+    physics::{
+        film::{FrozenVortex, FrozenWave},
+        sphere::HaloEntry,
+    },
 };
 
 use crate::passes::{names, parse};
@@ -145,6 +149,58 @@ fn mirrors() -> Vec<Mirror> {
             healed = healed
         ),
         mirror!("Balance", BalanceBlock, offset = offset, slope = slope),
+        mirror!(
+            "Flow",
+            FlowUniform,
+            gravity = gravity,
+            dt_s = dt_s,
+            drag = drag,
+            air_drag = air_drag,
+            min_air_speed = min_air_speed,
+            cell_angle = cell_angle,
+            cells = cells
+        ),
+        mirror!(
+            "Measures",
+            FlowMeasures,
+            zeta_mean = zeta_mean,
+            guess_mean = guess_mean,
+            max_speed = max_speed,
+            unusable = unusable
+        ),
+        mirror!("Combine", CombineUniform, first = first, second = second, mean = mean),
+        mirror!(
+            "Solve",
+            SolveUniform,
+            weights = weights,
+            shift = shift,
+            gain = gain,
+            cell_angle = cell_angle,
+            cells = cells,
+            coarse_cells = coarse_cells,
+            coarse_field = coarse_field
+        ),
+        mirror!(
+            "Coarse",
+            CoarseUniform,
+            levels = levels,
+            values = values,
+            shift = shift,
+            sweeps = sweeps,
+            level = level,
+            coarsest = coarsest
+        ),
+        mirror!(
+            "Level",
+            CoarseLevel,
+            weights = weights,
+            cell_angle = cell_angle,
+            cells = cells,
+            field = field,
+            tangent = tangent,
+            halo = halo
+        ),
+        mirror!("HaloEntry", HaloEntry, cell = target, sources = source, weights = weights),
         mirror!(
             "Step",
             StepUniform,

@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod flow;
 mod layers;
 mod layouts;
 mod optics;

@@ -1,8 +1,9 @@
-//! Film states and motions in closed form: what a film is at first, and flows that need no solver.
+//! Films in closed form: what they are made of, what they are at first, and flows that need no solver.
 
 mod flow;
 mod marble;
 mod presets;
+pub mod properties;
 mod random;
 mod states;
 

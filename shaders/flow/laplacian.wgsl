@@ -1,0 +1,47 @@
+// The Laplacian of the stream function that a pass works on, which it declares as `psi: array<f32>` in padded storage. Four cells of a
+// row are done together: they share most of what they read, and reading is what a pass costs.
+
+// Four cells of a row and their neighbours along it: the cells 2 and 1 before each, itself, and 1 and 2 after.
+struct Row {
+    before2: vec4f,
+    before: vec4f,
+    here: vec4f,
+    after: vec4f,
+    after2: vec4f,
+}
+
+fn row_of(at: u32) -> Row {
+    let a = vec4f(psi[at - 2u], psi[at - 1u], psi[at], psi[at + 1u]);
+    let b = vec4f(psi[at + 2u], psi[at + 3u], psi[at + 4u], psi[at + 5u]);
+    return Row(a, vec4f(a.yzw, b.x), vec4f(a.zw, b.xy), vec4f(a.w, b.xyz), b);
+}
+
+// Times the cell angle, the slopes along a row.
+fn row_slope(row: Row) -> vec4f {
+    return (8.0 * (row.after - row.before) - (row.after2 - row.before2)) / 12.0;
+}
+
+struct FourCells {
+    here: vec4f,
+    // Times the square of the cell angle.
+    laplacian: vec4f,
+    // Factor of the cells' own values in it.
+    own: vec4f,
+}
+
+// Four cells from a place in storage, whose rows are `side` long, at these tangents along and across the row.
+fn four_cells(at: u32, side: u32, along: vec4f, across: f32) -> FourCells {
+    let rows = array<Row, 5>(
+        row_of(at - 2u * side), row_of(at - side), row_of(at), row_of(at + side), row_of(at + 2u * side)
+    );
+    let here = rows[2].here;
+    let by_aa = (16.0 * (rows[2].before + rows[2].after) - (rows[2].before2 + rows[2].after2) - 30.0 * here) / 12.0;
+    let by_bb = (16.0 * (rows[1].here + rows[3].here) - (rows[0].here + rows[4].here) - 30.0 * here) / 12.0;
+    let by_ab = (8.0 * (row_slope(rows[3]) - row_slope(rows[1])) - (row_slope(rows[4]) - row_slope(rows[0]))) / 12.0;
+    // See `CellMetric::laplacian_factors` in src/physics/flow/operators.rs.
+    let a = 1.0 + along * along;
+    let b = 1.0 + across * across;
+    let delta2 = a + b - 1.0;
+    let found = delta2 / a * by_aa + 2.0 * delta2 * along * across / (a * b) * by_ab + delta2 / b * by_bb;
+    return FourCells(here, found, -2.5 * (delta2 / a + delta2 / b));
+}

@@ -1,0 +1,28 @@
+// What the passes of one step of the flow share.
+
+// Mirrors `FlowUniform` in src/gpu/flow/mod.rs.
+struct Flow {
+    // Gravity over the radius, 1/s2.
+    gravity: vec3f,
+    dt_s: f32,
+    // Drag that is the same everywhere, 1/s.
+    drag: f32,
+    // Drag of air over the root of the speed, times the thickness, nm / sqrt(s), and the slowest speed that it is reckoned with.
+    air_drag: f32,
+    min_air_speed: f32,
+    cell_angle: f32,
+    // Cells along a panel's edge.
+    cells: u32,
+}
+
+// Mirrors `FlowMeasures` in src/gpu/flow/mod.rs.
+struct Measures {
+    // Mean vorticity, 1/s.
+    zeta_mean: f32,
+    // Mean of 2 psi - psi_before.
+    guess_mean: f32,
+    // Fastest flow, rad/s.
+    max_speed: f32,
+    // Values that could not be used, since the film was seeded.
+    unusable: u32,
+}

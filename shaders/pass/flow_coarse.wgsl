@@ -1,0 +1,211 @@
+// All grids of a multigrid cycle below the finest, by one workgroup: the finest's residual is averaged down to the coarsest, solved
+// there, and each grid on the way up interpolates the correction and smooths it. Grids so small are done sooner by one workgroup than they
+// are handed out.
+
+import package::flow::operators::area_density;
+import package::sphere::cubed::{HALO, padded_index};
+import package::sphere::halo::HaloEntry;
+
+const LANES: u32 = 256u;
+
+// One grid. Mirrors `CoarseLevel` in src/gpu/flow/multigrid.rs.
+struct Level {
+    // Of each sweep.
+    weights: vec3f,
+    cell_angle: f32,
+    // Cells along a panel's edge.
+    cells: u32,
+    // Where its values, tangents and halo entries start in the lists of all.
+    field: u32,
+    tangent: u32,
+    halo: u32,
+}
+
+// Mirrors `CoarseUniform` in src/gpu/flow/multigrid.rs.
+struct Coarse {
+    // How many grids, the finest first, of which only the residual is here.
+    levels: u32,
+    // Values of all grids: the distance from one bank of corrections to the other.
+    values: u32,
+    shift: f32,
+    // Sweeps on the coarsest, an even number.
+    sweeps: u32,
+    level: array<Level, 12>,
+    // Weights of these sweeps.
+    coarsest: array<vec4f, 8>,
+}
+
+@group(0) @binding(0) var<uniform> coarse: Coarse;
+@group(0) @binding(1) var<storage, read> tangents: array<f32>;
+@group(0) @binding(2) var<storage, read> entries: array<HaloEntry>;
+// Right sides.
+@group(0) @binding(3) var<storage, read_write> f: array<f32>;
+// Two banks of corrections: sweeps read one and write the other, and end in the first.
+@group(0) @binding(4) var<storage, read_write> e: array<f32>;
+
+var<workgroup> shares: array<f32, 256>;
+
+struct Cell {
+    panel: u32,
+    ij: vec2u,
+    at: u32,
+}
+
+fn cell_of(level: Level, index: u32) -> Cell {
+    let ij = vec2u(index % level.cells, (index / level.cells) % level.cells);
+    let panel = index / (level.cells * level.cells);
+    return Cell(panel, ij, padded_index(panel, i32(ij.x), i32(ij.y), level.cells));
+}
+
+fn tangent_of(level: Level, ij: vec2u) -> vec2f {
+    return vec2f(tangents[level.tangent + ij.x + HALO], tangents[level.tangent + ij.y + HALO]);
+}
+
+fn side_of(level: Level) -> u32 {
+    return level.cells + 2u * HALO;
+}
+
+fn fill(level: Level, entry: u32, bank: u32) {
+    let base = bank * coarse.values + level.field;
+    var total = 0.0;
+    for (var k = 0u; k < 4u; k++) {
+        total += entries[entry].weights[k] * e[base + entries[entry].sources[k]];
+    }
+    e[base + entries[entry].cell] = total;
+}
+
+fn fill_halo(level: Level, lane: u32, bank: u32) {
+    storageBarrier();
+    let edges = 24u * HALO * level.cells;
+    for (var k = lane; k < edges; k += LANES) {
+        fill(level, level.halo + k, bank);
+    }
+    storageBarrier();
+    for (var k = lane; k < 24u * HALO * HALO; k += LANES) {
+        fill(level, level.halo + edges + k, bank);
+    }
+    storageBarrier();
+}
+
+// Four cells of a row from a place in the corrections on.
+fn row_of(at: u32) -> vec4f {
+    return vec4f(e[at], e[at + 1u], e[at + 2u], e[at + 3u]);
+}
+
+// A damped Jacobi sweep from one bank to the other, with differences of second order; `mean` is left out of the right side. A lane does
+// four cells of a row at a time; where four do not divide a row, the last four overlap others, with the same answer.
+fn sweep(level: Level, lane: u32, bank: u32, weight: f32, mean: f32) {
+    let side = side_of(level);
+    let angle2 = level.cell_angle * level.cell_angle;
+    let fours = (level.cells + 3u) / 4u;
+    for (var k = lane; k < 6u * level.cells * fours; k += LANES) {
+        let ij = vec2u(min(4u * (k % fours), level.cells - 4u), (k / fours) % level.cells);
+        let at = level.field + padded_index(k / (fours * level.cells), i32(ij.x), i32(ij.y), level.cells);
+        let p = bank * coarse.values + at;
+        let left = vec3f(e[p - side - 1u], e[p - 1u], e[p + side - 1u]);
+        let right = vec3f(e[p - side + 4u], e[p + 4u], e[p + side + 4u]);
+        let below = row_of(p - side);
+        let here = row_of(p);
+        let above = row_of(p + side);
+        let by_aa = vec4f(left.y, here.xyz) + vec4f(here.yzw, right.y) - 2.0 * here;
+        let by_bb = above + below - 2.0 * here;
+        let rise = above - below;
+        let by_ab = 0.25 * (vec4f(rise.yzw, right.z - right.x) - vec4f(left.z - left.x, rise.xyz));
+        // See `CellMetric::laplacian_factors` in src/physics/flow/operators.rs.
+        let t = level.tangent + ij.x + HALO;
+        let along = vec4f(tangents[t], tangents[t + 1u], tangents[t + 2u], tangents[t + 3u]);
+        let across = tangents[level.tangent + ij.y + HALO];
+        let a = 1.0 + along * along;
+        let b = 1.0 + across * across;
+        let delta2 = a + b - 1.0;
+        let found = delta2 / a * by_aa + 2.0 * delta2 * along * across / (a * b) * by_ab + delta2 / b * by_bb;
+        let residual = vec4f(f[at], f[at + 1u], f[at + 2u], f[at + 3u]) - mean - found / angle2 + coarse.shift * here;
+        let after = here + weight * residual / (-2.0 * (delta2 / a + delta2 / b) / angle2 - coarse.shift);
+        let q = (1u - bank) * coarse.values + at;
+        e[q] = after.x;
+        e[q + 1u] = after.y;
+        e[q + 2u] = after.z;
+        e[q + 3u] = after.w;
+    }
+    fill_halo(level, lane, 1u - bank);
+}
+
+// The finer grid's right side, sampled bilinearly within each panel: where grids nest, means of four.
+fn average(fine: Level, level: Level, lane: u32) {
+    let ratio = f32(fine.cells) / f32(level.cells);
+    let side = side_of(fine);
+    for (var k = lane; k < 6u * level.cells * level.cells; k += LANES) {
+        let cell = cell_of(level, k);
+        let place = (vec2f(cell.ij) + 0.5) * ratio - 0.5;
+        let first = clamp(floor(place), vec2f(0.0), vec2f(f32(fine.cells) - 2.0));
+        let t = clamp(place - first, vec2f(0.0), vec2f(1.0));
+        let at = fine.field + padded_index(cell.panel, i32(first.x), i32(first.y), fine.cells);
+        f[level.field + cell.at] = mix(mix(f[at], f[at + 1u], t.x), mix(f[at + side], f[at + side + 1u], t.x), t.y);
+    }
+    storageBarrier();
+}
+
+// The coarser grid's correction, bilinearly, into the second bank.
+fn interpolate(below: Level, level: Level, lane: u32) {
+    let side = side_of(below);
+    for (var k = lane; k < 6u * level.cells * level.cells; k += LANES) {
+        let cell = cell_of(level, k);
+        let place = (vec2f(cell.ij) + 0.5) * f32(below.cells) / f32(level.cells) - 0.5;
+        let t = place - floor(place);
+        let at = below.field + padded_index(cell.panel, i32(floor(place.x)), i32(floor(place.y)), below.cells);
+        e[coarse.values + level.field + cell.at] = mix(mix(e[at], e[at + 1u], t.x), mix(e[at + side], e[at + side + 1u], t.x), t.y);
+    }
+    fill_halo(level, lane, 1u);
+}
+
+// The mean of a grid's right side.
+fn mean_of(level: Level, lane: u32) -> f32 {
+    var sums = vec2f(0.0);
+    for (var k = lane; k < 6u * level.cells * level.cells; k += LANES) {
+        let cell = cell_of(level, k);
+        let area = area_density(tangent_of(level, cell.ij));
+        sums += area * vec2f(f[level.field + cell.at], 1.0);
+    }
+    let total = sum_of(sums.x, lane);
+    return total / sum_of(sums.y, lane);
+}
+
+// The sum of every lane's share.
+fn sum_of(share: f32, lane: u32) -> f32 {
+    workgroupBarrier();
+    shares[lane] = share;
+    for (var half = LANES / 2u; half > 0u; half /= 2u) {
+        workgroupBarrier();
+        if (lane < half) {
+            shares[lane] += shares[lane + half];
+        }
+    }
+    workgroupBarrier();
+    return shares[0];
+}
+
+fn solve_coarsest(level: Level, lane: u32) {
+    let mean = mean_of(level, lane);
+    for (var k = lane; k < 6u * side_of(level) * side_of(level); k += LANES) {
+        e[level.field + k] = 0.0;
+    }
+    storageBarrier();
+    for (var k = 0u; k < coarse.sweeps; k++) {
+        sweep(level, lane, k % 2u, coarse.coarsest[k / 4u][k % 4u], mean);
+    }
+}
+
+@compute @workgroup_size(256)
+fn flow_coarse(@builtin(local_invocation_index) lane: u32) {
+    for (var l = 1u; l < coarse.levels; l++) {
+        average(coarse.level[l - 1u], coarse.level[l], lane);
+    }
+    solve_coarsest(coarse.level[coarse.levels - 1u], lane);
+    for (var l = coarse.levels - 1u; l > 1u; l--) {
+        let level = coarse.level[l - 1u];
+        interpolate(coarse.level[l], level, lane);
+        sweep(level, lane, 1u, level.weights.x, 0.0);
+        sweep(level, lane, 0u, level.weights.y, 0.0);
+        sweep(level, lane, 1u, level.weights.z, 0.0);
+    }
+}

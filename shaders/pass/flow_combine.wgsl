@@ -1,0 +1,26 @@
+// A sum of two fields with factors, less a multiple of a mean, over all of padded storage: halos are linear too.
+
+import package::flow::operators::usable_or_zero;
+import package::flow::step::Measures;
+
+// Mirrors `CombineUniform` in src/gpu/flow/mod.rs.
+struct Combine {
+    first: f32,
+    second: f32,
+    // Of the mean of 2 psi - psi_before.
+    mean: f32,
+}
+
+@group(0) @binding(0) var<uniform> combine: Combine;
+@group(0) @binding(1) var<storage, read> measures: Measures;
+@group(0) @binding(2) var<storage, read> first: array<f32>;
+@group(0) @binding(3) var<storage, read> second: array<f32>;
+@group(0) @binding(4) var<storage, read_write> combined: array<f32>;
+
+@compute @workgroup_size(64)
+fn flow_combine(@builtin(global_invocation_id) id: vec3u) {
+    if (id.x < arrayLength(&combined)) {
+        combined[id.x] = combine.first * usable_or_zero(first[id.x]) + combine.second * usable_or_zero(second[id.x]) +
+            combine.mean * measures.guess_mean;
+    }
+}

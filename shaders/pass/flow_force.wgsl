@@ -1,0 +1,53 @@
+// The first half of what acts on vorticity in a step, drag and buoyancy; the same is kept for the second half. Values
+// that cannot be used are left out here, so that they reach nothing else. One invocation a cell.
+
+import package::flow::operators::{first_difference, turned_gradient, usable, usable_or_zero};
+import package::flow::step::{Flow, Measures};
+import package::sphere::cubed::{HALO, padded_index};
+
+@group(0) @binding(0) var<uniform> flow: Flow;
+@group(0) @binding(1) var<storage, read> tangents: array<f32>;
+@group(0) @binding(2) var<storage, read> measures: Measures;
+@group(0) @binding(3) var<storage, read> zeta: array<f32>;
+@group(0) @binding(4) var<storage, read> log_thickness: array<f32>;
+@group(0) @binding(5) var<storage, read> velocity: array<vec4f>;
+// What stirs the film besides, 1/s2.
+@group(0) @binding(6) var<storage, read> forcing: array<f32>;
+@group(0) @binding(7) var<storage, read_write> pushed: array<f32>;
+// What drag leaves of vorticity in half a step, and what is added.
+@group(0) @binding(8) var<storage, read_write> half_step: array<vec2f>;
+
+fn slope(at: u32, step: u32) -> f32 {
+    return first_difference(vec4f(
+        usable_or_zero(log_thickness[at - 2u * step]),
+        usable_or_zero(log_thickness[at - step]),
+        usable_or_zero(log_thickness[at + step]),
+        usable_or_zero(log_thickness[at + 2u * step]),
+    )) / flow.cell_angle;
+}
+
+@compute @workgroup_size(64)
+fn flow_force(@builtin(global_invocation_id) id: vec3u) {
+    if (id.x >= flow.cells) {
+        return;
+    }
+    let at = padded_index(id.z, i32(id.x), i32(id.y), flow.cells);
+    let tangent = vec2f(tangents[id.x + HALO], tangents[id.y + HALO]);
+    let turned = turned_gradient(id.z, tangent, vec2f(slope(at, 1u), slope(at, flow.cells + 2u * HALO)));
+    half_step[at] = half_of_forces(at, turned);
+    pushed[at] = half_step[at].x * (usable_or_zero(zeta[at]) - measures.zeta_mean) + half_step[at].y;
+}
+
+// What forces that hold still do in half a step, exactly, however strong: see `HalfStep` in src/physics/flow/solver.rs.
+fn half_of_forces(at: u32, turned: vec3f) -> vec2f {
+    let u = velocity[at].xyz;
+    // No film is thinner than an atom, and nothing stands in for one whose thickness cannot be used.
+    let thin = select(0.0, exp(-max(log_thickness[at], -2.0)), usable(log_thickness[at]));
+    let of_air = flow.air_drag * sqrt(max(length(u), flow.min_air_speed)) * thin;
+    let x = 0.5 * flow.dt_s * (flow.drag + of_air);
+    let decay = exp(-x);
+    // (1 - exp(-x)) / x, by its series where the difference would be all rounding.
+    let decayed = select((1.0 - decay) / x, 1.0 - x * (0.5 - x / 6.0), x < 0.02);
+    let source = dot(flow.gravity + of_air * u, turned) + usable_or_zero(forcing[at]);
+    return vec2f(decay, usable_or_zero(0.5 * flow.dt_s * decayed * source));
+}

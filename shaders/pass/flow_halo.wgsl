@@ -1,0 +1,58 @@
+// Fills the halo of a field of the flow in one dispatch of one workgroup: the cells beyond an edge, then those beyond a corner, which read
+// the edges. On grids as coarse as the flow's a second dispatch would cost more than idle lanes.
+
+import package::sphere::cubed::HALO;
+import package::sphere::halo::HaloEntry;
+
+const LANES: u32 = 256u;
+
+@group(0) @binding(0) var<storage, read> entries: array<HaloEntry>;
+@group(0) @binding(1) var<storage, read_write> scalar: array<f32>;
+@group(0) @binding(1) var<storage, read_write> velocity: array<vec4f>;
+@group(0) @binding(2) var<storage, read_write> velocity_ahead: array<vec4f>;
+
+// Entries of edges come first; all the rest are corners.
+fn edges() -> u32 {
+    return arrayLength(&entries) - 24u * HALO * HALO;
+}
+
+fn fill_scalar(entry: u32) {
+    var total = 0.0;
+    for (var k = 0u; k < 4u; k++) {
+        total += entries[entry].weights[k] * scalar[entries[entry].sources[k]];
+    }
+    scalar[entries[entry].cell] = total;
+}
+
+fn fill_velocities(entry: u32) {
+    var total = vec4f(0.0);
+    var total_ahead = vec4f(0.0);
+    for (var k = 0u; k < 4u; k++) {
+        total += entries[entry].weights[k] * velocity[entries[entry].sources[k]];
+        total_ahead += entries[entry].weights[k] * velocity_ahead[entries[entry].sources[k]];
+    }
+    velocity[entries[entry].cell] = total;
+    velocity_ahead[entries[entry].cell] = total_ahead;
+}
+
+@compute @workgroup_size(256)
+fn halo_of_scalar(@builtin(local_invocation_index) lane: u32) {
+    for (var entry = lane; entry < edges(); entry += LANES) {
+        fill_scalar(entry);
+    }
+    storageBarrier();
+    for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
+        fill_scalar(entry);
+    }
+}
+
+@compute @workgroup_size(256)
+fn halo_of_velocities(@builtin(local_invocation_index) lane: u32) {
+    for (var entry = lane; entry < edges(); entry += LANES) {
+        fill_velocities(entry);
+    }
+    storageBarrier();
+    for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
+        fill_velocities(entry);
+    }
+}

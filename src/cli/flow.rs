@@ -1,0 +1,115 @@
+//! `soapfilm flow`: the flow solver against flows whose answer is known, on the GPU.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use glam::DVec3;
+use serde_json::{Value, json};
+
+use super::{AdapterArguments, parse};
+use crate::{
+    gpu::flow_case::{FlowOutcome, FlowRun},
+    output::write_text,
+    physics::flow::{FlowCase, FlowCaseKind, Mode},
+};
+
+/// Run a test of the flow solver against its exact solution on the unit sphere.
+#[derive(Args)]
+#[command(after_help = "Example:\n  soapfilm flow --case rossby-haurwitz --cells 64 --steps 80 --json norms.json")]
+pub struct Arguments {
+    /// Which flow
+    #[arg(long, value_name = "rossby-haurwitz|stationary|sloshing|decay|poisson")]
+    case: FlowCaseKind,
+    /// Cells along an edge of the cube
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=512))]
+    cells: u32,
+    /// Steps that make one wavelength, turn, period or e-folding
+    #[arg(long, value_name = "M", default_value_t = 80, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
+    steps: u32,
+    /// Wavelengths, turns, periods or e-foldings
+    #[arg(long, value_name = "R", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4_000))]
+    repeat: u32,
+    /// Degree of the harmonic of sloshing, decay and poisson [default: 1 for sloshing, else 5]
+    #[arg(long, value_name = "L")]
+    degree: Option<u32>,
+    /// Its order [default: 1 for sloshing, else 4, or the degree if that is less]
+    #[arg(long, value_name = "m")]
+    order: Option<u32>,
+    /// Axis of the flow; of gravity in sloshing, upwards
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = parse::direction, allow_hyphen_values = true)]
+    axis: DVec3,
+    /// ω, the solid rotation of rossby-haurwitz and stationary
+    #[arg(long, value_name = "W", default_value_t = 1.0, value_parser = parse::finite, allow_hyphen_values = true)]
+    omega: f64,
+    /// K, the strength of the wave, or of the jet's P₃ [default: 1 for rossby-haurwitz, 0.1 for stationary]
+    #[arg(long, value_name = "K", value_parser = parse::finite, allow_hyphen_values = true)]
+    k: Option<f64>,
+    /// a of ln h = -a z in sloshing; negative is upside down, and grows
+    #[arg(long, value_name = "A", default_value_t = 1.0, value_parser = parse::finite, allow_hyphen_values = true)]
+    stratification: f64,
+    /// Drag of the air in sloshing, 1/s
+    #[arg(long, value_name = "ALPHA", default_value_t = 0.0, value_parser = parse::finite)]
+    drag: f64,
+    /// Write the norms to a JSON file
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    adapter: AdapterArguments,
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let case = case(arguments)?;
+    let run = FlowRun { case, cells: arguments.cells, steps_a_span: arguments.steps, spans: arguments.repeat };
+    let gpu = arguments.adapter.open()?;
+    let outcome = run.measure(&gpu)?;
+    print!("{}: l2 {:.3e}, energy drift {:.2e}", case.kind().name(), outcome.l2, outcome.energy_drift);
+    if let (FlowCaseKind::Sloshing, Some(found)) = (case.kind(), outcome.oscillation) {
+        print!("; frequency {:.6} (exact {:.6})", found.frequency, case.frequency());
+        print!(", growth {:.6} (exact {:.6})", found.growth, case.growth());
+    }
+    println!("; {} dispatches and {:.2} ms of process CPU a step", outcome.dispatches, outcome.cpu.as_secs_f64() * 1e3);
+    if let Some(path) = &arguments.json {
+        write_text(path, &serde_json::to_string_pretty(&report(arguments, &case, &outcome))?)?;
+    }
+    Ok(())
+}
+
+fn case(arguments: &Arguments) -> anyhow::Result<FlowCase> {
+    let sloshes = arguments.case == FlowCaseKind::Sloshing;
+    let degree = arguments.degree.unwrap_or(if sloshes { 1 } else { 5 });
+    let order = arguments.order.unwrap_or(if sloshes { 1 } else { 4.min(degree) });
+    let usual = if arguments.case == FlowCaseKind::RossbyHaurwitz { 1.0 } else { 0.1 };
+    let (mode, k) = (Mode::new(degree, order, u32::from(sloshes))?, arguments.k.unwrap_or(usual));
+    anyhow::ensure!(
+        !sloshes || arguments.stratification != 0.0,
+        "without stratification nothing sloshes: use another than 0"
+    );
+    anyhow::ensure!(arguments.drag >= 0.0, "drag slows down: use 0 or more");
+    let case = FlowCase::new(arguments.case, arguments.axis, mode, arguments.omega, k)?;
+    Ok(case.with_film(arguments.stratification, arguments.drag))
+}
+
+/// The norms; what a case has no answer for is null.
+fn report(arguments: &Arguments, case: &FlowCase, outcome: &FlowOutcome) -> Value {
+    let number = |value: f64| value.is_finite().then_some(value);
+    let mut report = json!({
+        "case": case.kind().name(),
+        "cells": arguments.cells,
+        "steps": arguments.steps,
+        "repeat": arguments.repeat,
+        "l2": number(outcome.l2),
+        "energy_drift": number(outcome.energy_drift),
+        "enstrophy_drift": number(outcome.enstrophy_drift),
+        "angular_momentum_drift": number(outcome.angular_momentum_drift),
+        "dispatches_per_step": outcome.dispatches,
+        "cpu_ms_per_step": outcome.cpu.as_secs_f64() * 1e3,
+        "wall_ms_per_step": outcome.wall.as_secs_f64() * 1e3,
+    });
+    if case.kind() == FlowCaseKind::Sloshing {
+        report["frequency"] = json!(outcome.oscillation.map(|found| found.frequency));
+        report["frequency_exact"] = json!(case.frequency());
+        report["growth"] = json!(outcome.oscillation.map(|found| found.growth));
+        report["growth_exact"] = json!(case.growth());
+    }
+    report
+}

@@ -1,0 +1,395 @@
+//! The film's own motion on the device: vorticity and stream function under buoyancy, drag and viscosity. See its f64 twin,
+//! [`physics::flow`](crate::physics::flow), for the equations and the order of a step.
+
+mod multigrid;
+
+use bytemuck::{Pod, Zeroable};
+
+pub use multigrid::{CoarseLevel, CoarseUniform, SolveUniform};
+use multigrid::{Multigrid, System, halo_entries};
+
+use super::{Gpu, GpuError, pipelines::ComputeKey, timing::Recorder};
+use crate::physics::{
+    flow::{BACKTRACE_ITERATIONS, FlowForces, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES},
+    sphere::{CubedSphere, HALO},
+};
+
+/// One step: see `shaders/flow/step.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct FlowUniform {
+    /// Gravity over the radius, 1/s².
+    pub gravity: [f32; 3],
+    /// Length of the step, seconds.
+    pub dt_s: f32,
+    /// Drag that is the same everywhere, 1/s.
+    pub drag: f32,
+    /// Drag of air over the root of the speed, times the thickness, nm/√s.
+    pub air_drag: f32,
+    /// Slowest speed that it is reckoned with, rad/s.
+    pub min_air_speed: f32,
+    /// Angle of a cell, radians.
+    pub cell_angle: f32,
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    pad: [u32; 3],
+}
+
+/// What was measured of the whole film at the start of the last step: see `shaders/flow/step.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct FlowMeasures {
+    /// Mean vorticity, which the step took away, 1/s.
+    pub zeta_mean: f32,
+    /// Mean of the first guess of the stream function.
+    pub guess_mean: f32,
+    /// Fastest flow, rad/s.
+    pub max_speed: f32,
+    /// Values of vorticity, stream function and ln h that could not be used since the film was seeded: not finite, or beyond 1e6.
+    /// Zeros stood in for them.
+    pub unusable: u32,
+}
+
+/// See `shaders/pass/flow_combine.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct CombineUniform {
+    /// Factor of the first field.
+    pub first: f32,
+    /// Factor of the second field.
+    pub second: f32,
+    /// Factor of the mean of the guess.
+    pub mean: f32,
+    pad: f32,
+}
+
+/// Constants of passes that trace: see `shaders/flow/backtrace.wgsl`.
+pub const BACKTRACE: &[(&str, u32)] = &[("BACKTRACE_ITERATIONS", BACKTRACE_ITERATIONS as u32)];
+
+/// What the passes over the finest grid share.
+struct FlowGrid {
+    sphere: CubedSphere,
+    tangents: wgpu::Buffer,
+    halo: wgpu::Buffer,
+}
+
+impl FlowGrid {
+    /// A workgroup for each 64 cells of a row.
+    fn groups(&self) -> [u32; 3] {
+        let cells = self.sphere.n() as u32;
+        [cells.div_ceil(64), cells, 6]
+    }
+
+    /// Records a pass: an entry point of a file, its own constants, and its bindings in order.
+    fn run(
+        &self,
+        recorder: &mut Recorder<'_>,
+        (pass, entry): (&'static str, &'static str),
+        constants: &[(&'static str, u32)],
+        buffers: &[&wgpu::Buffer],
+        groups: [u32; 3],
+    ) -> Result<(), GpuError> {
+        let gpu = recorder.gpu;
+        let pipeline = gpu.pipelines.compute(gpu, &ComputeKey { pass, entry, constants: constants.to_vec() })?;
+        let resources: Vec<_> = buffers.iter().map(|buffer| buffer.as_entire_binding()).collect();
+        let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &resources);
+        recorder.dispatch("step_flow", &pipeline, &bindings, groups);
+        Ok(())
+    }
+
+    fn fill_halo(&self, recorder: &mut Recorder<'_>, field: &wgpu::Buffer) -> Result<(), GpuError> {
+        self.run(recorder, ("flow_halo", "halo_of_scalar"), &[], &[&self.halo, field], [1; 3])
+    }
+}
+
+/// Vorticity, stream function and velocity of a film, in padded storage. All of its methods but [`Self::new`] only record.
+pub struct FlowSolver {
+    grid: FlowGrid,
+    multigrid: Multigrid,
+    zeta: wgpu::Buffer,
+    log_thickness: wgpu::Buffer,
+    forcing: wgpu::Buffer,
+    psi: wgpu::Buffer,
+    psi_before: wgpu::Buffer,
+    /// Where the next step's ψ goes.
+    psi_next: wgpu::Buffer,
+    /// Vorticity on its way through a step: pushed, moved, and after each viscous stage.
+    pushed: wgpu::Buffer,
+    moved: wgpu::Buffer,
+    stages: [wgpu::Buffer; 2],
+    /// What drag leaves of a cell's vorticity in half a step, and what is added.
+    half_step: wgpu::Buffer,
+    velocity: wgpu::Buffer,
+    velocity_ahead: wgpu::Buffer,
+    measures: wgpu::Buffer,
+    /// Whether ψ one step ago is known.
+    has_history: bool,
+}
+
+impl FlowSolver {
+    /// Cells along a panel's edge at least.
+    pub const MIN_CELLS: u32 = 16;
+    /// Cells along a panel's edge at most: beyond, the coarse grids are too much for one workgroup.
+    pub const MAX_CELLS: u32 = 512;
+    /// Cycles that find the first stream function, from nothing.
+    const FIRST_CYCLES: usize = 12;
+
+    /// A film at rest, on the grid with so many cells along a panel's edge, within [`Self::MIN_CELLS`] and [`Self::MAX_CELLS`].
+    #[must_use]
+    pub fn new(gpu: &Gpu, cells: u32) -> Self {
+        let cells = cells.clamp(Self::MIN_CELLS, Self::MAX_CELLS);
+        // The range lies within that of grids, for which the constructor cannot fail.
+        let sphere = CubedSphere::new(cells as usize).expect("a size in range");
+        let field = |label| buffer(gpu, label, sphere.padded_len() as u64 * 4);
+        let velocity = |label| buffer(gpu, label, sphere.padded_len() as u64 * 16);
+        Self {
+            grid: FlowGrid {
+                sphere,
+                tangents: gpu.storage("flow tangents", &tangents(sphere)),
+                halo: gpu.storage("flow halo", &halo_entries(sphere)),
+            },
+            multigrid: Multigrid::new(gpu, sphere),
+            zeta: field("vorticity"),
+            log_thickness: field("ln h"),
+            forcing: field("forcing"),
+            psi: field("stream function"),
+            psi_before: field("stream function before"),
+            psi_next: field("next stream function"),
+            pushed: field("pushed vorticity"),
+            moved: field("moved vorticity"),
+            stages: ["first viscous stage", "second viscous stage"].map(field),
+            half_step: buffer(gpu, "half step", sphere.padded_len() as u64 * 8),
+            velocity: velocity("velocity"),
+            velocity_ahead: velocity("velocity ahead"),
+            measures: buffer(gpu, "flow measures", size_of::<FlowMeasures>() as u64),
+            has_history: false,
+        }
+    }
+
+    /// The grid.
+    #[must_use]
+    pub fn sphere(&self) -> CubedSphere {
+        self.grid.sphere
+    }
+
+    /// Vorticity in 1/s, f32 in padded storage, its halo undefined.
+    #[must_use]
+    pub fn zeta(&self) -> &wgpu::Buffer {
+        &self.zeta
+    }
+
+    /// Stream function in rad²/s, f32 in padded storage with its halo.
+    #[must_use]
+    pub fn psi(&self) -> &wgpu::Buffer {
+        &self.psi
+    }
+
+    /// Velocity of the stream function in rad/s, Cartesian, `vec4f` in padded storage with its halo: what
+    /// `shaders/flow/backtrace.wgsl` reads.
+    #[must_use]
+    pub fn velocity(&self) -> &wgpu::Buffer {
+        &self.velocity
+    }
+
+    /// Where the caller puts ln h before each step: f32 in padded storage, of the thickness in nm. Its halo is filled by the step. Without
+    /// drag of air only differences matter.
+    #[must_use]
+    pub fn log_thickness(&self) -> &wgpu::Buffer {
+        &self.log_thickness
+    }
+
+    /// Where the caller puts what stirs the film besides, if anything: a source of vorticity in 1/s², f32 in padded storage, without halo.
+    #[must_use]
+    pub fn forcing(&self) -> &wgpu::Buffer {
+        &self.forcing
+    }
+
+    /// One [`FlowMeasures`].
+    #[must_use]
+    pub fn measures(&self) -> &wgpu::Buffer {
+        &self.measures
+    }
+
+    /// Sets vorticity in 1/s in each cell, in the grid's order, finds its stream function, and forgets all motion. A mean is left out.
+    pub fn seed(&mut self, recorder: &mut Recorder<'_>, zeta: &[f32]) -> Result<(), GpuError> {
+        recorder.gpu.upload(&self.zeta, &self.padded(zeta));
+        self.has_history = false;
+        for cleared in [&self.psi, &self.psi_before, &self.measures] {
+            recorder.encoder().clear_buffer(cleared, 0, None);
+        }
+        let system = System { shift: 0.0, gain: 1.0, source: &self.zeta };
+        self.multigrid.cycles(recorder, &self.grid, &system, &self.psi, Self::FIRST_CYCLES)?;
+        let still = self.uniform(recorder.gpu, 0.0, &FlowForces::default());
+        self.find_velocity(recorder, &still, &self.psi, &self.psi)
+    }
+
+    /// Moves vorticity by one step of `dt_s` seconds under forces, with ln h given half a step from now, which is what `velocity` then
+    /// carries the thickness with from half a step before to half a step after. Steps that last no time change nothing.
+    pub fn step(&mut self, recorder: &mut Recorder<'_>, dt_s: f64, forces: &FlowForces) -> Result<(), GpuError> {
+        if !(dt_s.is_finite() && dt_s > 0.0) {
+            return Ok(());
+        }
+        let uniform = self.uniform(recorder.gpu, dt_s, forces);
+        self.grid.fill_halo(recorder, &self.log_thickness)?;
+        if !self.has_history {
+            // A trial step tells how ψ changes; without it the first step would be of first order, and all that follow inherit its error.
+            recorder.encoder().copy_buffer_to_buffer(&self.psi, 0, &self.psi_before, 0, self.psi.size());
+            self.find_velocity(recorder, &uniform, &self.psi, &self.psi_before)?;
+            self.advance(recorder, dt_s, forces, &uniform)?;
+            self.combine(recorder, [(2.0, &self.psi), (-1.0, &self.psi_next)], 0.0, &self.psi_before)?;
+            self.find_velocity(recorder, &uniform, &self.psi, &self.psi_before)?;
+            self.has_history = true;
+        }
+        self.advance(recorder, dt_s, forces, &uniform)?;
+        let zeta = if forces.viscous_stage(dt_s).is_some() { &mut self.pushed } else { &mut self.moved };
+        std::mem::swap(&mut self.zeta, zeta);
+        std::mem::swap(&mut self.psi_before, &mut self.psi);
+        std::mem::swap(&mut self.psi, &mut self.psi_next);
+        self.find_velocity(recorder, &uniform, &self.psi, &self.psi_before)
+    }
+
+    /// From ζ, ψ and ψ before to the next ζ, in `moved` or after viscosity in `pushed`, and ψ, in `psi_next`.
+    fn advance(
+        &self,
+        recorder: &mut Recorder<'_>,
+        dt_s: f64,
+        forces: &FlowForces,
+        uniform: &wgpu::Buffer,
+    ) -> Result<(), GpuError> {
+        let Self { grid, measures, .. } = self;
+        let measured = [
+            uniform,
+            &grid.tangents,
+            &self.zeta,
+            &self.psi,
+            &self.psi_before,
+            &self.log_thickness,
+            &self.velocity,
+            measures,
+        ];
+        grid.run(recorder, ("flow_measure", "flow_measure"), &[], &measured, [1; 3])?;
+        let forced = [
+            uniform,
+            &grid.tangents,
+            measures,
+            &self.zeta,
+            &self.log_thickness,
+            &self.velocity_ahead,
+            &self.forcing,
+            &self.pushed,
+            &self.half_step,
+        ];
+        grid.run(recorder, ("flow_force", "flow_force"), &[], &forced, grid.groups())?;
+        grid.fill_halo(recorder, &self.pushed)?;
+        let traced = [uniform, &grid.tangents, &self.velocity_ahead, &self.pushed, &self.moved, &self.half_step];
+        grid.run(recorder, ("flow_trace", "trace_vorticity"), BACKTRACE, &traced, grid.groups())?;
+        let zeta = match forces.viscous_stage(dt_s) {
+            None => &self.moved,
+            Some(stage) => self.viscous(recorder, stage)?,
+        };
+        self.combine(recorder, [(2.0, &self.psi), (-1.0, &self.psi_before)], -1.0, &self.psi_next)?;
+        let system = System { shift: 0.0, gain: 1.0, source: zeta };
+        self.multigrid.cycles(recorder, grid, &system, &self.psi_next, POISSON_CYCLES)
+    }
+
+    /// Carries ln h along the velocity for `dt_s` seconds on the flow's own grid. For a film whose thickness lives here too.
+    pub fn carry_log_thickness(&mut self, recorder: &mut Recorder<'_>, dt_s: f64) -> Result<(), GpuError> {
+        let uniform = self.uniform(recorder.gpu, dt_s, &FlowForces::default());
+        self.grid.fill_halo(recorder, &self.log_thickness)?;
+        let traced = [&uniform, &self.grid.tangents, &self.velocity, &self.log_thickness, &self.pushed];
+        self.grid.run(recorder, ("flow_trace", "trace_tracer"), BACKTRACE, &traced, self.grid.groups())?;
+        std::mem::swap(&mut self.log_thickness, &mut self.pushed);
+        Ok(())
+    }
+
+    /// Viscosity on `moved`, into `pushed`: two implicit stages and their extrapolation, see the twin.
+    fn viscous(&self, recorder: &mut Recorder<'_>, stage: f64) -> Result<&wgpu::Buffer, GpuError> {
+        let Self { grid, moved, stages: [once, twice], .. } = self;
+        let root = std::f64::consts::SQRT_2;
+        let system = |source| System { shift: (1.0 - 2.0 * stage) / stage, gain: -1.0 / stage, source };
+        grid.fill_halo(recorder, moved)?;
+        recorder.encoder().copy_buffer_to_buffer(moved, 0, once, 0, moved.size());
+        self.multigrid.cycles(recorder, grid, &system(moved), once, VISCOUS_CYCLES)?;
+        // What the first stage took away, the second nearly will.
+        self.combine(recorder, [(2.0, once), (-1.0, moved)], 0.0, twice)?;
+        self.multigrid.cycles(recorder, grid, &system(once), twice, VISCOUS_CYCLES)?;
+        self.combine(recorder, [(1.0 + root, twice), (-root, once)], 0.0, &self.pushed)?;
+        Ok(&self.pushed)
+    }
+
+    fn find_velocity(
+        &self,
+        recorder: &mut Recorder<'_>,
+        uniform: &wgpu::Buffer,
+        psi: &wgpu::Buffer,
+        before: &wgpu::Buffer,
+    ) -> Result<(), GpuError> {
+        let Self { grid, velocity, velocity_ahead, .. } = self;
+        let found = [uniform, &grid.tangents, psi, before, velocity, velocity_ahead];
+        grid.run(recorder, ("flow_velocity", "flow_velocity"), &[], &found, grid.groups())?;
+        grid.run(recorder, ("flow_halo", "halo_of_velocities"), &[], &[&grid.halo, velocity, velocity_ahead], [1; 3])
+    }
+
+    /// A sum of two fields with factors, and so many times the mean of the guess, halos included.
+    fn combine(
+        &self,
+        recorder: &mut Recorder<'_>,
+        [first, second]: [(f64, &wgpu::Buffer); 2],
+        mean: f32,
+        to: &wgpu::Buffer,
+    ) -> Result<(), GpuError> {
+        let factors = CombineUniform { first: first.0 as f32, second: second.0 as f32, mean, pad: 0.0 };
+        let uniform = recorder.gpu.uniform("combine", &factors);
+        let groups = [(self.grid.sphere.padded_len() as u32).div_ceil(64), 1, 1];
+        let bound = [&uniform, &self.measures, first.1, second.1, to];
+        self.grid.run(recorder, ("flow_combine", "flow_combine"), &[], &bound, groups)
+    }
+
+    fn uniform(&self, gpu: &Gpu, dt_s: f64, forces: &FlowForces) -> wgpu::Buffer {
+        let uniform = FlowUniform {
+            gravity: forces.gravity.as_vec3().to_array(),
+            dt_s: dt_s as f32,
+            drag: forces.drag as f32,
+            air_drag: forces.air_drag as f32,
+            min_air_speed: MIN_AIR_SPEED as f32,
+            cell_angle: self.grid.sphere.cell_angle() as f32,
+            cells: self.grid.sphere.n() as u32,
+            pad: [0; 3],
+        };
+        gpu.uniform("flow step", &uniform)
+    }
+
+    /// Values of cells, in the grid's order, in padded storage with an empty halo.
+    #[must_use]
+    pub fn padded(&self, values: &[f32]) -> Vec<f32> {
+        let mut padded = vec![0.0; self.grid.sphere.padded_len()];
+        for (cell, value) in values.iter().enumerate() {
+            padded[self.place(cell)] = *value;
+        }
+        padded
+    }
+
+    /// The cells of padded storage, in the grid's order.
+    #[must_use]
+    pub fn inner(&self, padded: &[f32]) -> Vec<f32> {
+        (0..self.grid.sphere.cells()).map(|cell| padded[self.place(cell)]).collect()
+    }
+
+    /// Place of a cell in padded storage.
+    fn place(&self, cell: usize) -> usize {
+        let (panel, i, j) = self.grid.sphere.cell(cell);
+        self.grid.sphere.padded_index(panel, i as isize, j as isize)
+    }
+}
+
+/// A storage buffer that can be copied from and to.
+fn buffer(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
+    let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+    gpu.buffer(label, size, usage)
+}
+
+/// tan(α) of each cell coordinate of an edge, halo included, rounded once from f64.
+fn tangents(sphere: CubedSphere) -> Vec<f32> {
+    let angle = |k: usize| (k as f64 - HALO as f64 + 0.5) * sphere.cell_angle() - std::f64::consts::FRAC_PI_4;
+    (0..sphere.padded_width()).map(|k| angle(k).tan() as f32).collect()
+}

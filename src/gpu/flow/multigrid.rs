@@ -1,0 +1,194 @@
+//! The multigrid solver of `(Δ − k) ψ = f` on the device: see its f64 twin in `physics::flow`.
+//!
+//! The finest grid is swept by one dispatch a sweep; all coarser ones together are a single workgroup's work.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{FlowGrid, buffer, tangents};
+use crate::{
+    gpu::{Gpu, GpuError, timing::Recorder},
+    physics::{
+        flow::{MAX_COARSEST_SWEEPS, Order, SWEEPS, Shift, coarser, coarsest_weights, sweep_weights},
+        sphere::{CubedSphere, HaloEntry, HaloTable},
+    },
+};
+
+/// Grids that there is room for: enough for 8 · 2¹¹ cells an edge.
+const MAX_LEVELS: usize = 12;
+
+/// See `shaders/flow/solve.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct SolveUniform {
+    /// Weights of the sweeps after a correction.
+    pub weights: [f32; SWEEPS],
+    /// k.
+    pub shift: f32,
+    /// f over the source that it is read from.
+    pub gain: f32,
+    /// Angle of a cell, radians.
+    pub cell_angle: f32,
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    /// The same of the next grid.
+    pub coarse_cells: u32,
+    /// Where the corrections of the next grid start.
+    pub coarse_field: u32,
+    pad: [u32; 3],
+}
+
+/// A grid: see `shaders/pass/flow_coarse.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct CoarseLevel {
+    /// Weights of the sweeps after a correction.
+    pub weights: [f32; SWEEPS],
+    /// Angle of a cell, radians.
+    pub cell_angle: f32,
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    /// Where its values start.
+    pub field: u32,
+    /// Where its tangents start.
+    pub tangent: u32,
+    /// Where its halo entries start.
+    pub halo: u32,
+}
+
+/// All grids: see `shaders/pass/flow_coarse.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct CoarseUniform {
+    /// How many.
+    pub levels: u32,
+    /// Values of all of them.
+    pub values: u32,
+    /// k.
+    pub shift: f32,
+    /// Sweeps on the coarsest.
+    pub sweeps: u32,
+    /// The finest first.
+    pub level: [CoarseLevel; MAX_LEVELS],
+    /// Weights of the sweeps on the coarsest.
+    pub coarsest: [f32; MAX_COARSEST_SWEEPS],
+}
+
+/// A linear system: `(Δ − k) ψ = gain · source`.
+#[derive(Clone, Copy)]
+pub struct System<'a> {
+    /// k.
+    pub shift: Shift,
+    /// f over the source.
+    pub gain: f64,
+    /// In padded storage; only its cells are read.
+    pub source: &'a wgpu::Buffer,
+}
+
+/// The grids, and room to work.
+pub struct Multigrid {
+    /// The grids, the finest first, still without weights.
+    levels: Vec<CoarseLevel>,
+    values: u32,
+    tangents: wgpu::Buffer,
+    halo: wgpu::Buffer,
+    f: wgpu::Buffer,
+    e: wgpu::Buffer,
+    /// ψ on the finest grid, every other sweep.
+    scratch: wgpu::Buffer,
+}
+
+impl Multigrid {
+    /// The grids with and below `sphere`, which has one below it.
+    pub fn new(gpu: &Gpu, sphere: CubedSphere) -> Self {
+        let all = std::iter::successors(Some(sphere.n()), |&n| coarser(n)).take(MAX_LEVELS);
+        let (mut levels, mut all_tangents, mut entries, mut values) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        for grid in all.filter_map(|n| CubedSphere::new(n).ok()) {
+            levels.push(CoarseLevel {
+                weights: [0.0; SWEEPS],
+                cell_angle: grid.cell_angle() as f32,
+                cells: grid.n() as u32,
+                field: values,
+                tangent: all_tangents.len() as u32,
+                halo: entries.len() as u32,
+            });
+            all_tangents.extend(tangents(grid));
+            entries.extend(halo_entries(grid));
+            values += grid.padded_len() as u32;
+        }
+        Self {
+            levels,
+            values,
+            tangents: gpu.storage("coarse tangents", &all_tangents),
+            halo: gpu.storage("coarse halo", &entries),
+            f: buffer(gpu, "coarse right sides", u64::from(values) * 4),
+            e: buffer(gpu, "coarse corrections", u64::from(values) * 8),
+            scratch: buffer(gpu, "swept", sphere.padded_len() as u64 * 4),
+        }
+    }
+
+    /// Records cycles that improve ψ, which has its halo before and after.
+    pub fn cycles(
+        &self,
+        recorder: &mut Recorder<'_>,
+        grid: &FlowGrid,
+        system: &System<'_>,
+        psi: &wgpu::Buffer,
+        count: usize,
+    ) -> Result<(), GpuError> {
+        let solve = recorder.gpu.uniform("solve", &self.solve_uniform(grid.sphere, system));
+        let coarse = recorder.gpu.uniform("coarse grids", &self.coarse_uniform(system.shift));
+        for _ in 0..count {
+            let residual = [&solve, &grid.tangents, system.source, psi, &self.f];
+            grid.run(recorder, ("flow_residual", "flow_residual"), &[], &residual, grid.groups())?;
+            let coarse = [&coarse, &self.tangents, &self.halo, &self.f, &self.e];
+            grid.run(recorder, ("flow_coarse", "flow_coarse"), &[], &coarse, [1; 3])?;
+            let correct = [&solve, &self.e, psi, &self.scratch];
+            grid.run(recorder, ("flow_correct", "flow_correct"), &[], &correct, grid.groups())?;
+            grid.fill_halo(recorder, &self.scratch)?;
+            // An odd number of sweeps, so that the last is into ψ.
+            for sweep in 0..SWEEPS {
+                let [from, to] = if sweep % 2 == 0 { [&self.scratch, psi] } else { [psi, &self.scratch] };
+                let buffers = [&solve, &grid.tangents, system.source, from, to];
+                grid.run(recorder, ("flow_sweep", "flow_sweep"), &[("SWEEP", sweep as u32)], &buffers, grid.groups())?;
+                grid.fill_halo(recorder, to)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn solve_uniform(&self, sphere: CubedSphere, system: &System<'_>) -> SolveUniform {
+        SolveUniform {
+            weights: sweep_weights(sphere.n(), Order::Fourth, system.shift).map(|weight| weight as f32),
+            shift: system.shift as f32,
+            gain: system.gain as f32,
+            cell_angle: sphere.cell_angle() as f32,
+            cells: sphere.n() as u32,
+            coarse_cells: self.levels[1].cells,
+            coarse_field: self.levels[1].field,
+            pad: [0; 3],
+        }
+    }
+
+    fn coarse_uniform(&self, shift: Shift) -> CoarseUniform {
+        let mut uniform = CoarseUniform::zeroed();
+        (uniform.levels, uniform.values, uniform.shift) = (self.levels.len() as u32, self.values, shift as f32);
+        for (slot, level) in uniform.level.iter_mut().zip(&self.levels) {
+            let weights = sweep_weights(level.cells as usize, Order::Second, shift).map(|weight| weight as f32);
+            *slot = CoarseLevel { weights, ..*level };
+        }
+        if let Some(coarsest) = self.levels.last() {
+            let weights = coarsest_weights(coarsest.cells as usize, shift);
+            uniform.sweeps = weights.len() as u32;
+            for (slot, weight) in uniform.coarsest.iter_mut().zip(weights) {
+                *slot = weight as f32;
+            }
+        }
+        uniform
+    }
+}
+
+/// The halo of a grid: all edges, then all corners.
+pub fn halo_entries(grid: CubedSphere) -> Vec<HaloEntry> {
+    let table = HaloTable::new(grid);
+    [table.edges, table.corners].concat()
+}

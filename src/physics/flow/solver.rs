@@ -1,0 +1,358 @@
+//! The time stepper: semi-Lagrangian, leapfrogged against the thickness.
+//!
+//! Vorticity lives half a step before and after the thickness. A step from t − ½dt to t + ½dt, given ln h at t:
+//!
+//! 1. The velocity at t is 1.5 u(t − ½dt) − 0.5 u(t − 3/2 dt); each cell is traced back along it, by the implicit midpoint rule on the
+//!    sphere, which is symmetric in time and so neither gains nor loses energy.
+//! 2. Vorticity is looked up there by cubic interpolation. Half of the drag and of the buoyancy acts before and half after.
+//! 3. Viscosity acts by an L-stable rule of second order.
+//! 4. ψ(t + ½dt) is found from it by multigrid, starting from 2ψ(t − ½dt) − ψ(t − 3/2 dt).
+//!
+//! The thickness then moves from t to t + dt with the velocity of ψ(t + ½dt): waves of buoyancy keep their amplitude for ever
+//! (Störmer-Verlet).
+
+use glam::DVec3;
+
+use super::{multigrid::Multigrid, operators::turned_gradient};
+#[cfg(doc)]
+use crate::physics::film::properties::air_drag;
+use crate::physics::sphere::{CubedSphere, HaloTable, PaddedField};
+
+/// Cycles that find ψ, each of which leaves less than a fifth of the residual.
+pub const POISSON_CYCLES: usize = 2;
+/// Cycles of each of the two viscous solves.
+pub const VISCOUS_CYCLES: usize = 1;
+/// Length of each of the two stages of the viscous rule, over the step's: 1 − 1/√2.
+pub const VISCOUS_STAGE: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+/// Improvements of the velocity at the middle of a backtrace; each multiplies its error by about dt |∇u| / 2.
+pub const BACKTRACE_ITERATIONS: usize = 3;
+/// ν dt beyond which nothing is left but solid rotation, in rad²: more would only magnify the discretisation's error in that.
+const MAX_VISCOUS_STEP: f64 = 2.0;
+
+/// [`FlowForces::air_drag`] of air at 25 °C: α = ρ_a √(ν_a U/R) / (ρ h/2) is `AIR_DRAG √|u| / h` with |u| = U/R in rad/s and h in nm,
+/// whatever the radius. See [`air_drag`].
+pub const AIR_DRAG: f64 = 9359.0;
+/// Slowest speed against the air that drag is reckoned with, rad/s: air is never quite at rest.
+pub const MIN_AIR_SPEED: f64 = 0.02;
+
+/// What acts on the film during a step, on the unit sphere.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FlowForces {
+    /// Gravity, less the bubble's acceleration, over the radius: 1/s².
+    pub gravity: DVec3,
+    /// Drag that is the same everywhere, 1/s.
+    pub drag: f64,
+    /// Drag of air over the root of the speed, times the thickness: nm/√s. See [`AIR_DRAG`]; 0 for none. If it is not 0, ln h must be
+    /// that of the thickness in nm.
+    pub air_drag: f64,
+    /// Kinematic viscosity over R², 1/s.
+    pub viscosity: f64,
+}
+
+impl FlowForces {
+    /// ν dt γ of one viscous stage, or nothing if viscosity does nothing.
+    #[must_use]
+    pub fn viscous_stage(&self, dt: f64) -> Option<f64> {
+        let step = (self.viscosity * dt).min(MAX_VISCOUS_STEP);
+        (step > 0.0).then_some(VISCOUS_STAGE * step)
+    }
+}
+
+/// The longest step in seconds that is stable under gravity `g` (over the radius, 1/s²) where ln h changes by at most `slope` a radian: the
+/// leapfrog's 2/σ for the fastest wave of buoyancy. Take shorter ones where a tick is longer.
+#[must_use]
+pub fn stable_step_s(g: f64, slope: f64) -> f64 {
+    2.0 / (g * slope).abs().sqrt()
+}
+
+/// Vorticity, stream function, and what a step needs besides.
+pub struct FlowSolver {
+    multigrid: Multigrid,
+    zeta: PaddedField<f64>,
+    psi: PaddedField<f64>,
+    /// ψ one step before; nothing before the first step.
+    psi_before: Option<PaddedField<f64>>,
+    /// What stirs the film besides, 1/s².
+    forcing: PaddedField<f64>,
+}
+
+impl FlowSolver {
+    /// A film whose vorticity, of mean zero, is given in 1/s at each cell.
+    pub fn new(grid: CubedSphere, zeta: impl Fn(DVec3) -> f64 + Sync) -> Self {
+        let multigrid = Multigrid::new(grid);
+        let zeta = PaddedField::sample(grid, multigrid.halo(), zeta);
+        let psi = PaddedField::from_cells(grid, multigrid.halo(), |_| 0.0);
+        let mut solver = Self { multigrid, zeta, forcing: psi.clone(), psi, psi_before: None };
+        solver.psi = solver.stream_function(solver.psi.clone(), &solver.zeta, Self::FIRST_CYCLES);
+        solver
+    }
+
+    /// Cycles that find the first ψ, from nothing.
+    pub const FIRST_CYCLES: usize = 12;
+
+    /// The halo of its grid.
+    pub fn halo(&self) -> &HaloTable {
+        self.multigrid.halo()
+    }
+
+    /// Vorticity, 1/s.
+    pub fn zeta(&self) -> &PaddedField<f64> {
+        &self.zeta
+    }
+
+    /// Stream function, rad²/s.
+    pub fn psi(&self) -> &PaddedField<f64> {
+        &self.psi
+    }
+
+    /// The velocity of ψ, rad/s.
+    pub fn velocity(&self) -> PaddedField<DVec3> {
+        self.field(|cell| turned_gradient(&self.psi, cell))
+    }
+
+    /// Sets what stirs the film from now on: a source of vorticity in 1/s², such as α n·curl of the air's velocity.
+    pub fn stir(&mut self, forcing: PaddedField<f64>) {
+        self.forcing = forcing;
+    }
+
+    /// Takes a step under forces, with ln h half a step from now.
+    pub fn step(&mut self, dt: f64, forces: &FlowForces, log_thickness: &PaddedField<f64>) {
+        if self.psi_before.is_none() {
+            // A trial step tells how ψ changes; without it the first step would be of first order, and all that follow inherit its error.
+            let (_, ahead) = self.stepped(dt, forces, log_thickness, &self.psi);
+            self.psi_before = Some(combined(self.halo(), [(2.0, &self.psi), (-1.0, &ahead)]));
+        }
+        let before = self.psi_before.as_ref().unwrap_or(&self.psi);
+        let (zeta, psi) = self.stepped(dt, forces, log_thickness, before);
+        self.zeta = zeta;
+        self.psi_before = Some(std::mem::replace(&mut self.psi, psi));
+    }
+
+    /// Vorticity and stream function after a step, given ψ before the last one.
+    fn stepped(
+        &self,
+        dt: f64,
+        forces: &FlowForces,
+        log_thickness: &PaddedField<f64>,
+        before: &PaddedField<f64>,
+    ) -> (PaddedField<f64>, PaddedField<f64>) {
+        let moved = self.moved(dt, forces, log_thickness, before);
+        let zeta = self.without_mean(&self.viscous(moved, dt, forces));
+        let guess = combined(self.halo(), [(2.0, &self.psi), (-1.0, before)]);
+        let psi = self.stream_function(guess, &zeta, POISSON_CYCLES);
+        (zeta, psi)
+    }
+
+    /// Vorticity advected, pushed by buoyancy and slowed by drag.
+    fn moved(
+        &self,
+        dt: f64,
+        forces: &FlowForces,
+        log_thickness: &PaddedField<f64>,
+        before: &PaddedField<f64>,
+    ) -> PaddedField<f64> {
+        let psi = combined(self.halo(), [(1.5, &self.psi), (-0.5, before)]);
+        let velocity = self.field(|cell| turned_gradient(&psi, cell));
+        let (zeta, at, thickness) = (self.zeta.cells(), velocity.cells(), log_thickness.cells());
+        let forcing = self.forcing.cells();
+        let half_step = |cell: usize| {
+            let turned = turned_gradient(log_thickness, cell);
+            HalfStep::new(forces, dt, at[cell], (thickness[cell], turned), forcing[cell])
+        };
+        let pushed = self.field(|cell| half_step(cell).applied(zeta[cell]));
+        let moved = advected(self.halo(), &pushed, &velocity, dt).cells();
+        self.field(|cell| half_step(cell).applied(moved[cell]))
+    }
+
+    /// Vorticity after a step of viscosity: with S the implicit stage `(1 − ε (Δ + 2))⁻¹`, ε = (1 − 1/√2) ν dt, it is
+    /// `(1 + √2) S²ζ − √2 Sζ`: the singly diagonally implicit rule of Alexander (1977), of second order and L-stable.
+    fn viscous(&self, zeta: PaddedField<f64>, dt: f64, forces: &FlowForces) -> PaddedField<f64> {
+        let Some(stage) = forces.viscous_stage(dt) else { return zeta };
+        let shift = (1.0 - 2.0 * stage) / stage;
+        let solve = |from: &PaddedField<f64>, guess: PaddedField<f64>| {
+            let f: Vec<f64> = from.cells().iter().map(|value| -value / stage).collect();
+            (0..VISCOUS_CYCLES).fold(guess, |guess, _| self.multigrid.cycle(&guess, &f, shift))
+        };
+        let once = solve(&zeta, zeta.clone());
+        // What the first stage took away, the second nearly will.
+        let twice = solve(&once, combined(self.halo(), [(2.0, &once), (-1.0, &zeta)]));
+        let root = std::f64::consts::SQRT_2;
+        combined(self.halo(), [(1.0 + root, &twice), (-root, &once)])
+    }
+
+    fn stream_function(&self, guess: PaddedField<f64>, zeta: &PaddedField<f64>, cycles: usize) -> PaddedField<f64> {
+        let f = zeta.cells();
+        let psi = (0..cycles).fold(guess, |psi, _| self.multigrid.cycle(&psi, &f, 0.0));
+        self.without_mean(&psi)
+    }
+
+    fn without_mean(&self, field: &PaddedField<f64>) -> PaddedField<f64> {
+        let (values, areas) = (field.cells(), field.grid().areas());
+        let integral: f64 = values.iter().zip(&areas).map(|(value, area)| value * area).sum();
+        self.field(|cell| values[cell] - integral / (4.0 * std::f64::consts::PI))
+    }
+
+    fn field<T: crate::physics::sphere::FieldValue>(&self, value: impl Fn(usize) -> T + Sync) -> PaddedField<T> {
+        PaddedField::from_cells(self.multigrid.grid(), self.multigrid.halo(), value)
+    }
+}
+
+/// What drag and buoyancy do to a cell's vorticity in half a step: exactly what they do under forces that hold still, however strong.
+struct HalfStep {
+    /// What drag leaves.
+    decay: f64,
+    /// What is added, 1/s.
+    push: f64,
+}
+
+impl HalfStep {
+    /// For a cell's velocity, its ln h with `n × ∇ ln h`, and what stirs it besides. The air slows thin film down more than thick, which
+    /// makes vorticity where liquid flows along an edge: of `−n·curl(αu)` that is `n·(u × ∇α) = α_h u·(n × ∇ ln h)`, for α_h goes as
+    /// 1/h.
+    fn new(forces: &FlowForces, dt: f64, u: DVec3, (log_thickness, turned): (f64, DVec3), forcing: f64) -> Self {
+        let of_air = forces.air_drag * u.length().max(MIN_AIR_SPEED).sqrt() * (-log_thickness).exp();
+        let drag = forces.drag + of_air;
+        let source = (forces.gravity + of_air * u).dot(turned) + forcing;
+        let x = 0.5 * dt * drag;
+        let decayed = if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 };
+        Self { decay: (-x).exp(), push: 0.5 * dt * decayed * source }
+    }
+
+    fn applied(&self, zeta: f64) -> f64 {
+        self.decay * zeta + self.push
+    }
+}
+
+/// A sum of two fields with factors.
+fn combined(halo: &HaloTable, [a, b]: [(f64, &PaddedField<f64>); 2]) -> PaddedField<f64> {
+    let (first, second) = (a.1.cells(), b.1.cells());
+    PaddedField::from_cells(a.1.grid(), halo, |cell| a.0 * first[cell] + b.0 * second[cell])
+}
+
+/// A field carried for a time `dt` by a steady velocity: its values where the liquid of each cell came from.
+pub fn advected(
+    halo: &HaloTable,
+    field: &PaddedField<f64>,
+    velocity: &PaddedField<DVec3>,
+    dt: f64,
+) -> PaddedField<f64> {
+    let at = velocity.cells();
+    PaddedField::from_cells(field.grid(), halo, |cell| {
+        let x = field.grid().cell_direction(cell);
+        let middle = |u: DVec3| (x - 0.5 * dt * u).normalize();
+        let u = (0..BACKTRACE_ITERATIONS).fold(at[cell], |u, _| velocity.bicubic(middle(u)));
+        // The origin is x reflected at the middle: a symmetric step along a great circle.
+        let middle = middle(u);
+        field.bicubic(2.0 * x.dot(middle) * middle - x)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::film::properties;
+    use crate::physics::flow::{FlowCase, FlowCaseKind, Mode, Oscillation, fit_oscillation, relative_l2};
+
+    fn case(kind: FlowCaseKind, mode: (u32, u32), k: f64) -> FlowCase {
+        FlowCase::new(kind, DVec3::ONE.normalize(), Mode::new(mode.0, mode.1, 0).unwrap(), 1.0, k).unwrap()
+    }
+
+    /// Relative error of vorticity after steps of which `steps` make the case's span.
+    fn error(case: &FlowCase, n: usize, steps: u32, take: u32) -> f64 {
+        let grid = CubedSphere::new(n).unwrap();
+        let mut solver = FlowSolver::new(grid, |x| case.zeta(x, 0.0));
+        let still = PaddedField::from_cells(grid, solver.halo(), |_| 0.0);
+        let dt = case.span_s() / f64::from(steps);
+        (0..take).for_each(|_| solver.step(dt, &case.forces(), &still));
+        let time = dt * f64::from(take);
+        let exact: Vec<f64> = (0..grid.cells()).map(|cell| case.zeta(grid.cell_direction(cell), time)).collect();
+        relative_l2(grid, &solver.zeta().cells(), &exact)
+    }
+
+    #[test]
+    fn a_rossby_haurwitz_wave_turns() {
+        let wave = case(FlowCaseKind::RossbyHaurwitz, (1, 1), 1.0);
+        let [coarse, fine] = [(16, 20), (32, 40)].map(|(n, steps)| error(&wave, n, steps, steps));
+        // The steps' error is of second order; the first of these is too large to be asymptotic.
+        assert!(fine < 0.016 && coarse / fine > 3.5, "{coarse} {fine}");
+    }
+
+    #[test]
+    fn a_jet_stands_still() {
+        let jet = error(&case(FlowCaseKind::Stationary, (1, 1), 0.1), 24, 80, 40);
+        assert!(jet < 1e-3, "{jet}");
+    }
+
+    #[test]
+    fn viscosity_wears_a_harmonic_down() {
+        let decay = error(&case(FlowCaseKind::Decay, (5, 3), 0.0), 24, 20, 20);
+        assert!(decay < 3e-3, "{decay}");
+    }
+
+    #[test]
+    fn the_stable_step_is_where_the_fastest_wave_begins_to_grow() {
+        // The (l, l) mode of a film of unit slope nearly has the bound's frequency: σ² = l/(l + 1).
+        let case = FlowCase::new(FlowCaseKind::Sloshing, DVec3::Z, Mode::new(9, 9, 1).unwrap(), 1.0, 0.0).unwrap();
+        let largest_after = |dt: f64| {
+            let grid = CubedSphere::new(24).unwrap();
+            let mut solver = FlowSolver::new(grid, |_| 0.0);
+            let mut film = PaddedField::sample(grid, solver.halo(), |x| case.log_thickness(x));
+            for _ in 0..40 {
+                solver.step(dt, &case.forces(), &film);
+                film = advected(solver.halo(), &film, &solver.velocity(), dt);
+            }
+            solver.zeta().cells().iter().fold(0.0, |most: f64, zeta| most.max(zeta.abs()))
+        };
+        let limit = stable_step_s(1.0, 1.0);
+        assert!(largest_after(0.9 * limit) < 0.1, "{}", largest_after(0.9 * limit));
+        assert!(largest_after(1.3 * limit) > 1.0, "{}", largest_after(1.3 * limit));
+    }
+
+    #[test]
+    fn air_drags_as_a_boundary_layer_does() {
+        let (radius, speed, thickness) = (0.03, 0.2_f64, 4e-7);
+        let ours = AIR_DRAG * (speed / radius).sqrt() / (1e9 * thickness);
+        assert!((ours / properties::air_drag(thickness, speed, radius) - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn strong_drag_leaves_the_speed_at_which_forces_balance() {
+        let forces = FlowForces { gravity: DVec3::NEG_Z, drag: 500.0, ..FlowForces::default() };
+        let step = HalfStep::new(&forces, 1.0, DVec3::X, (6.0, DVec3::new(0.0, 3.0, -4.0)), 1.0);
+        assert!((step.applied(7.0) - 5.0 / 500.0).abs() < 1e-12);
+        let none = HalfStep::new(&FlowForces { drag: 0.0, ..forces }, 0.1, DVec3::X, (6.0, DVec3::NEG_Z), 0.0);
+        assert_eq!(none.applied(7.0), 7.05);
+    }
+
+    fn slosh(stratification: f64, drag: f64) -> (FlowCase, Oscillation) {
+        let case = case(FlowCaseKind::Sloshing, (3, 2), 0.0).with_film(stratification, drag);
+        let (grid, dt) = (CubedSphere::new(24).unwrap(), case.span_s() / 60.0);
+        let mut solver = FlowSolver::new(grid, |x| case.zeta(x, -0.5 * dt));
+        let mut film = PaddedField::sample(grid, solver.halo(), |x| case.log_thickness(x));
+        let samples: Vec<f64> = (0..60)
+            .map(|_| {
+                solver.step(dt, &case.forces(), &film);
+                film = advected(solver.halo(), &film, &solver.velocity(), dt);
+                let zeta = solver.zeta().cells();
+                grid.areas()
+                    .iter()
+                    .enumerate()
+                    .map(|(c, area)| area * zeta[c] * case.mode_at(grid.cell_direction(c)))
+                    .sum()
+            })
+            .collect();
+        (case, fit_oscillation(&samples, dt).unwrap())
+    }
+
+    #[test]
+    fn a_stratified_film_sloshes_and_an_inverted_one_overturns() {
+        for drag in [0.0, 0.4] {
+            let (case, found) = slosh(1.0, drag);
+            // A leapfrog of 60 steps a period is fast by (2π/60)²/24 = 4.6e-4.
+            assert!((found.frequency / case.frequency() - 1.0).abs() < 1e-3, "{found:?}");
+            assert!((found.growth + 0.5 * drag).abs() < 1e-3, "{found:?}");
+        }
+        let (case, found) = slosh(-1.0, 0.0);
+        assert!((found.growth / case.growth() - 1.0).abs() < 2e-3, "{found:?}");
+    }
+}
