@@ -105,9 +105,9 @@ fn the_gpu_does_what_its_f64_twin_does() {
         (0..grid.cells()).map(|cell| value(grid.cell_direction(cell)) as f32).collect()
     };
     let mut twin = flow::FlowSolver::new(grid, |x| start.zeta(x, 0.0));
-    let film = PaddedField::sample(grid, twin.halo(), thickness);
+    let film = PaddedField::sample_cells(grid, twin.halo(), thickness);
     let stirred = |x: DVec3| 2.0 * x.x * x.y;
-    twin.stir(PaddedField::sample(grid, twin.halo(), stirred));
+    twin.stir(PaddedField::sample_cells(grid, twin.halo(), stirred));
     gpu.upload(solver.forcing(), &solver.padded(&cells(&stirred)));
     gpu.upload(solver.log_thickness(), &solver.padded(&cells(&thickness)));
     submit(&gpu, |recorder| {

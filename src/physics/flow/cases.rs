@@ -298,7 +298,7 @@ mod tests {
         for kind in [FlowCaseKind::RossbyHaurwitz, FlowCaseKind::Stationary, FlowCaseKind::Decay, FlowCaseKind::Poisson]
         {
             let case = case(kind, (5, 3));
-            let psi = PaddedField::sample(grid, &halo, |x| case.psi(x));
+            let psi = PaddedField::sample_cells(grid, &halo, |x| case.psi(x));
             for cell in 0..grid.cells() {
                 let error = laplacian(&psi, cell, Order::Fourth).0 - case.zeta(grid.cell_direction(cell), 0.0);
                 // The operator's own error beside the halo: see its tests.

@@ -102,7 +102,7 @@ mod tests {
 
     fn field(n: usize) -> PaddedField<f64> {
         let grid = CubedSphere::new(n).unwrap();
-        PaddedField::sample(grid, &HaloTable::new(grid), harmonic)
+        PaddedField::sample_cells(grid, &HaloTable::new(grid), harmonic)
     }
 
     /// The largest errors of the Laplacian and of the turned gradient.
@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn constants_have_no_laplacian_and_no_gradient() {
         let grid = CubedSphere::new(12).unwrap();
-        let one = PaddedField::sample(grid, &HaloTable::new(grid), |_| 1.0);
+        let one = PaddedField::sample_cells(grid, &HaloTable::new(grid), |_| 1.0);
         for cell in 0..grid.cells() {
             assert!(turned_gradient(&one, cell).length() < 1e-13);
             // Rounding, magnified by 1/D² = 58.

@@ -80,7 +80,7 @@ impl FlowSolver {
     /// A film whose vorticity, of mean zero, is given in 1/s at each cell.
     pub fn new(grid: CubedSphere, zeta: impl Fn(DVec3) -> f64 + Sync) -> Self {
         let multigrid = Multigrid::new(grid);
-        let zeta = PaddedField::sample(grid, multigrid.halo(), zeta);
+        let zeta = PaddedField::sample_cells(grid, multigrid.halo(), zeta);
         let psi = PaddedField::from_cells(grid, multigrid.halo(), |_| 0.0);
         let mut solver = Self { multigrid, zeta, forcing: psi.clone(), psi, psi_before: None };
         solver.psi = solver.stream_function(solver.psi.clone(), &solver.zeta, Self::FIRST_CYCLES);
@@ -296,7 +296,7 @@ mod tests {
         let largest_after = |dt: f64| {
             let grid = CubedSphere::new(24).unwrap();
             let mut solver = FlowSolver::new(grid, |_| 0.0);
-            let mut film = PaddedField::sample(grid, solver.halo(), |x| case.log_thickness(x));
+            let mut film = PaddedField::sample_cells(grid, solver.halo(), |x| case.log_thickness(x));
             for _ in 0..40 {
                 solver.step(dt, &case.forces(), &film);
                 film = advected(solver.halo(), &film, &solver.velocity(), dt);
@@ -328,7 +328,7 @@ mod tests {
         let case = case(FlowCaseKind::Sloshing, (3, 2), 0.0).with_film(stratification, drag);
         let (grid, dt) = (CubedSphere::new(24).unwrap(), case.span_s() / 60.0);
         let mut solver = FlowSolver::new(grid, |x| case.zeta(x, -0.5 * dt));
-        let mut film = PaddedField::sample(grid, solver.halo(), |x| case.log_thickness(x));
+        let mut film = PaddedField::sample_cells(grid, solver.halo(), |x| case.log_thickness(x));
         let samples: Vec<f64> = (0..60)
             .map(|_| {
                 solver.step(dt, &case.forces(), &film);

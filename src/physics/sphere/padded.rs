@@ -41,6 +41,12 @@ impl<T: FieldValue> PaddedField<T> {
         Self { grid, values }
     }
 
+    /// The field that samples a function of direction at the cells alone, with its halo interpolated from them: what fields are like that only
+    /// their cells are computed of. `halo` is the grid's table.
+    pub fn sample_cells(grid: CubedSphere, halo: &HaloTable, value: impl Fn(DVec3) -> T + Sync) -> Self {
+        Self::from_cells(grid, halo, |cell| value(grid.cell_direction(cell)))
+    }
+
     /// The field of these values by padded index, one for each of [`CubedSphere::padded_len`]; missing ones are zero.
     pub fn from_padded(grid: CubedSphere, mut values: Vec<T>) -> Self {
         values.resize(grid.padded_len(), T::default());
