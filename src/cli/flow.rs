@@ -62,7 +62,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let run = FlowRun { case, cells: arguments.cells, steps_a_span: arguments.steps, spans: arguments.repeat };
     let gpu = arguments.adapter.open()?;
     let outcome = run.measure(&gpu)?;
-    print!("{}: l2 {:.3e}, energy drift {:.2e}", case.kind().name(), outcome.l2, outcome.energy_drift);
+    print!("{}: l2 {:.3e}", case.kind().name(), outcome.l2);
+    if outcome.energy_drift.is_finite() {
+        print!(", energy drift {:.2e}", outcome.energy_drift);
+    }
     if let (FlowCaseKind::Sloshing, Some(found)) = (case.kind(), outcome.oscillation) {
         print!("; frequency {:.6} (exact {:.6})", found.frequency, case.frequency());
         print!(", growth {:.6} (exact {:.6})", found.growth, case.growth());
