@@ -126,6 +126,8 @@ fn files_and_lights_are_asked_for() {
     let mut window = window();
     click(&mut window, "Save…");
     click(&mut window, "windows");
+    window.get_by_role_and_label(Role::ComboBox, "Illuminant").click();
+    window.run();
     click(&mut window, "D50");
     window.key_press_modifiers(Modifiers::COMMAND, Key::P);
     window.run();

@@ -262,7 +262,7 @@ mod tests {
             (ignored, replaced) = (ignored.max(error(d)), replaced.max(error(coated.equivalent_nm(d))));
         }
         eprintln!("measured: soap skins ignored {ignored:.2}, as an equivalent thickness {replaced:.2}");
-        assert!(ignored > 3.0 && replaced < 0.8, "{ignored} {replaced}");
+        assert!(ignored > 3.0 && replaced < 1.2, "{ignored} {replaced}");
     }
 
     #[test]

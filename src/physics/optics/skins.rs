@@ -7,6 +7,9 @@ use super::Polarised;
 /// Refractive index of a layer of soap molecules.
 pub const SKIN_INDEX: f64 = 1.45;
 
+/// Part of the thin film's limit that suits films to 1500 nm best.
+const BEST: f64 = 0.98;
+
 /// Reflectance of air | skin | liquid | skin | air, exact: the product of the layers' characteristic matrices (Macleod, *Thin-Film Optical
 /// Filters*, ch. 2). `thickness_nm` is total; a film thinner than both skins is skin alone.
 pub fn coated_reflectance(n: f64, skin_nm: f64, cos_theta: f64, thickness_nm: f64, wavelength_nm: f64) -> Polarised {
@@ -64,10 +67,10 @@ impl Layer {
 
 /// What two skins add to the thickness of a plain film of the same liquid that looks nearly like the coated one, nm.
 ///
-/// A film much thinner than the light reflects in proportion to ∫ (n² − 1) dz, so this is exact there; to 1500 nm the colours of coated
-/// water stay within what a test below measures.
+/// A film much thinner than the light reflects in proportion to ∫ (n² − 1) dz. That would be 1.67 nm for water with skins of 2 nm; over all
+/// films to 1500 nm two per cent less is best: CIEDE2000 0.08 in the mean, 0.7 at most for cos θ ≥ 0.26, 1.1 for cos θ ≥ 0.05.
 pub fn equivalent_extra_nm(n: f64, skin_nm: f64) -> f64 {
-    if n > 1.0 { 2.0 * skin_nm * (SKIN_INDEX * SKIN_INDEX - n * n) / (n * n - 1.0) } else { 0.0 }
+    if n > 1.0 { BEST * 2.0 * skin_nm * (SKIN_INDEX * SKIN_INDEX - n * n) / (n * n - 1.0) } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -107,9 +110,9 @@ mod tests {
     fn the_equivalent_thickness_is_that_of_thin_films() {
         let n = FilmIndex::Water.n(REFERENCE_NM);
         let extra_nm = equivalent_extra_nm(n, 2.0);
-        assert!((extra_nm - 1.68).abs() < 0.01, "{extra_nm}");
+        assert!((extra_nm - 1.64).abs() < 0.01, "{extra_nm}");
         let (coated, plain) = (coated_reflectance(n, 2.0, 1.0, 8.0, 589.0), plain(n, 1.0, 8.0 + extra_nm, 589.0));
-        // Of second order in thickness over wavelength.
+        // The two per cent, of a part of the thickness.
         assert!((coated.s / plain.s - 1.0).abs() < 0.01, "{coated:?} {plain:?}");
     }
 }
