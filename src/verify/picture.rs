@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// Pixels of each picture.
-const SIZE: [u32; 2] = [384, 216];
+const SIZE: [u32; 2] = [256, 144];
 /// Soft lamps of a random environment.
 const LAMPS: usize = 6;
 /// Lights of the scenes in turn.
