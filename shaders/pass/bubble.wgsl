@@ -4,6 +4,7 @@
 import package::camera::view::{View, pixel_angle, view_plane};
 import package::film::control::{Balance, balanced};
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
+import package::optics::airy::surface_reflectance;
 import package::optics::band::Band;
 import package::optics::film_colour::{POLARISED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
@@ -195,6 +196,11 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
         walls_nm.x = optical_nm(front);
         steps[0] = surroundings(v0, footprint(path, v0, 2.0)) - behind;
     }
+    if (EVERYTHING == 0u) {
+        // One reflection more, by the mean reflectance over all thicknesses, of s light, which outlasts p: no lookup of a film.
+        let r2 = surface_reflectance(axes.index, path.cos_theta).x;
+        steps[3] += 2.0 * r2 / (1.0 + r2) * (light_from(path, reflected(hop3, chord), 4.0) - light3);
+    }
     var seen = vec3f(0.0);
     if (EVERYTHING == 1u && path.cos_theta < DEEP_COS) {
         seen = deep_radiance(path, walls_nm, steps, hop3, light3, polarisation);
@@ -305,7 +311,7 @@ fn is_at_rim(position: vec2f) -> bool {
 fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // At the rim the film turns into a mirror within a few pixels.
     if (SAMPLES < 4u && is_at_rim(position.xy)) {
-        return vec4f(mean_radiance(position.xy, 2u * SAMPLES), 1.0);
+        return vec4f(mean_radiance(position.xy, SAMPLES * select(2u, 4u, EVERYTHING == 1u)), 1.0);
     }
     if (SAMPLES == 1u) {
         return vec4f(sample_radiance(position.xy, 1.0), 1.0);
