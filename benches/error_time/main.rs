@@ -17,7 +17,6 @@ use soapfilm::{
         AdapterChoice, Gpu, GpuError, Renderer,
         bake_table::Table,
         probe_colour::{ColourProbe, ProbePoint},
-        timing::Recorder,
     },
     input::load_scene,
     physics::{

@@ -12,6 +12,7 @@ mod parse;
 mod progress;
 mod reference;
 mod render;
+mod sequence;
 mod transport;
 mod verify;
 
@@ -45,6 +46,8 @@ enum Command {
     App(AppArguments),
     /// Draw one picture into a PNG or EXR file
     Render(render::Arguments),
+    /// Draw numbered pictures of a film as it moves
+    Sequence(sequence::Arguments),
     /// Report the colour that a film reflects
     Colour(colour::Arguments),
     /// Write the lookup table of film colours, and how to sample it
@@ -118,6 +121,7 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
             open_window(scene, &arguments.adapter.choice())
         }
         Command::Render(arguments) => render::run(&arguments),
+        Command::Sequence(arguments) => sequence::run(&arguments),
         Command::Colour(arguments) => colour::run(&arguments),
         Command::Lut(arguments) => lut::run(&arguments),
         Command::Transport(arguments) => transport::run(&arguments),

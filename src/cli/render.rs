@@ -55,7 +55,7 @@ pub struct Arguments {
 }
 
 /// Ticks that one picture may need: a day at 60 a second takes hours, more is a slip of the pen.
-const MAX_TICKS: u64 = 10_000_000;
+pub const MAX_TICKS: u64 = 10_000_000;
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let format = Format::of(arguments)?;
@@ -126,7 +126,7 @@ fn draw(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result<Pi
 }
 
 /// Refuses a picture that the adapter cannot hold before anything is made for it.
-fn fits(renderer: &Renderer, [width, height]: [u32; 2]) -> Result<(), GpuError> {
+pub fn fits(renderer: &Renderer, [width, height]: [u32; 2]) -> Result<(), GpuError> {
     let limits = renderer.gpu.device.limits();
     let side = limits.max_texture_dimension_2d;
     if width.max(height) > side {

@@ -37,8 +37,9 @@ pub struct Case {
     pub steps: u64,
 }
 
-/// Remaps a period at least: fewer would let a test that undoes itself within a period undo the error too.
-const REMAPS_A_PERIOD: u32 = 4;
+/// Part of a period between two remaps: more would let a test that undoes itself within a period undo the error too. A little less than a
+/// quarter, so that none falls on the half period, where answers are asked for.
+const REMAP_PERIODS: f64 = 0.23;
 
 /// Steps in one submission, so that none runs long.
 const STEPS_A_SUBMISSION: u64 = 16;
@@ -61,7 +62,7 @@ impl Case {
             conserved: self.quantity == Quantity::Density,
             remap: RemapRule {
                 error_limit_cells: RemapRule::ERROR_LIMIT_CELLS,
-                latest_ticks: (self.steps_a_period / REMAPS_A_PERIOD).max(1),
+                latest_ticks: (REMAP_PERIODS * f64::from(self.steps_a_period)).max(1.0) as u32,
             },
             coarse_flow: false,
         }

@@ -99,7 +99,7 @@ fn steps(run: &mut Run<'_>) -> Result<(), GpuError> {
         let name = format!("steps of {cfl} cells");
         stress(run, &Stress { name, cells: CELLS, initial: bells, steps: 100, step: &step, planted: None })?;
     }
-    let spikes = |k: u32| Step::wind(&wind, 0.0, if k % 7 == 0 { 3.0 } else { 0.01 });
+    let spikes = |k: u32| Step::wind(&wind, 0.0, if k.is_multiple_of(7) { 3.0 } else { 0.01 });
     stress(
         run,
         &Stress { name: "spikes of dt".into(), cells: CELLS, initial: bells, steps: 70, step: &spikes, planted: None },
@@ -134,7 +134,7 @@ fn winds(run: &mut Run<'_>) -> Result<(), GpuError> {
         },
     )?;
     let wind = deformation();
-    let flips = |k: u32| if k % 2 == 0 { Step::wind(&wind, 0.0, 0.4) } else { Step::wind(&wind, 0.4, 0.1) };
+    let flips = |k: u32| if k.is_multiple_of(2) { Step::wind(&wind, 0.0, 0.4) } else { Step::wind(&wind, 0.4, 0.1) };
     stress(
         run,
         &Stress {

@@ -244,7 +244,7 @@ fn pictures_have_their_size_and_equal_runs_equal_bytes() {
 #[test]
 fn a_plan_and_its_cost_are_told() {
     let desk = Desk::new();
-    let Some(run) = desk.done("render default -o a.png --size 64x36 --time 0.1 --explain --repeat 2 --stats s.json")
+    let Some(run) = desk.done("render default -o a.png --size 64x36 --time 0.5 --explain --repeat 2 --stats s.json")
     else {
         return;
     };
@@ -429,4 +429,22 @@ fn has_keys(value: &serde_json::Value, keys: &[&str]) {
     for key in keys {
         assert!(value.get(key).is_some(), "no key `{key}` in {value}");
     }
+}
+
+/// A frame is a pure function of the scene and its time: drawn alone, or after others that cut the film's history into frames.
+#[test]
+fn a_frame_alone_is_the_frame_of_a_run() {
+    let desk = Desk::new();
+    let size = "--size 64x36 --fps 7";
+    if desk.done(&format!("sequence default -o run --frames 0..5 {size}")).is_none() {
+        return;
+    }
+    desk.done(&format!("sequence default -o alone --frames 5..5 {size}")).unwrap();
+    let bytes = |path: &str| std::fs::read(desk.path(path)).unwrap();
+    assert_eq!(bytes("run/frame_000005.png"), bytes("alone/frame_000005.png"));
+    assert_ne!(bytes("run/frame_000000.png"), bytes("run/frame_000005.png"), "the film moves");
+    let before = std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap();
+    let again = desk.done(&format!("sequence default -o alone --frames 5..5 {size}")).unwrap();
+    assert!(again.err.contains("already there"), "{}", again.err);
+    assert_eq!(std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap(), before);
 }

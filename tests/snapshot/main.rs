@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use soapfilm::{
     gpu::Renderer,
     output::{Metadata, PngPicture, read_back::read_png},
+    physics::colour::Gamut,
 };
 
 use compare::Comparison;
@@ -87,7 +88,8 @@ fn bless(renderer: &mut Renderer) {
     for (name, time_s) in GOLDENS {
         let rgba = draw(renderer, name, time_s);
         let metadata = Metadata::new().with("Scene", name).with("Time", &format!("{time_s} s"));
-        let picture = PngPicture { width: SIZE[0], height: SIZE[1], rgba: &rgba, metadata: &metadata };
+        let picture =
+            PngPicture { width: SIZE[0], height: SIZE[1], gamut: Gamut::Srgb, rgba: &rgba, metadata: &metadata };
         picture.save(&folder().join(format!("{name}.png"))).unwrap();
     }
     let maker = toml::to_string(&Maker::of(renderer)).unwrap();

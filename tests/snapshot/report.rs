@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use soapfilm::output::{Metadata, OutputError, PngPicture, write_text};
+use soapfilm::{
+    output::{Metadata, OutputError, PngPicture, write_text},
+    physics::colour::Gamut,
+};
 
 use crate::compare::Comparison;
 
@@ -24,7 +27,7 @@ pub fn write(
     let parts = [("golden", golden), ("now", now), ("difference", &difference)];
     for (part, rgba) in parts {
         let metadata = Metadata::new();
-        let picture = PngPicture { width: size[0], height: size[1], rgba, metadata: &metadata };
+        let picture = PngPicture { width: size[0], height: size[1], gamut: Gamut::Srgb, rgba, metadata: &metadata };
         picture.save(&folder.join(format!("{name}.{part}.png")))?;
     }
     let figures: String = parts

@@ -315,7 +315,7 @@ impl Field {
             map_cells: self.film.cells,
             tracer: (from, self.tracer_grid().cells),
             control: &self.control.block,
-            to: to,
+            to,
         };
         sample_tracer(recorder, name, &sampling, groups)
     }

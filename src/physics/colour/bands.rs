@@ -261,16 +261,12 @@ impl Fit {
         let (l, count) = (self.factor(chosen), chosen.len());
         let mut x: Vec<[f64; TARGETS]> = chosen.iter().map(|at| self.mixed[*at]).collect();
         for i in 0..count {
-            for t in 0..TARGETS {
-                let known: f64 = (0..i).map(|k| l[i * count + k] * x[k][t]).sum();
-                x[i][t] = (x[i][t] - known) / l[i * count + i];
-            }
+            let known = |t: usize| -> f64 { (0..i).map(|k| l[i * count + k] * x[k][t]).sum() };
+            x[i] = std::array::from_fn(|t| (x[i][t] - known(t)) / l[i * count + i]);
         }
         for i in (0..count).rev() {
-            for t in 0..TARGETS {
-                let known: f64 = (i + 1..count).map(|k| l[k * count + i] * x[k][t]).sum();
-                x[i][t] = (x[i][t] - known) / l[i * count + i];
-            }
+            let known = |t: usize| -> f64 { (i + 1..count).map(|k| l[k * count + i] * x[k][t]).sum() };
+            x[i] = std::array::from_fn(|t| (x[i][t] - known(t)) / l[i * count + i]);
         }
         x
     }
