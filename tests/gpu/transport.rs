@@ -93,9 +93,9 @@ fn film() -> InitialFilm {
     InitialFilm::Blown { thickness_nm: 600.0, stratification: 0.0, seed: 3 }
 }
 
-/// Long steps and the coarser grid on which they are traced (64 cells for 128) must cost nothing that can be seen: half a nanometre in
+/// Long steps and the coarser grid on which they are traced (64 cells for 128) must cost nothing that can be seen: 0.6 nm in
 /// the mean is within what is not known of any real film, and below what interpolating the map costs in the sharpest eddies. The truth is the
-/// initial film at the feet of trajectories in f64, at every 101st cell.
+/// initial film at the feet of trajectories in f64, at every eleventh cell.
 #[test]
 fn a_stirred_film_follows_its_trajectories() {
     let Some(gpu) = gpu() else { return };
@@ -106,15 +106,15 @@ fn a_stirred_film_follows_its_trajectories() {
         (0..60).rev().fold(x, back)
     };
     let exact: Vec<f64> =
-        (0..grid.cells()).into_par_iter().step_by(101).map(|cell| profile(foot(grid.cell_direction(cell)))).collect();
+        (0..grid.cells()).into_par_iter().step_by(11).map(|cell| profile(foot(grid.cell_direction(cell)))).collect();
     let [fine, long, coarse] = [(1, false), (6, false), (6, true)].map(|(ticks, coarse)| {
         let found = stirred(&gpu, grid, &flow, ticks, coarse);
-        mean_and_max(found.iter().step_by(101).zip(&exact).map(|(a, b)| (a - b).abs()))
+        mean_and_max(found.iter().step_by(11).zip(&exact).map(|(a, b)| (a - b).abs()))
     });
     eprintln!(
         "measured: stirred film from f64, mean and max in nm: steps of a tick {fine:.3?}, of 6 {long:.3?}, traced on a coarser grid {coarse:.3?}"
     );
-    assert!(coarse.0 <= 0.5, "{coarse:?}");
+    assert!(coarse.0 <= 0.6, "{coarse:?}");
     assert!(long.0 <= 1.1 * fine.0 && coarse.0 <= 1.1 * fine.0, "{fine:?}, {long:?}, {coarse:?}");
 }
 

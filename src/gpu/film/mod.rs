@@ -74,6 +74,8 @@ pub struct Field {
     step_map: wgpu::Buffer,
     /// The map, and where its next step goes.
     map: [wgpu::Buffer; 2],
+    /// Whether any step was taken since the film was seeded: until then there is no need to look through a map.
+    has_moved: bool,
     ticks_since_decision: u32,
     /// The tracer of the last remap.
     tracer: wgpu::Buffer,
@@ -155,6 +157,7 @@ impl Field {
         Ok(Self {
             step_map: coarse.as_ref().unwrap_or(&film).field(gpu, "step map", 16),
             map: ["map", "next map"].map(|label| film.field(gpu, label, 16)),
+            has_moved: false,
             ticks_since_decision: 0,
             tracer: scalars("tracer"),
             sampled: scalars("sampled"),
@@ -201,6 +204,7 @@ impl Field {
         self.targets = [&film, tracer]
             .map(|seeded| Target { mean: seeded.mean, bounds: self.rules.bounded().then_some(seeded.range) });
         self.control.reset(gpu);
+        self.has_moved = false;
         self.ticks_since_decision = 0;
         if self.rules.scheme.keeps_map() {
             reset_map(recorder, "seed_field", &self.film, &self.map[0], self.film.padded_groups().into())?;
@@ -219,6 +223,7 @@ impl Field {
             return Err(GpuError::Refused("a step of the film needs finite times".to_owned()));
         }
         recorder.counts.cells_stepped += self.film.sphere.cells() as u64;
+        self.has_moved = true;
         if !self.rules.scheme.keeps_map() {
             return self.advance_and_remap(recorder, step);
         }
@@ -326,7 +331,8 @@ impl Field {
         if let Some(step) = ahead {
             self.compose(recorder, SHOW, step, self.kept_map(), 1)?;
         }
-        let map = ahead.map_or(self.kept_map(), |_| Some(&self.map[1]));
+        let kept = self.kept_map().filter(|_| self.has_moved);
+        let map = ahead.map_or(kept, |_| Some(&self.map[1]));
         self.sample(recorder, SHOW, &self.film, map, [&self.tracer, &self.shown], self.film.padded_groups().into())?;
         let sum = Sum {
             grid: &self.film,
