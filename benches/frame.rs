@@ -43,7 +43,7 @@ fn wanted(size: [u32; 2], yardstick: bool) -> Want {
     let loaded = load_scene("default").expect("the preset");
     let shot = Shot {
         size,
-        moment: Moment::tick(10),
+        moment: Moment { tick: 2, fraction: 0.5 },
         full_precision: false,
         gamut: Gamut::Srgb,
         yardstick,

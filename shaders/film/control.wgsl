@@ -6,6 +6,8 @@ struct Control {
     distortion: atomic<u32>,
     // Values that were not finite and have been replaced.
     healed: atomic<u32>,
+    // Ticks that the last remap came after the one before it.
+    ticks_remapped: u32,
 }
 
 // A correction of a film's values, h + offset + slope h, that restores its amount of liquid. Mirrors `BalanceBlock`.

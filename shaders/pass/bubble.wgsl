@@ -40,6 +40,8 @@ struct Bubble {
     // What the film's skins add to the thickness of a plain film that looks like it, and the thickness of both, in nm.
     extra_nm: f32,
     skins_nm: f32,
+    // Cells along a panel's edge of the film's map.
+    map_cells: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -89,7 +91,7 @@ fn tracer_value(place: u32) -> f32 {
 
 // The tracer of the last remap, through the flow map: as sharp as what is known of the film.
 fn film_through_map(direction: vec3f) -> f32 {
-    let origin = map_at(0u, direction, bubble.cells).xyz;
+    let origin = map_at(0u, direction, bubble.map_cells).xyz;
     return balanced(tracer_at(origin, bubble.tracer_cells), film_balance);
 }
 

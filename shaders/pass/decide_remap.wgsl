@@ -77,6 +77,7 @@ fn decide_remap() {
     let remaps = u32(is_distorted || control.ticks_since_remap + decide.ticks > decide.latest_ticks);
     atomicStore(&control.distortion, 0u);
     control.remaps += remaps;
+    control.ticks_remapped = select(control.ticks_remapped, control.ticks_since_remap, remaps == 1u);
     control.ticks_since_remap *= 1u - remaps;
     let groups = decide.tracer_groups;
     arguments.tracer_groups = array(groups.x * remaps, groups.y, groups.z);

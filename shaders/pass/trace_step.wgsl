@@ -2,23 +2,9 @@
 // One invocation a cell, those of the halo included: a cell beyond an edge is a place like any other. Velocities are tangential by
 // construction and positions are renormalised, so there is no pole and no panel.
 
+import package::film::prescribed::{MAX_VORTICES, MAX_WAVES, Vortex, Wave, vortex_gradient, wave_gradient};
 import package::film::wind::{FLOW, FLOW_PRESCRIBED, WindMoment, wind_divergence, wind_velocity};
 import package::sphere::cubed::{HALO, cell_place, panel_direction};
-
-const MAX_WAVES: u32 = 32u;
-const MAX_VORTICES: u32 = 64u;
-
-// Stream function gain.x sin(k . x + phase), with k in xyz and the phase in w.
-struct Wave {
-    k_phase: vec4f,
-    gain: vec4f,
-}
-
-// Stream function gain.x exp(sharpness (centre . x - 1)), with the centre in xyz and the sharpness in w.
-struct Vortex {
-    centre_sharpness: vec4f,
-    gain: vec4f,
-}
 
 // One step. Mirrors `StepUniform` in src/gpu/trace_step.rs.
 struct Step {
@@ -46,14 +32,10 @@ struct Step {
 fn prescribed_velocity(x: vec3f, moment: u32) -> vec3f {
     var gradient = vec3f(0.0);
     for (var k = 0u; k < min(step.waves_count, MAX_WAVES); k++) {
-        let wave = step.waves[moment * MAX_WAVES + k];
-        gradient += wave.gain.x * cos(dot(wave.k_phase.xyz, x) + wave.k_phase.w) * wave.k_phase.xyz;
+        gradient += wave_gradient(step.waves[moment * MAX_WAVES + k], x);
     }
     for (var k = 0u; k < min(step.vortices_count, MAX_VORTICES); k++) {
-        let vortex = step.vortices[moment * MAX_VORTICES + k];
-        let centre = vortex.centre_sharpness.xyz;
-        let sharpness = vortex.centre_sharpness.w;
-        gradient += vortex.gain.x * sharpness * exp(sharpness * (dot(centre, x) - 1.0)) * centre;
+        gradient += vortex_gradient(step.vortices[moment * MAX_VORTICES + k], x);
     }
     return cross(x, gradient);
 }

@@ -18,6 +18,9 @@ fn merge(known: &mut MotionChange, newer: &MotionChange) {
     known.seed = newer.seed.or(known.seed);
     known.spin_deg_s = newer.spin_deg_s.or(known.spin_deg_s);
     known.evaporation_nm_s = newer.evaporation_nm_s.or(known.evaporation_nm_s);
+    known.gravity_m_s2 = newer.gravity_m_s2.or(known.gravity_m_s2);
+    known.drag_1_s = newer.drag_1_s.or(known.drag_1_s);
+    known.air_drag = newer.air_drag.or(known.air_drag);
 }
 
 fn begin(scene: &mut Scene, change: &MotionChange) {
@@ -34,6 +37,9 @@ pub fn describe(event: &Event, tick_s: f64) -> String {
         change.seed.map(|seed| format!("seed {seed}")),
         change.spin_deg_s.map(|[x, y, z]| format!("spin {x}, {y}, {z} °/s")),
         change.evaporation_nm_s.map(|rate| format!("evaporation {rate} nm/s")),
+        change.gravity_m_s2.map(|[x, y, z]| format!("gravity {x:.1}, {y:.1}, {z:.1} m/s²")),
+        change.drag_1_s.map(|rate| format!("drag {rate} 1/s")),
+        change.air_drag.map(|factor| format!("air drag {factor}")),
     ];
     let parts = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
     format!("{:.2} s: {parts}", event.tick as f64 * tick_s)
@@ -43,6 +49,7 @@ pub fn describe(event: &Event, tick_s: f64) -> String {
 #[must_use]
 pub fn flow_name(flow: Flow) -> &'static str {
     match flow {
+        Flow::Free => "free",
         Flow::Rest => "rest",
         Flow::Sloshing => "sloshing",
         Flow::Draught => "draught",

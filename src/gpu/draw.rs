@@ -88,7 +88,8 @@ pub struct BubbleUniform {
     pub extra_nm: f32,
     /// Thickness of both skins, in nm; above 0.
     pub skins_nm: f32,
-    pad: u32,
+    /// Cells along a panel's edge of the film's map.
+    pub map_cells: u32,
 }
 
 /// What a draw reads that other passes left.
@@ -147,8 +148,8 @@ impl DrawPass {
         let no_film = NoFilm::new(gpu);
         for bubble in &key.bubbles {
             let pipeline = gpu.pipelines.render(gpu, &bubble_pipeline(key, bubble, bands))?;
-            let uniform = gpu.uniform("bubble", &bubble_uniform(key, bubble));
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
+            let uniform = gpu.uniform("bubble", &bubble_uniform(key, bubble, &film));
             let own = [
                 uniform.as_entire_binding(),
                 table.axes.as_entire_binding(),
@@ -277,12 +278,12 @@ fn light_uniform(key: &DrawKey) -> LightUniform {
     }
 }
 
-fn bubble_uniform(key: &DrawKey, bubble: &BubbleKey) -> BubbleUniform {
+fn bubble_uniform(key: &DrawKey, bubble: &BubbleKey, shown: &Shown<'_>) -> BubbleUniform {
     let film = &key.bands.optics.film;
     let [low, high] = bubble.bounds.map(|corner| corner.as_vec2());
-    let (thickness_nm, cells, tracer_cells) = match &bubble.film {
-        FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0, 0),
-        FilmKey::Field(field) => (0.0, field.cells, field.cells * field.scheme.tracer_refinement() as u32),
+    let (thickness_nm, cells) = match &bubble.film {
+        FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0),
+        FilmKey::Field(field) => (0.0, field.cells),
     };
     let column = |axis: DVec3| (bubble.to_film * axis).extend(0.0).as_vec4().to_array();
     BubbleUniform {
@@ -291,12 +292,12 @@ fn bubble_uniform(key: &DrawKey, bubble: &BubbleKey) -> BubbleUniform {
         bounds: [low.x, low.y, high.x, high.y],
         thickness_nm,
         cells,
-        tracer_cells,
+        tracer_cells: shown.tracer_cells,
         thinned_nm: bubble.thinned_nm as f32,
         to_film: DVec3::AXES.map(column),
         black_nm: BLACK_FILM_NM as f32,
         extra_nm: film.equivalent_extra_nm() as f32,
         skins_nm: (2.0 * film.skin_nm).max(1e-3) as f32,
-        pad: 0,
+        map_cells: shown.map_cells,
     }
 }

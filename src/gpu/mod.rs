@@ -9,6 +9,7 @@ pub mod conserve;
 pub mod correct_error;
 pub mod decide_remap;
 pub mod device;
+pub mod diffuse;
 pub mod draw;
 pub mod environment;
 pub mod film;

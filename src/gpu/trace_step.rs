@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DMat3;
 
-use super::{GpuError, film::Grid, pipelines::ComputeKey, timing::Recorder};
+use super::{GpuError, film::Grid, flow::BACKTRACE, pipelines::ComputeKey, timing::Recorder};
 use crate::physics::{
     film::{FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow},
     transport::{PERIOD, Wind, WindKind},
@@ -69,11 +69,24 @@ pub struct StepUniform {
     pub vortices: [[FrozenVortex; MAX_VORTICES]; 3],
 }
 
+/// A step in a solved flow: see `shaders/pass/trace_flow.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct SolvedUniform {
+    /// Length of the step in seconds.
+    pub dt_s: f32,
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    pad: [u32; 2],
+}
+
 /// One step of a film's motion, from a time to a later one. From a time to an earlier one it is the way back.
 #[derive(Clone, Debug)]
-pub struct Step {
-    kind: FlowKind,
-    uniform: Box<StepUniform>,
+pub enum Step {
+    /// In a flow in closed form.
+    Closed(FlowKind, Box<StepUniform>),
+    /// In a solver's velocity on the grid that steps are traced on, which stands still for so many seconds.
+    Solved(wgpu::Buffer, f64),
 }
 
 impl Step {
@@ -92,7 +105,7 @@ impl Step {
                 *slot = *vortex;
             }
         }
-        Self { kind: FlowKind::Prescribed, uniform }
+        Self::Closed(FlowKind::Prescribed, uniform)
     }
 
     /// A step of a test wind.
@@ -107,7 +120,7 @@ impl Step {
             WindKind::NonDivergent => FlowKind::NonDivergent,
             WindKind::Divergent => FlowKind::Divergent,
         };
-        Self { kind, uniform }
+        Self::Closed(kind, uniform)
     }
 
     fn empty(from_s: f64, to_s: f64) -> Box<StepUniform> {
@@ -119,19 +132,28 @@ impl Step {
     /// The way back: where the liquid at a place when the step begins will be when it ends.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        let mut reversed = self.clone();
-        let uniform = &mut reversed.uniform;
-        uniform.dt_s = -uniform.dt_s;
-        uniform.moments.reverse();
-        uniform.waves.reverse();
-        uniform.vortices.reverse();
-        reversed
+        match self {
+            Self::Closed(kind, uniform) => {
+                let mut uniform = uniform.clone();
+                uniform.dt_s = -uniform.dt_s;
+                uniform.moments.reverse();
+                uniform.waves.reverse();
+                uniform.vortices.reverse();
+                Self::Closed(*kind, uniform)
+            }
+            Self::Solved(velocity, dt_s) => Self::Solved(velocity.clone(), -dt_s),
+        }
     }
 
     /// Whether its times are numbers that a device can work with.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.uniform.dt_s.is_finite() && self.uniform.moments.iter().all(|moment| moment.reversal.is_finite())
+        match self {
+            Self::Closed(_, uniform) => {
+                uniform.dt_s.is_finite() && uniform.moments.iter().all(|moment| moment.reversal.is_finite())
+            }
+            Self::Solved(_, dt_s) => dt_s.is_finite(),
+        }
     }
 }
 
@@ -152,9 +174,21 @@ pub fn trace_step(
     grid: &Grid,
     step_map: &wgpu::Buffer,
 ) -> Result<(), GpuError> {
-    let uniform = recorder.gpu.uniform("step", &StepUniform { cells: grid.cells, ..*step.uniform });
-    let resources = [uniform.as_entire_binding(), grid.tangents.as_entire_binding(), step_map.as_entire_binding()];
-    let constants = vec![("FLOW", step.kind as u32)];
-    let key = ComputeKey { pass: "trace_step", entry: "trace_step", constants };
-    recorder.compute(name, &key, &resources, grid.padded_groups().into())
+    let [tangents, step_map] = [&grid.tangents, step_map].map(wgpu::Buffer::as_entire_binding);
+    let groups = grid.padded_groups().into();
+    match step {
+        Step::Closed(kind, uniform) => {
+            let uniform = recorder.gpu.uniform("step", &StepUniform { cells: grid.cells, ..**uniform });
+            let constants = vec![("FLOW", *kind as u32)];
+            let key = ComputeKey { pass: "trace_step", entry: "trace_step", constants };
+            recorder.compute(name, &key, &[uniform.as_entire_binding(), tangents, step_map], groups)
+        }
+        Step::Solved(velocity, dt_s) => {
+            let uniform = SolvedUniform { dt_s: *dt_s as f32, cells: grid.cells, pad: [0; 2] };
+            let uniform = recorder.gpu.uniform("solved step", &uniform);
+            let key = ComputeKey { pass: "trace_flow", entry: "trace_flow", constants: BACKTRACE.to_vec() };
+            let velocity = velocity.as_entire_binding();
+            recorder.compute(name, &key, &[uniform.as_entire_binding(), tangents, velocity, step_map], groups)
+        }
+    }
 }

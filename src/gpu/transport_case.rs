@@ -64,6 +64,7 @@ impl Case {
                 error_limit_cells: RemapRule::ERROR_LIMIT_CELLS,
                 latest_ticks: (REMAP_PERIODS * f64::from(self.steps_a_period)).max(1.0) as u32,
             },
+            map_coarsening: 1,
             coarse_flow: false,
         }
     }

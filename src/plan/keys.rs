@@ -9,6 +9,7 @@ use crate::{
         colour::{BandTask, FilmOptics, Gamut, Illuminant},
         environment::CubeMap,
         film::{InitialFilm, PrescribedFlow},
+        flow::FlowForces,
         optics::FilmMaterial,
         sphere::CubedSphere,
         transport::Scheme,
@@ -229,26 +230,43 @@ pub enum FlowLaw {
         /// Which of all such flows.
         seed: u32,
     },
+    /// By gravity and the air: vorticity and stream function are solved for.
+    Free(FreeFlow),
+}
+
+/// What a free film is subject to, on the unit sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeFlow {
+    /// Gravity, drag and viscosity.
+    pub forces: FlowForces,
+    /// Diffusion of thickness, rad²/s.
+    pub diffusion: f64,
+    /// Factor on the speed of the draught around the film.
+    pub draught: f64,
+    /// Which of all draughts.
+    pub seed: u32,
+}
+
+impl FreeFlow {
+    /// The longest step of the flow in seconds: a quarter of a radian of the fastest wave of buoyancy in film whose ln h changes by 1 a
+    /// radian, at which film with 60 times as steep changes is still stable.
+    #[must_use]
+    pub fn longest_step_s(&self) -> f64 {
+        const LONGEST_S: f64 = 1.0 / 30.0;
+        (0.25 / self.forces.gravity.length().sqrt()).min(LONGEST_S)
+    }
 }
 
 impl FlowLaw {
-    /// The law as a velocity field.
+    /// The law as a velocity field; for a free film that of the air.
     #[must_use]
     pub fn prescribed(self) -> PrescribedFlow {
         match self {
             Self::Rest => PrescribedFlow::default(),
+            Self::Free(free) => PrescribedFlow::draught(free.seed, free.draught),
             Self::Sloshing { strength, seed } => PrescribedFlow::sloshing(seed, strength),
             Self::Draught { strength, seed } => PrescribedFlow::draught(seed, strength),
             Self::Stirred { strength, seed } => PrescribedFlow::stirred(seed, strength),
-        }
-    }
-
-    fn strength(self) -> f64 {
-        match self {
-            Self::Rest => 0.0,
-            Self::Sloshing { strength, .. } | Self::Draught { strength, .. } | Self::Stirred { strength, .. } => {
-                strength
-            }
         }
     }
 
@@ -256,9 +274,16 @@ impl FlowLaw {
     /// even those would move nothing by a thousandth of a cell.
     #[must_use]
     pub fn ticks_a_step(self, tick_s: f64, cell_angle: f64) -> u64 {
+        let strength = match self {
+            Self::Rest => 0.0,
+            Self::Sloshing { strength, .. } | Self::Draught { strength, .. } | Self::Stirred { strength, .. } => {
+                strength
+            }
+            Self::Free(free) => return (free.longest_step_s() / tick_s).max(1.0) as u64,
+        };
         // At strength 1 the fastest vortices turn by a quarter of a radian in 0.1 s, where a Runge-Kutta step errs by 1e-5 of that; the
         // swings of 2 s and more are followed by its three moments.
-        let accurate_s = (0.1 / self.strength()).min(0.2);
+        let accurate_s = (0.1 / strength).min(0.2);
         let still_s = 1e-3 * cell_angle / self.prescribed().max_speed_bound();
         (accurate_s.max(still_s) / tick_s).max(1.0) as u64
     }
@@ -286,6 +311,8 @@ pub struct FieldKey {
     pub scheme: Scheme,
     /// The most ticks from one remap of the flow map to the next.
     pub remap_ticks: u32,
+    /// What evaporates from a tick on, in nm a second, in the order of ticks; empty for films whose motion does not depend on it.
+    pub evaporation: Vec<(u64, f64)>,
     /// Laws in the order of their ticks, as far as the moment has seen them; the first holds from tick 0.
     pub flows: Vec<FlowSegment>,
     /// The moment.
@@ -309,6 +336,15 @@ impl FieldKey {
     #[must_use]
     pub fn law(&self, tick: u64) -> FlowLaw {
         self.flows.iter().rev().find(|segment| segment.from_tick <= tick).map_or(FlowLaw::Rest, |segment| segment.law)
+    }
+
+    /// What has evaporated since the beginning, in nm, at a time in ticks.
+    #[must_use]
+    pub fn thinned_nm(&self, ticks: f64) -> f64 {
+        let ends = self.evaporation.iter().skip(1).map(|(tick, _)| *tick as f64).chain(std::iter::once(f64::INFINITY));
+        let lost =
+            |((from, rate), end): (&(u64, f64), f64)| rate * self.tick_s * (ticks.min(end) - *from as f64).max(0.0);
+        self.evaporation.iter().zip(ends).map(lost).sum()
     }
 
     /// The last tick until the moment at which a step ends: where the film's state stands. What the moment is beyond it, the shown
@@ -360,9 +396,11 @@ impl FieldKey {
     pub fn law_differs_until(&self, other: &Self) -> bool {
         let end = other.moment.end_tick();
         let past = |key: &Self| key.flows.iter().filter(|segment| segment.from_tick < end).copied().collect::<Vec<_>>();
+        let thinning = |key: &Self| key.evaporation.iter().filter(|(tick, _)| *tick < end).copied().collect::<Vec<_>>();
         (self.cells, self.initial, self.tick_s, self.scheme, self.remap_ticks)
             != (other.cells, other.initial, other.tick_s, other.scheme, other.remap_ticks)
             || past(self) != past(other)
+            || thinning(self) != thinning(other)
     }
 }
 

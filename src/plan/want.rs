@@ -6,13 +6,14 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{
     BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment,
-    LightKey, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want, range_nm,
+    FreeFlow, LightKey, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want, range_nm,
 };
 use crate::{
     physics::{
         colour::{Gamut, Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
         film::InitialFilm,
+        flow::{AIR_DRAG, FlowForces},
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
         transport::Scheme,
     },
@@ -245,22 +246,24 @@ fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
         FilmStateName::Uniform => return FilmKey::Uniform(thickness_nm),
         FilmStateName::Rest if film.stratification == 0.0 => return FilmKey::Uniform(thickness_nm),
         FilmStateName::Rest => InitialFilm::Rest { thickness_nm, stratification: film.stratification },
-        FilmStateName::Blown => {
-            InitialFilm::Blown { thickness_nm, stratification: film.stratification, seed: fold_seed(film.seed) }
-        }
+        FilmStateName::Blown => InitialFilm::Blown { thickness_nm, stratification: 0.0, seed: fold_seed(film.seed) },
     };
-    let mut flows = flows(scene);
+    let mut flows = flows(scene, bubble.radius_mm * 1e-3);
     let moment = last_moved(&flows, moment);
     // Laws that come into force later leave the film as it is: a key holds what its product depends on.
     flows.retain(|segment| segment.from_tick < moment.end_tick());
+    let is_free = flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_)));
+    let mut evaporation = if is_free { evaporation(scene) } else { Vec::new() };
+    evaporation.retain(|(tick, _)| *tick < moment.end_tick());
     FilmKey::Field(FieldKey {
         cells: film.cells,
         initial,
         tick_s: scene.motion.tick_s,
         scheme: scheme(&scene.motion),
         remap_ticks: scene.motion.remap_ticks,
-        moment,
+        evaporation,
         flows,
+        moment,
     })
 }
 
@@ -269,14 +272,27 @@ fn fold_seed(seed: u64) -> u32 {
     (seed ^ (seed >> 32)) as u32
 }
 
-/// The laws that drive a scene's films, in order, each where it differs from the one before.
-fn flows(scene: &Scene) -> Vec<FlowSegment> {
-    let ticks = std::iter::once(0).chain(scene.events.iter().map(|event| event.tick));
+/// Ticks at which the motion may change, the first included.
+fn changes(scene: &Scene) -> impl Iterator<Item = u64> {
+    std::iter::once(0).chain(scene.events.iter().map(|event| event.tick))
+}
+
+/// What evaporates from the films, from which tick on, each entry where it differs from the one before.
+fn evaporation(scene: &Scene) -> Vec<(u64, f64)> {
+    let mut rates: Vec<(u64, f64)> =
+        changes(scene).map(|tick| (tick, scene.motion_at(tick).evaporation_nm_s)).collect();
+    rates.dedup_by_key(|(_, rate)| *rate);
+    rates
+}
+
+/// The laws that drive the film of a bubble, in order, each where it differs from the one before.
+fn flows(scene: &Scene, radius_m: f64) -> Vec<FlowSegment> {
     let mut flows: Vec<FlowSegment> = Vec::new();
-    for from_tick in ticks {
+    for from_tick in changes(scene) {
         let motion = scene.motion_at(from_tick);
         let (strength, seed) = (motion.strength, fold_seed(motion.seed));
         let law = match motion.flow {
+            Flow::Free => FlowLaw::Free(free_flow(&motion, radius_m)),
             _ if strength == 0.0 => FlowLaw::Rest,
             Flow::Rest => FlowLaw::Rest,
             Flow::Sloshing => FlowLaw::Sloshing { strength, seed },
@@ -288,6 +304,21 @@ fn flows(scene: &Scene) -> Vec<FlowSegment> {
         }
     }
     flows
+}
+
+/// What a free film is subject to, with the radius as the unit of length.
+fn free_flow(motion: &Motion, radius_m: f64) -> FreeFlow {
+    FreeFlow {
+        forces: FlowForces {
+            gravity: DVec3::from(motion.gravity_m_s2) / radius_m,
+            drag: motion.drag_1_s,
+            air_drag: AIR_DRAG * motion.air_drag,
+            viscosity: motion.viscosity_m2_s / radius_m.powi(2),
+        },
+        diffusion: motion.diffusion_m2_s / radius_m.powi(2),
+        draught: motion.strength,
+        seed: fold_seed(motion.seed),
+    }
 }
 
 /// The last moment until `moment` at which the film moved: while it rests, time changes nothing.

@@ -36,12 +36,12 @@ impl Bubble {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Film {
-    /// How the thickness is spread over the sphere. Default: `rest`.
+    /// How the thickness is spread over the sphere. Default: `blown`.
     pub state: FilmStateName,
-    /// Mean total thickness along the normal, nm; 0 ..= 10000, and at least 1 unless `state` is `uniform`. Default: 550.
+    /// Mean total thickness along the normal, nm; 0 ..= 10000, and at least 1 unless `state` is `uniform`. Default: 700.
     pub thickness_nm: f64,
     /// The `a` of the rest state `h = mean (a / sinh a) exp(-a cos colatitude)`, no unit; -5 ..= 5, negative is thick on top.
-    /// Only `rest` uses it. Default: 0.6, a drained film.
+    /// Only `rest` uses it. Default: 0.7, a drained film.
     pub stratification: f64,
     /// Refractive index. Default: `water`.
     pub index: FilmIndexName,
@@ -56,8 +56,8 @@ pub struct Film {
 impl Default for Film {
     fn default() -> Self {
         Self {
-            state: FilmStateName::Rest,
-            thickness_nm: 580.0,
+            state: FilmStateName::Blown,
+            thickness_nm: 700.0,
             stratification: 0.7,
             index: FilmIndexName::Water,
             skin_nm: 0.0,

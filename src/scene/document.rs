@@ -47,6 +47,9 @@ pub(super) fn every_key() -> Table {
         seed: Some(1),
         spin_deg_s: Some([0.0; 3]),
         evaporation_nm_s: Some(0.0),
+        gravity_m_s2: Some([0.0; 3]),
+        drag_1_s: Some(0.0),
+        air_drag: Some(0.0),
     };
     let scene = Scene {
         bubbles: vec![Bubble::default()],

@@ -2,11 +2,6 @@
 
 use super::check::{self, Checked, Fault};
 use serde::{Deserialize, Serialize};
-use std::ops::RangeInclusive;
-
-const STRENGTH: RangeInclusive<f64> = 0.0..=10.0;
-const SPIN_DEG_S: RangeInclusive<f64> = -3600.0..=3600.0;
-const EVAPORATION_NM_S: RangeInclusive<f64> = 0.0..=1000.0;
 
 /// The clock and the flow of the films: `[motion]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,12 +9,23 @@ const EVAPORATION_NM_S: RangeInclusive<f64> = 0.0..=1000.0;
 pub struct Motion {
     /// Length of a tick, s; 0.0001 ..= 0.1. Default: 1/60.
     pub tick_s: f64,
-    /// What moves the film. Default: `draught`.
+    /// What moves the film. Default: `free`.
     pub flow: Flow,
-    /// Factor on the speed of the flow; 0 ..= 10. Default: 1.
+    /// Factor on the speed of the flow, of a free film on that of the draught around it; 0 ..= 10. Default: 1.
     pub strength: f64,
     /// Seed of the flow. Default: 1.
     pub seed: u64,
+    /// Gravity less the bubble's own acceleration, m/s², along the three axes of the world; -1000 ..= 1000. It moves a free film alone, as
+    /// the next four keys do. Default: [0, 0, -9.81].
+    pub gravity_m_s2: [f64; 3],
+    /// Rate at which a free film is slowed down whatever its thickness, 1/s; 0 ..= 1000. Default: 2.
+    pub drag_1_s: f64,
+    /// Factor on the drag of the air's boundary layer, which goes as the root of the speed over the thickness; 0 ..= 10. Default: 0.
+    pub air_drag: f64,
+    /// Kinematic viscosity of the film, m²/s: that of the liquid and of its surfaces; 0 ..= 1. Real films: 2e-5 to 2e-3. Default: 1e-4.
+    pub viscosity_m2_s: f64,
+    /// How fast differences of thickness spread within the film, m²/s; 0 ..= 1e-3. Default: 5e-7.
+    pub diffusion_m2_s: f64,
     /// Turn of all films as a whole, degrees a second about the three axes of the world; -3600 ..= 3600. Default: [0, 0, 0].
     pub spin_deg_s: [f64; 3],
     /// What evaporates from the whole film, nm of thickness a second, down to 10 nm of black film; 0 ..= 1000. Default: 0.
@@ -36,9 +42,14 @@ impl Default for Motion {
     fn default() -> Self {
         Self {
             tick_s: 1.0 / 60.0,
-            flow: Flow::Stirred,
-            strength: 0.5,
+            flow: Flow::Free,
+            strength: 1.0,
             seed: 1,
+            gravity_m_s2: [0.0, 0.0, -9.81],
+            drag_1_s: 2.0,
+            air_drag: 0.0,
+            viscosity_m2_s: 1e-4,
+            diffusion_m2_s: 5e-7,
             spin_deg_s: [0.0; 3],
             evaporation_nm_s: 0.0,
             scheme: TransportScheme::Map,
@@ -51,9 +62,14 @@ impl Default for Motion {
 impl Motion {
     pub(super) fn check(&self) -> Checked {
         check::in_range("tick_s", self.tick_s, 1e-4..=0.1)?;
-        check::in_range("strength", self.strength, STRENGTH)?;
-        self.spin_deg_s.iter().try_for_each(|rate| check::in_range("spin_deg_s", *rate, SPIN_DEG_S))?;
-        check::in_range("evaporation_nm_s", self.evaporation_nm_s, EVAPORATION_NM_S)?;
+        check::in_range("strength", self.strength, 0.0..=10.0)?;
+        check::all_in_range("spin_deg_s", self.spin_deg_s, -3600.0..=3600.0)?;
+        check::in_range("evaporation_nm_s", self.evaporation_nm_s, 0.0..=1000.0)?;
+        check::all_in_range("gravity_m_s2", self.gravity_m_s2, -1000.0..=1000.0)?;
+        check::in_range("drag_1_s", self.drag_1_s, 0.0..=1000.0)?;
+        check::in_range("air_drag", self.air_drag, 0.0..=10.0)?;
+        check::in_range("viscosity_m2_s", self.viscosity_m2_s, 0.0..=1.0)?;
+        check::in_range("diffusion_m2_s", self.diffusion_m2_s, 0.0..=1e-3)?;
         check::in_range("remap_ticks", self.remap_ticks, 1..=1000)?;
         check::in_range("speed", self.speed, 0.01..=100.0)
     }
@@ -63,6 +79,8 @@ impl Motion {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Flow {
+    /// Gravity and the air, as in a real film: what is thin rises, what is thick sinks.
+    Free,
     /// Nothing.
     Rest,
     /// The film swings as a whole about its rest state.
@@ -127,6 +145,12 @@ pub struct MotionChange {
     pub spin_deg_s: Option<[f64; 3]>,
     /// New [`Motion::evaporation_nm_s`]; 0 ..= 1000.
     pub evaporation_nm_s: Option<f64>,
+    /// New [`Motion::gravity_m_s2`]; -1000 ..= 1000.
+    pub gravity_m_s2: Option<[f64; 3]>,
+    /// New [`Motion::drag_1_s`]; 0 ..= 1000.
+    pub drag_1_s: Option<f64>,
+    /// New [`Motion::air_drag`]; 0 ..= 10.
+    pub air_drag: Option<f64>,
 }
 
 impl MotionChange {
@@ -139,6 +163,9 @@ impl MotionChange {
             seed: self.seed.unwrap_or(motion.seed),
             spin_deg_s: self.spin_deg_s.unwrap_or(motion.spin_deg_s),
             evaporation_nm_s: self.evaporation_nm_s.unwrap_or(motion.evaporation_nm_s),
+            gravity_m_s2: self.gravity_m_s2.unwrap_or(motion.gravity_m_s2),
+            drag_1_s: self.drag_1_s.unwrap_or(motion.drag_1_s),
+            air_drag: self.air_drag.unwrap_or(motion.air_drag),
             ..motion
         }
     }
@@ -147,10 +174,8 @@ impl MotionChange {
         if *self == Self::default() {
             return Err(Fault::new("kind", "is \"motion\" but nothing changes; set `flow` or another key of [motion]"));
         }
-        self.strength.map_or(Ok(()), |strength| check::in_range("strength", strength, STRENGTH))?;
-        let spin = self.spin_deg_s.iter().flatten();
-        spin.copied().try_for_each(|rate| check::in_range("spin_deg_s", rate, SPIN_DEG_S))?;
-        self.evaporation_nm_s.map_or(Ok(()), |rate| check::in_range("evaporation_nm_s", rate, EVAPORATION_NM_S))
+        // What is not changed takes a value that is in range.
+        self.applied_to(Motion::default()).check()
     }
 }
 
@@ -166,6 +191,9 @@ struct Entry {
     seed: Option<u64>,
     spin_deg_s: Option<[f64; 3]>,
     evaporation_nm_s: Option<f64>,
+    gravity_m_s2: Option<[f64; 3]>,
+    drag_1_s: Option<f64>,
+    air_drag: Option<f64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -175,18 +203,38 @@ enum Kind {
 }
 
 impl From<Entry> for Event {
-    fn from(Entry { tick, kind, flow, strength, seed, spin_deg_s, evaporation_nm_s }: Entry) -> Self {
-        let change = match kind {
-            Kind::Motion => Change::Motion(MotionChange { flow, strength, seed, spin_deg_s, evaporation_nm_s }),
+    fn from(entry: Entry) -> Self {
+        let change = match entry.kind {
+            Kind::Motion => Change::Motion(MotionChange {
+                flow: entry.flow,
+                strength: entry.strength,
+                seed: entry.seed,
+                spin_deg_s: entry.spin_deg_s,
+                evaporation_nm_s: entry.evaporation_nm_s,
+                gravity_m_s2: entry.gravity_m_s2,
+                drag_1_s: entry.drag_1_s,
+                air_drag: entry.air_drag,
+            }),
         };
-        Self { tick, change }
+        Self { tick: entry.tick, change }
     }
 }
 
 impl From<Event> for Entry {
     fn from(Event { tick, change }: Event) -> Self {
-        let Change::Motion(MotionChange { flow, strength, seed, spin_deg_s, evaporation_nm_s }) = change;
-        Self { tick, kind: Kind::Motion, flow, strength, seed, spin_deg_s, evaporation_nm_s }
+        let Change::Motion(change) = change;
+        Self {
+            tick,
+            kind: Kind::Motion,
+            flow: change.flow,
+            strength: change.strength,
+            seed: change.seed,
+            spin_deg_s: change.spin_deg_s,
+            evaporation_nm_s: change.evaporation_nm_s,
+            gravity_m_s2: change.gravity_m_s2,
+            drag_1_s: change.drag_1_s,
+            air_drag: change.air_drag,
+        }
     }
 }
 

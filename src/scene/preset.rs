@@ -8,11 +8,16 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 13] = presets![
+const PRESETS: [(&str, &str); 18] = presets![
     "default",
     "fresh",
     "bands",
+    "draining",
     "black",
+    "stirred",
+    "glycerol",
+    "weightless",
+    "giant",
     "windows",
     "bright",
     "lamplight",

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Run;
+use super::{Run, sorting};
 use crate::{
     gpu::{
         GpuError,
@@ -21,7 +21,8 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     stationary(run)?;
     poisson(run)?;
     decay(run)?;
-    sloshing(run)
+    sloshing(run)?;
+    sorting::run(run)
 }
 
 /// Measures a case, if there is one.

@@ -6,6 +6,7 @@ mod optics;
 mod picture;
 mod random;
 pub mod reference;
+pub mod sorting;
 mod stability;
 mod transport;
 

@@ -192,6 +192,7 @@ fn field(run: &Run<'_>, cells: usize, initial: Initial) -> Result<Field, GpuErro
         gathered: Gathered::Nothing,
         conserved: true,
         remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: 20 },
+        map_coarsening: 1,
         coarse_flow: true,
     };
     let mut field = Field::new(run.gpu, sphere, rules)?;

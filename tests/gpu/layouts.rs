@@ -10,13 +10,14 @@ use soapfilm::{
         compose_map::ComposeUniform,
         conserve::ConserveUniform,
         decide_remap::DecideUniform,
+        diffuse::DiffuseUniform,
         draw::{BubbleUniform, LightUniform, ViewUniform},
-        film::{BalanceBlock, ControlBlock, RemapArguments},
+        film::{BalanceBlock, ControlBlock, GustsUniform, RemapArguments, ThicknessUniform},
         flow::{CoarseLevel, CoarseUniform, CombineUniform, FlowMeasures, FlowUniform, SolveUniform},
         probe_colour::ProbePoint,
         sample_tracer::SampleUniform,
         tonemap::TonemapUniform,
-        trace_step::{StepUniform, WindMoment},
+        trace_step::{SolvedUniform, StepUniform, WindMoment},
     },
     physics::{
         film::{FrozenVortex, FrozenWave},
@@ -82,7 +83,8 @@ fn mirrors() -> Vec<Mirror> {
             to_film = to_film,
             black_nm = black_nm,
             extra_nm = extra_nm,
-            skins_nm = skins_nm
+            skins_nm = skins_nm,
+            map_cells = map_cells
         ),
         mirror!("TableAxes", TableAxes, size = size, max_thickness_nm = max_thickness_nm, index = index),
         mirror!("Bake", BakeUniform, axes = axes, first_row = first_row),
@@ -146,7 +148,8 @@ fn mirrors() -> Vec<Mirror> {
             ticks_since_remap = ticks_since_remap,
             remaps = remaps,
             distortion = distortion,
-            healed = healed
+            healed = healed,
+            ticks_remapped = ticks_remapped
         ),
         mirror!("Balance", BalanceBlock, offset = offset, slope = slope),
         mirror!(
@@ -211,6 +214,36 @@ fn mirrors() -> Vec<Mirror> {
             cells = cells,
             waves_count = waves_count,
             vortices_count = vortices_count,
+            waves = waves,
+            vortices = vortices
+        ),
+        mirror!("Solved", SolvedUniform, dt_s = dt_s, cells = cells),
+        mirror!(
+            "Diffuse",
+            DiffuseUniform,
+            cells = cells,
+            stage = stage,
+            rate = rate,
+            most = most,
+            before = before,
+            earlier = earlier
+        ),
+        mirror!(
+            "Thickness",
+            ThicknessUniform,
+            cells = cells,
+            map_cells = map_cells,
+            tracer_cells = tracer_cells,
+            thinned_nm = thinned_nm,
+            black_nm = black_nm
+        ),
+        mirror!(
+            "Gusts",
+            GustsUniform,
+            cells = cells,
+            waves_count = waves_count,
+            vortices_count = vortices_count,
+            rate = rate,
             waves = waves,
             vortices = vortices
         ),

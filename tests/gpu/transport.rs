@@ -29,6 +29,7 @@ const RULES: Rules = Rules {
     conserved: true,
     // As if the map were never too distorted, so that remaps come when the twin has them.
     remap: remap(20),
+    map_coarsening: 1,
     coarse_flow: true,
 };
 

@@ -8,7 +8,8 @@ use crate::{
     scene::{Flow, Motion, MotionChange},
 };
 
-const FLOWS: [(Flow, &str, &str); 4] = [
+const FLOWS: [(Flow, &str, &str); 5] = [
+    (Flow::Free, "free", "Gravity and the air, as in a real film"),
     (Flow::Rest, "rest", "Nothing moves the film"),
     (Flow::Sloshing, "slosh", "The film swings as a whole about its rest state"),
     (Flow::Draught, "draught", "Slow, large gusts of the air around the bubble"),

@@ -18,6 +18,8 @@ pub struct ControlBlock {
     pub distortion: u32,
     /// Values that were not finite and have been replaced.
     pub healed: u32,
+    /// Ticks that the last remap came after the one before it.
+    pub ticks_remapped: u32,
 }
 
 /// See `shaders/film/control.wgsl`.
@@ -81,7 +83,7 @@ impl Control {
     }
 
     /// A pass over the tracer's texels, if a remap is due.
-    pub(super) fn tracer_groups(&self) -> Groups<'_> {
+    pub(in crate::gpu) fn tracer_groups(&self) -> Groups<'_> {
         Groups::From(&self.arguments, offset_of!(RemapArguments, tracer_groups) as u64)
     }
 
@@ -96,7 +98,7 @@ impl Control {
     }
 
     /// A single workgroup, if a remap is due.
-    pub(super) fn one_group(&self) -> Groups<'_> {
+    pub(in crate::gpu) fn one_group(&self) -> Groups<'_> {
         Groups::From(&self.arguments, offset_of!(RemapArguments, one_group) as u64)
     }
 }

@@ -28,7 +28,7 @@ impl Grid {
     }
 
     /// A field of so many bytes a cell in padded storage.
-    pub(super) fn field(&self, gpu: &Gpu, label: &str, bytes: u64) -> wgpu::Buffer {
+    pub(in crate::gpu) fn field(&self, gpu: &Gpu, label: &str, bytes: u64) -> wgpu::Buffer {
         use wgpu::BufferUsages as Usage;
         gpu.buffer(label, self.sphere.padded_len() as u64 * bytes, Usage::STORAGE | Usage::COPY_SRC | Usage::COPY_DST)
     }

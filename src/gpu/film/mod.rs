@@ -10,9 +10,11 @@
 //! sphere; nothing is ever copied across edges.
 
 mod control;
+mod free;
 mod grid;
 
 pub use control::{BalanceBlock, Control, ControlBlock, RemapArguments};
+pub use free::{FreeMotion, GustsUniform, Surroundings, ThicknessUniform};
 pub use grid::{FilmTexture, Grid};
 
 use rayon::prelude::*;
@@ -23,6 +25,7 @@ use super::{
     conserve::{Sum, Target, conserve, parts},
     correct_error::correct_error,
     decide_remap::{RemapRule, decide_remap},
+    diffuse::Diffusion,
     read_film::read_film,
     readback::Readback,
     reset_map::reset_map,
@@ -52,6 +55,8 @@ pub struct Rules {
     pub conserved: bool,
     /// When the map is remapped.
     pub remap: RemapRule,
+    /// How many of the film's cells a cell of the map spans along each side; the map of a smooth flow may be coarser than the film.
+    pub map_coarsening: u32,
     /// Whether steps may be traced on a coarser grid, as smooth flows may.
     pub coarse_flow: bool,
 }
@@ -69,6 +74,8 @@ pub struct Field {
     film: Grid,
     /// The tracer's grid, where it is another one.
     fine: Option<Grid>,
+    /// The map's grid, where it is another one.
+    smooth: Option<Grid>,
     /// Where steps are traced, if not on the film's own grid.
     coarse: Option<Grid>,
     step_map: wgpu::Buffer,
@@ -91,6 +98,8 @@ pub struct Field {
     control: Control,
     /// What must be kept, of what is shown and of the tracer.
     targets: [Target; 2],
+    /// What spreads the thickness at remaps, if anything does.
+    diffusion: Option<Diffusion>,
 }
 
 /// What [`Field::plant`] spoils.
@@ -111,8 +120,12 @@ pub struct Shown<'a> {
     pub balance: &'a wgpu::Buffer,
     /// The map that it was sampled through.
     pub map: &'a wgpu::Buffer,
+    /// Its cells along a panel's edge.
+    pub map_cells: u32,
     /// The tracer that was sampled.
     pub tracer: &'a wgpu::Buffer,
+    /// Its cells along a panel's edge.
+    pub tracer_cells: u32,
 }
 
 /// An empty film for pictures that read none.
@@ -132,7 +145,14 @@ impl NoFilm {
     #[must_use]
     pub fn shown(&self) -> Shown<'_> {
         let Control { shown_balance, partial_sums, .. } = &self.control;
-        Shown { film: &self.film.view, balance: shown_balance, map: partial_sums, tracer: partial_sums }
+        Shown {
+            film: &self.film.view,
+            balance: shown_balance,
+            map: partial_sums,
+            map_cells: 0,
+            tracer: partial_sums,
+            tracer_cells: 0,
+        }
     }
 }
 
@@ -152,11 +172,13 @@ impl Field {
         let tracer = rules.scheme.tracer_grid(sphere).map_err(|error| GpuError::Refused(error.to_string()))?;
         let film = Grid::new(gpu, sphere);
         let fine = (tracer != sphere).then(|| Grid::new(gpu, tracer));
+        let map_sphere = CubedSphere::new(sphere.n().div_ceil(rules.map_coarsening.max(1) as usize));
+        let smooth = map_sphere.ok().filter(|map| *map != sphere).map(|map| Grid::new(gpu, map));
         let coarse = flow_sphere(sphere).filter(|_| rules.coarse_flow).map(|sphere| Grid::new(gpu, sphere));
         let scalars = |label| fine.as_ref().unwrap_or(&film).field(gpu, label, 4);
         Ok(Self {
             step_map: coarse.as_ref().unwrap_or(&film).field(gpu, "step map", 16),
-            map: ["map", "next map"].map(|label| film.field(gpu, label, 16)),
+            map: ["map", "next map"].map(|label| smooth.as_ref().unwrap_or(&film).field(gpu, label, 16)),
             has_moved: false,
             ticks_since_decision: 0,
             tracer: scalars("tracer"),
@@ -167,11 +189,19 @@ impl Field {
             shown_map: 0,
             control: Control::new(gpu),
             targets: [Target::default(); 2],
+            diffusion: None,
             rules,
             film,
             fine,
+            smooth,
             coarse,
         })
+    }
+
+    /// Its mean over the sphere, which is kept.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        self.targets[0].mean
     }
 
     /// How it is moved.
@@ -186,8 +216,34 @@ impl Field {
         self.film.sphere
     }
 
+    /// The grid that steps are traced on.
+    fn flow_grid(&self) -> &Grid {
+        self.coarse.as_ref().unwrap_or(&self.film)
+    }
+
+    /// From now on the thickness spreads by so many rad²/s, in ticks of a length in seconds. Schemes without a map do not spread it.
+    pub fn diffuse(&mut self, gpu: &Gpu, rad2_s: f64, tick_s: f64) {
+        if self.diffusion.as_ref().is_none_or(|diffusion| diffusion.law() != (rad2_s, tick_s)) {
+            self.diffusion = Diffusion::new(gpu, self.tracer_grid(), rad2_s, tick_s);
+        }
+    }
+
+    /// When the map is remapped.
+    fn remap_rule(&self) -> RemapRule {
+        let latest_ticks = self.diffusion.as_ref().map_or(u32::MAX, Diffusion::latest_ticks);
+        // Errors count in cells of the film, whatever those of the map.
+        RemapRule {
+            error_limit_cells: self.rules.remap.error_limit_cells / self.rules.map_coarsening.max(1) as f32,
+            latest_ticks: self.rules.remap.latest_ticks.min(latest_ticks),
+        }
+    }
+
     fn tracer_grid(&self) -> &Grid {
         self.fine.as_ref().unwrap_or(&self.film)
+    }
+
+    fn map_grid(&self) -> &Grid {
+        self.smooth.as_ref().unwrap_or(&self.film)
     }
 
     /// Sets the tracer to a function of direction, and forgets all motion.
@@ -207,7 +263,8 @@ impl Field {
         self.has_moved = false;
         self.ticks_since_decision = 0;
         if self.rules.scheme.keeps_map() {
-            reset_map(recorder, "seed_field", &self.film, &self.map[0], self.film.padded_groups().into())?;
+            let grid = self.map_grid();
+            reset_map(recorder, "seed_field", grid, &self.map[0], grid.padded_groups().into())?;
         }
         Ok(())
     }
@@ -230,7 +287,7 @@ impl Field {
         self.compose(recorder, STEP, step, self.kept_map(), 1)?;
         self.map.swap(0, 1);
         self.ticks_since_decision += ticks;
-        if self.ticks_since_decision >= self.rules.remap.decision_ticks() {
+        if self.ticks_since_decision >= self.remap_rule().decision_ticks() {
             self.remap_if_due(recorder)?;
         }
         Ok(())
@@ -245,10 +302,10 @@ impl Field {
         before: Option<&wgpu::Buffer>,
         into: usize,
     ) -> Result<(), GpuError> {
-        let flow = self.coarse.as_ref().unwrap_or(&self.film);
+        let flow = self.flow_grid();
         trace_step(recorder, name, step, flow, &self.step_map)?;
         let composition = Composition {
-            grid: &self.film,
+            grid: self.map_grid(),
             step_cells: flow.cells,
             step_map: &self.step_map,
             before,
@@ -259,14 +316,17 @@ impl Field {
     }
 
     fn remap_if_due(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
-        let ticks = (std::mem::take(&mut self.ticks_since_decision), self.rules.remap);
-        let grids = (&self.film, self.tracer_grid());
+        let ticks = (std::mem::take(&mut self.ticks_since_decision), self.remap_rule());
+        let grids = (self.map_grid(), self.tracer_grid());
         decide_remap(recorder, STEP, grids, &self.map[0], &self.control, ticks)?;
         let due = &self.control;
         let tracers = [&self.tracer, &self.sampled];
         self.sample(recorder, STEP, self.tracer_grid(), self.kept_map(), tracers, due.tracer_groups())?;
+        if let Some(diffusion) = &self.diffusion {
+            diffusion.record(recorder, self.tracer_grid(), &self.control, &self.sampled, &self.tracer)?;
+        }
         self.settle(recorder, [due.sum_groups(), due.one_group(), due.tracer_groups()])?;
-        reset_map(recorder, STEP, &self.film, &self.map[0], due.map_groups())
+        reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())
     }
 
     /// Makes what was sampled the tracer; the workgroups of the sum, of its end, and of a pass over the tracer are given.
@@ -317,7 +377,7 @@ impl Field {
             gathered,
             grid,
             map,
-            map_cells: self.film.cells,
+            map_cells: self.map_grid().cells,
             tracer: (from, self.tracer_grid().cells),
             control: &self.control.block,
             to,
@@ -353,7 +413,9 @@ impl Field {
             film: &self.texture.view,
             balance: &self.control.shown_balance,
             map: &self.map[self.shown_map],
+            map_cells: self.map_grid().cells,
             tracer: &self.tracer,
+            tracer_cells: self.tracer_grid().cells,
         }
     }
 
@@ -366,7 +428,7 @@ impl Field {
     pub fn plant(&self, gpu: &Gpu, planted: Planted, cell: usize, value: f32) {
         let (buffer, sphere, numbers) = match planted {
             Planted::Tracer => (&self.tracer, self.tracer_grid().sphere, 1),
-            Planted::Map => (&self.map[0], self.film.sphere, 4),
+            Planted::Map => (&self.map[0], self.map_grid().sphere, 4),
         };
         let (panel, i, j) = sphere.cell(cell % sphere.cells());
         let place = sphere.padded_index(panel, i as isize, j as isize) as u64;

@@ -5,8 +5,9 @@ mod multigrid;
 
 use bytemuck::{Pod, Zeroable};
 
+pub(super) use multigrid::halo_entries;
 pub use multigrid::{CoarseLevel, CoarseUniform, SolveUniform};
-use multigrid::{Multigrid, System, halo_entries};
+use multigrid::{Multigrid, System};
 
 use super::{Gpu, GpuError, pipelines::ComputeKey, timing::Recorder};
 use crate::physics::{

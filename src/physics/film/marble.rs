@@ -9,9 +9,9 @@ use glam::{DMat3, DVec3};
 
 use super::random::{Random, pcg3d};
 
-const TWISTS: u32 = 44;
-/// Frequencies of the noise in lattice cells per radius, and their weights; the first patches are some 45° wide, the last 10°.
-const OCTAVES: [(f64, f64); 3] = [(1.7, 1.0), (3.3, 0.5), (6.3, 0.2)];
+const TWISTS: u32 = 24;
+/// Frequencies of the noise in lattice cells per radius, and their weights; the first patches are some 65° wide, the last 15°.
+const OCTAVES: [(f64, f64); 3] = [(1.2, 1.0), (2.3, 0.4), (4.4, 0.1)];
 /// Spreads the sum of octaves over the range: a standard deviation near 0.55 of (−1, 1).
 const CONTRAST: f64 = 3.6;
 

@@ -76,17 +76,23 @@ fn view() -> impl Strategy<Value = View> {
 }
 
 fn flow() -> impl Strategy<Value = Flow> {
-    prop_oneof![Just(Flow::Rest), Just(Flow::Sloshing), Just(Flow::Draught), Just(Flow::Stirred)]
+    prop_oneof![Just(Flow::Free), Just(Flow::Rest), Just(Flow::Sloshing), Just(Flow::Draught), Just(Flow::Stirred)]
 }
 
 fn motion() -> impl Strategy<Value = Motion> {
     let spins = (spin(), 0.0..1000.0, scheme());
-    (1e-4..0.1, flow(), 0.0..10.0, any::<u64>(), spins, 1u32..=1000, 0.01..100.0).prop_map(
-        |(tick_s, flow, strength, seed, (spin_deg_s, evaporation_nm_s, scheme), remap_ticks, speed)| Motion {
+    let forces = (gravity(), 0.0..1000.0, 0.0..10.0, 0.0..1.0, 0.0..1e-3);
+    (1e-4..0.1, flow(), 0.0..10.0, any::<u64>(), spins, forces, 1u32..=1000, 0.01..100.0).prop_map(
+        |(tick_s, flow, strength, seed, (spin_deg_s, evaporation_nm_s, scheme), forces, remap_ticks, speed)| Motion {
             tick_s,
             flow,
             strength,
             seed,
+            gravity_m_s2: forces.0,
+            drag_1_s: forces.1,
+            air_drag: forces.2,
+            viscosity_m2_s: forces.3,
+            diffusion_m2_s: forces.4,
             spin_deg_s,
             evaporation_nm_s,
             scheme,
@@ -100,17 +106,32 @@ fn spin() -> impl Strategy<Value = [f64; 3]> {
     [-3600.0..3600.0, -3600.0..3600.0, -3600.0..3600.0]
 }
 
+fn gravity() -> impl Strategy<Value = [f64; 3]> {
+    [-1000.0..1000.0, -1000.0..1000.0, -1000.0..1000.0]
+}
+
 fn scheme() -> impl Strategy<Value = TransportScheme> {
     use TransportScheme::{Bfecc, Bicubic, Bilinear, Map, MapAccurate};
     prop_oneof![Just(Bilinear), Just(Bicubic), Just(Bfecc), Just(Map), Just(MapAccurate)]
 }
 
 fn event() -> impl Strategy<Value = Event> {
-    let spins = (prop::option::of(spin()), prop::option::of(0.0..1000.0));
-    (any::<u64>(), prop::option::of(flow()), prop::option::of(0.0..10.0), any::<u64>(), spins).prop_map(
-        |(tick, flow, strength, seed, (spin_deg_s, evaporation_nm_s))| Event {
-            tick,
-            change: Change::Motion(MotionChange { flow, strength, seed: Some(seed), spin_deg_s, evaporation_nm_s }),
+    let maybe = |range: std::ops::Range<f64>| prop::option::of(range);
+    let spins = (prop::option::of(spin()), maybe(0.0..1000.0));
+    let forces = (prop::option::of(gravity()), maybe(0.0..1000.0), maybe(0.0..10.0));
+    (any::<u64>(), prop::option::of(flow()), maybe(0.0..10.0), any::<u64>(), spins, forces).prop_map(
+        |(tick, flow, strength, seed, (spin_deg_s, evaporation_nm_s), (gravity_m_s2, drag_1_s, air_drag))| {
+            let change = MotionChange {
+                flow,
+                strength,
+                seed: Some(seed),
+                spin_deg_s,
+                evaporation_nm_s,
+                gravity_m_s2,
+                drag_1_s,
+                air_drag,
+            };
+            Event { tick, change: Change::Motion(change) }
         },
     )
 }

@@ -1,0 +1,53 @@
+// The film as its flow feels it: the logarithm of the thickness in nm at the cells of the flow's grid, looked up through the film's map.
+
+import package::film::control::Control;
+import package::sphere::cubed::{HALO, padded_index, panel_direction};
+import package::sphere::lookup::{healed, map_at, tracer_at};
+
+// 0: there is no map, and the tracer is where it is.
+override HAS_MAP: u32;
+
+// Mirrors `ThicknessUniform` in src/gpu/film/free.rs.
+struct Thickness {
+    // Cells along a panel's edge: of the flow, of the map, and of the tracer.
+    cells: u32,
+    map_cells: u32,
+    tracer_cells: u32,
+    // What has evaporated from the tracer's thickness, and the black film that is left at least, nm.
+    thinned_nm: f32,
+    black_nm: f32,
+}
+
+@group(0) @binding(0) var<uniform> thickness: Thickness;
+// tan(alpha) of each cell coordinate of the flow's grid, halo included.
+@group(0) @binding(1) var<storage, read> tangents: array<f32>;
+@group(0) @binding(2) var<storage, read_write> control: Control;
+@group(0) @binding(3) var<storage, read> map: array<vec4f>;
+@group(0) @binding(4) var<storage, read> tracer: array<f32>;
+@group(0) @binding(5) var<storage, read_write> log_thickness: array<f32>;
+
+// There is but one map here.
+fn map_value(unused: u32, place: u32) -> vec4f {
+    return map[place];
+}
+
+fn tracer_value(place: u32) -> f32 {
+    return tracer[place];
+}
+
+@compute @workgroup_size(64)
+fn flow_thickness(@builtin(global_invocation_id) id: vec3u) {
+    if (id.x >= thickness.cells) {
+        return;
+    }
+    var origin = normalize(panel_direction(id.z, vec2f(tangents[id.x + HALO], tangents[id.y + HALO])));
+    if (HAS_MAP == 1u) {
+        origin = map_at(0u, origin, thickness.map_cells).xyz;
+    }
+    let value = tracer_at(origin, thickness.tracer_cells) - thickness.thinned_nm;
+    if (healed > 0u) {
+        atomicAdd(&control.healed, healed);
+    }
+    let place = padded_index(id.z, i32(id.x), i32(id.y), thickness.cells);
+    log_thickness[place] = log(max(value, thickness.black_nm));
+}

@@ -1,0 +1,29 @@
+// Traces one step back in a solved flow, whose velocity stands still meanwhile: from each cell to where its liquid was when the step began.
+// One invocation a cell, halo included.
+
+import package::flow::backtrace::backtrace;
+import package::sphere::cubed::{HALO, cell_place, panel_direction};
+
+// Mirrors `SolvedUniform` in src/gpu/trace_step.rs.
+struct Solved {
+    dt_s: f32,
+    // Cells along a panel's edge.
+    cells: u32,
+}
+
+@group(0) @binding(0) var<uniform> solved: Solved;
+// tan(alpha) of each cell coordinate, halo included.
+@group(0) @binding(1) var<storage, read> tangents: array<f32>;
+@group(0) @binding(2) var<storage, read> velocity: array<vec4f>;
+@group(0) @binding(3) var<storage, read_write> step_map: array<vec4f>;
+
+@compute @workgroup_size(64)
+fn trace_flow(@builtin(global_invocation_id) id: vec3u) {
+    if (id.x >= solved.cells + 2u * HALO) {
+        return;
+    }
+    let place = cell_place(id, solved.cells);
+    let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
+    // Nothing is gathered in a flow that does not diverge.
+    step_map[place] = vec4f(backtrace(x, velocity[place].xyz, solved.dt_s, solved.cells), 0.0);
+}

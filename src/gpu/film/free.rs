@@ -1,0 +1,159 @@
+//! A film that moves by itself: the flow feels the thickness through the film's map, and the film follows the flow.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{
+    super::{Gpu, GpuError, flow::FlowSolver, pipelines::ComputeKey, timing::Recorder, trace_step::Step},
+    Field,
+};
+use crate::physics::{
+    film::{FrozenFlow, FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow},
+    flow::{FlowForces, MIN_AIR_SPEED},
+};
+
+/// See `shaders/pass/flow_thickness.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct ThicknessUniform {
+    /// Cells along a panel's edge of the flow.
+    pub cells: u32,
+    /// The same of the map.
+    pub map_cells: u32,
+    /// The same of the tracer.
+    pub tracer_cells: u32,
+    /// What has evaporated, nm.
+    pub thinned_nm: f32,
+    /// What is left at least, nm.
+    pub black_nm: f32,
+    pad: [u32; 3],
+}
+
+/// See `shaders/pass/flow_gusts.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct GustsUniform {
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    /// Waves in use.
+    pub waves_count: u32,
+    /// Vortices in use.
+    pub vortices_count: u32,
+    /// Rate at which the air drags the film along, 1/s.
+    pub rate: f32,
+    /// Waves; those in use come first.
+    pub waves: [FrozenWave; MAX_WAVES],
+    /// Vortices; those in use come first.
+    pub vortices: [FrozenVortex; MAX_VORTICES],
+}
+
+/// What a free film is subject to during a step.
+pub struct Surroundings<'a> {
+    /// Gravity, drag and viscosity.
+    pub forces: FlowForces,
+    /// The air's own motion.
+    pub air: &'a PrescribedFlow,
+    /// Mean thickness, which says how well the air drags the film along, nm.
+    pub mean_nm: f64,
+    /// What has evaporated from the film, nm.
+    pub thinned_nm: f64,
+    /// What is left of it at least, nm.
+    pub black_nm: f64,
+}
+
+/// The flow of a film that moves by itself.
+pub struct FreeMotion {
+    solver: FlowSolver,
+}
+
+impl FreeMotion {
+    /// A flow at rest, for a film.
+    pub fn new(recorder: &mut Recorder<'_>, field: &Field) -> Result<Self, GpuError> {
+        let mut solver = FlowSolver::new(recorder.gpu, field.flow_grid().cells);
+        let still = vec![0.0; solver.sphere().cells()];
+        solver.seed(recorder, &still)?;
+        Ok(Self { solver })
+    }
+
+    /// Moves a film by one step from a time in seconds, that lasts some ticks.
+    pub fn advance(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        field: &mut Field,
+        around: &Surroundings<'_>,
+        (from_s, dt_s): (f64, f64),
+        ticks: u32,
+    ) -> Result<(), GpuError> {
+        self.feel(recorder, field, around)?;
+        self.blow(recorder, field, around, from_s)?;
+        self.solver.step(recorder, dt_s, &around.forces)?;
+        field.advance(recorder, &self.ahead(dt_s), ticks)
+    }
+
+    /// A step of the film in the velocity of now.
+    #[must_use]
+    pub fn ahead(&self, dt_s: f64) -> Step {
+        Step::Solved(self.solver.velocity().clone(), dt_s)
+    }
+
+    /// Tells the flow the film's thickness.
+    fn feel(&self, recorder: &mut Recorder<'_>, field: &Field, around: &Surroundings<'_>) -> Result<(), GpuError> {
+        let flow = field.flow_grid();
+        let uniform = ThicknessUniform {
+            cells: flow.cells,
+            map_cells: field.map_grid().cells,
+            tracer_cells: field.tracer_grid().cells,
+            thinned_nm: around.thinned_nm as f32,
+            black_nm: around.black_nm as f32,
+            pad: [0; 3],
+        };
+        let uniform = recorder.gpu.uniform("flow thickness", &uniform);
+        let map = field.kept_map();
+        let bound = [
+            &uniform,
+            &flow.tangents,
+            &field.control.block,
+            // Where there is no map nothing is read from it, and any buffer will do.
+            map.unwrap_or(&field.tracer),
+            &field.tracer,
+            self.solver.log_thickness(),
+        ];
+        // Cubic and limited: a thickness must stay positive, and the flow's cells are too wide for more.
+        let constants = vec![("HAS_MAP", u32::from(map.is_some())), ("TAPS", 4), ("LIMITER", 1)];
+        let key = ComputeKey { pass: "flow_thickness", entry: "flow_thickness", constants };
+        recorder.compute("step_flow", &key, &bound.map(wgpu::Buffer::as_entire_binding), flow.cell_groups().into())
+    }
+
+    /// Lets the air stir the film.
+    fn blow(
+        &self,
+        recorder: &mut Recorder<'_>,
+        field: &Field,
+        around: &Surroundings<'_>,
+        time_s: f64,
+    ) -> Result<(), GpuError> {
+        let flow = field.flow_grid();
+        let FlowForces { drag, air_drag, .. } = around.forces;
+        let of_air = air_drag * MIN_AIR_SPEED.sqrt() / around.mean_nm.max(around.black_nm);
+        let uniform = gusts(recorder.gpu, &around.air.frozen_at(time_s), flow.cells, drag + of_air);
+        let bound = [&uniform, &flow.tangents, self.solver.forcing()].map(wgpu::Buffer::as_entire_binding);
+        let key = ComputeKey { pass: "flow_gusts", entry: "flow_gusts", constants: vec![] };
+        recorder.compute("step_flow", &key, &bound, flow.cell_groups().into())
+    }
+}
+
+fn gusts(gpu: &Gpu, air: &FrozenFlow, cells: u32, rate: f64) -> wgpu::Buffer {
+    let mut uniform = Box::new(GustsUniform {
+        cells,
+        waves_count: air.waves.len().min(MAX_WAVES) as u32,
+        vortices_count: air.vortices.len().min(MAX_VORTICES) as u32,
+        rate: rate as f32,
+        ..GustsUniform::zeroed()
+    });
+    for (slot, wave) in uniform.waves.iter_mut().zip(&air.waves) {
+        *slot = *wave;
+    }
+    for (slot, vortex) in uniform.vortices.iter_mut().zip(&air.vortices) {
+        *slot = *vortex;
+    }
+    gpu.uniform("gusts", &*uniform)
+}
