@@ -16,46 +16,56 @@ import package::optics::band::Band;
 override EVERYTHING: u32;
 // How many bands there are.
 override BANDS: u32;
+// Inner reflections that are followed: 3, 7 or 11.
+override INNER: u32;
 
-// Factors on the steps E0 - B, E1 - B, E2 - E1 and E3 - E2, from the reflectances at four hits.
-fn step_factors(r: vec4f) -> vec4f {
+// Four hits in a row, and the steps of light that their reflectances are factors on, as columns.
+struct Hits {
+    walls_nm: vec4f,
+    steps: mat4x3f,
+}
+
+// All hits of a ray. The first four steps are E0 - B, E1 - B, E2 - E1 and E3 - E2; where INNER is 3 or 7 the later hits are not read.
+struct Walls {
+    first: Hits,
+    second: Hits,
+    third: Hits,
+}
+
+// Factors on the first four steps, from the reflectances at the first four hits.
+fn first_factors(r: vec4f) -> vec4f {
     let through = (1.0 - r.x) * r.y;
-    let factors = vec4f(r.x, through, through * r.z, through * r.z * r.w);
-    if (EVERYTHING == 1u) {
-        return factors;
-    }
-    return factors - vec4f(r.x, r.y, 0.0, 0.0);
+    return vec4f(r.x, through, through * r.z, through * r.z * r.w);
 }
 
 // Factors on the next four steps, from the factor before them and the next four hits.
-fn deep_factors(before: f32, r: vec4f) -> vec4f {
+fn later_factors(before: f32, r: vec4f) -> vec4f {
     let first = before * r.x;
     let second = first * r.y;
     let third = second * r.z;
     return vec4f(first, second, third, third * r.w);
 }
 
-// One band's part of L - B, in light of that band; the steps are columns.
-fn band_radiance(band: Band, cos_theta: f32, walls_nm: vec4f, steps: mat4x3f, polarisation: vec2f) -> vec3f {
-    let r = film_reflectances(band.index, cos_theta, walls_nm, band.wavelength_nm);
-    let factors = polarisation.x * step_factors(r.s) + polarisation.y * step_factors(r.p);
-    return band.response * (steps * factors);
+// What the table gives of the first four.
+fn table_factors(r: vec4f) -> vec4f {
+    return select(vec4f(r.xy, 0.0, 0.0), vec4f(0.0), EVERYTHING == 1u);
 }
 
-// The same with four more inner reflections.
-fn deep_band_radiance(
-    band: Band,
-    cos_theta: f32,
-    walls_nm: vec4f,
-    steps: mat4x3f,
-    deep_nm: vec4f,
-    deep_steps: mat4x3f,
-    polarisation: vec2f,
-) -> vec3f {
-    let r = film_reflectances(band.index, cos_theta, walls_nm, band.wavelength_nm);
-    let deep = film_reflectances(band.index, cos_theta, deep_nm, band.wavelength_nm);
-    let s = step_factors(r.s);
-    let p = step_factors(r.p);
-    let more = polarisation.x * deep_factors(s.w, deep.s) + polarisation.y * deep_factors(p.w, deep.p);
-    return band.response * (steps * (polarisation.x * s + polarisation.y * p) + deep_steps * more);
+// One band's part of L - B, in light of that band.
+fn band_radiance(band: Band, cos_theta: f32, walls: Walls, polarisation: vec2f) -> vec3f {
+    let r = film_reflectances(band.index, cos_theta, walls.first.walls_nm, band.wavelength_nm);
+    var s = polarisation.x * first_factors(r.s);
+    var p = polarisation.y * first_factors(r.p);
+    var light = walls.first.steps * (s + p - polarisation.x * table_factors(r.s) - polarisation.y * table_factors(r.p));
+    if (INNER > 3u) {
+        let r = film_reflectances(band.index, cos_theta, walls.second.walls_nm, band.wavelength_nm);
+        s = later_factors(s.w, r.s);
+        p = later_factors(p.w, r.p);
+        light += walls.second.steps * (s + p);
+    }
+    if (INNER > 7u) {
+        let r = film_reflectances(band.index, cos_theta, walls.third.walls_nm, band.wavelength_nm);
+        light += walls.third.steps * (later_factors(s.w, r.s) + later_factors(p.w, r.p));
+    }
+    return band.response * light;
 }

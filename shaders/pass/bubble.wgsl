@@ -1,4 +1,4 @@
-// One bubble: an exact sphere traced through its bounding quad. Front reflection, transmission, back wall, inner reflections, each
+// One ring of a bubble's disc: an exact sphere traced at each pixel. Front reflection, transmission, back wall, inner reflections, each
 // wall with the thickness at its own hit.
 
 import package::camera::view::{View, pixel_angle, view_plane};
@@ -8,7 +8,7 @@ import package::optics::airy::surface_reflectance;
 import package::optics::band::Band;
 import package::optics::film_colour::{POLARISED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{BANDS, EVERYTHING, band_radiance, deep_band_radiance};
+import package::optics::walls::{BANDS, EVERYTHING, Hits, INNER, Walls, band_radiance};
 import package::sphere::cubed::{HALO, locate};
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::silhouette::{Silhouette, silhouette};
@@ -19,13 +19,16 @@ override UNIFORM_FILM: u32;
 override MAGNIFIED: u32;
 // Samples along each side of a pixel: 1, or more for bubbles of a few pixels, whose film is finer than a pixel.
 override SAMPLES: u32;
+// 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
+override OUTLINE: u32;
 
 // Mirrors `BubbleUniform` in src/gpu/draw.rs.
 struct Bubble {
     centre_m: vec3f,
     radius_m: f32,
-    // Bounding rectangle in clip coordinates: left, bottom, right, top.
-    bounds: vec4f,
+    // Inner and outer edge of the ring: cos and sin of the angle to the direction of the centre.
+    inner: vec2f,
+    outer: vec2f,
     // Thickness of a uniform film, in nm.
     thickness_nm: f32,
     // Cells along a panel's edge, of the film and of its tracer.
@@ -58,11 +61,35 @@ struct Bubble {
 @group(0) @binding(11) var<storage, read> film_map: array<vec4f>;
 @group(0) @binding(12) var<storage, read> film_tracer: array<f32>;
 
+const TAU: f32 = 6.2831853;
+// Sides of the polygons that rings are made of.
+override SIDES: u32;
+
+// A strip between two polygons around the direction to the centre. Rings that share an edge share its vertices to the last bit, so that
+// every pixel belongs to one of them.
 @vertex
-fn bounding_quad(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let x = select(bubble.bounds.x, bubble.bounds.z, (index & 1u) == 1u);
-    let y = select(bubble.bounds.y, bubble.bounds.w, (index >> 1u) == 1u);
-    return vec4f(x, y, 0.0, 1.0);
+fn ring(@builtin(vertex_index) index: u32) -> @invariant @builtin(position) vec4f {
+    let to_centre = normalize(bubble.centre_m - view.eye_m);
+    let helper = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(to_centre.x) > 0.7);
+    let right = normalize(cross(to_centre, helper));
+    let up = cross(right, to_centre);
+    let turn = TAU * f32((index >> 1u) % SIDES) / f32(SIDES);
+    let edge = select(bubble.inner, bubble.outer, (index & 1u) == 1u);
+    let ray = edge.x * to_centre + edge.y * (cos(turn) * right + sin(turn) * up);
+    return clip_position(ray);
+}
+
+// Where a direction from the eye is in the picture.
+fn clip_position(ray: vec3f) -> vec4f {
+    let half = 0.5 * view.pixel_height * vec2f(view.width, view.height);
+    let depth = dot(ray, view.forward);
+    return vec4f(dot(ray, view.right) / half.x, dot(ray, view.up) / half.y, 0.5 * depth, depth);
+}
+
+// The whole picture: what a bubble covers from inside.
+@vertex
+fn everywhere(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 
 fn film_texel(texel: vec2i, panel: u32) -> f32 {
@@ -170,78 +197,94 @@ fn reflected(hop: Hop, chord: f32) -> Hop {
     return Hop(hop.point + chord * direction, direction);
 }
 
-// Light from where a ray leaves after so many inner reflections.
-fn light_from(path: Path, hop: Hop, reflections: f32) -> vec3f {
-    return surroundings(hop.direction, footprint(path, hop.direction, -2.0 * reflections));
+// How far a ray was followed inside: where it heads now, how often it was reflected, and the light from there.
+struct Followed {
+    hop: Hop,
+    reflections: f32,
+    light: vec3f,
 }
 
-// Below this cosine `spectral` follows seven inner reflections in place of three.
-const DEEP_COS: f32 = 0.7;
+fn followed(path: Path, before: Followed) -> Followed {
+    let hop = reflected(before.hop, 2.0 * path.cos_theta);
+    let reflections = before.reflections + 1.0;
+    return Followed(hop, reflections, surroundings(hop.direction, footprint(path, hop.direction, -2.0 * reflections)));
+}
 
-// What is seen along a ray: see optics/walls.wgsl. From inside the bubble there is no front wall.
-fn film_radiance(path: Path, is_inside: bool) -> vec3f {
-    let chord = 2.0 * path.cos_theta;
-    let polarisation = polarisation_along(path);
-    let behind = backdrop(path.direction, path.pixel);
-    let hop0 = Hop(path.foot + path.cos_theta * path.direction, path.direction);
-    let hop1 = reflected(hop0, chord);
-    let hop2 = reflected(hop1, chord);
-    let hop3 = reflected(hop2, chord);
-    let light1 = light_from(path, hop1, 1.0);
-    let light2 = light_from(path, hop2, 2.0);
-    let light3 = light_from(path, hop3, 3.0);
-    var walls_nm = vec4f(0.0, optical_nm(hop0.point), optical_nm(hop1.point), optical_nm(hop2.point));
-    var steps = mat4x3f(vec3f(0.0), light1 - behind, light2 - light1, light3 - light2);
+// Four hits more, and where the ray is after them.
+struct FourHits {
+    hits: Hits,
+    last: Followed,
+}
+
+fn four_hits(path: Path, at: Followed) -> FourHits {
+    let a = followed(path, at);
+    let b = followed(path, a);
+    let c = followed(path, b);
+    let d = followed(path, c);
+    let walls_nm = vec4f(
+        optical_nm(at.hop.point),
+        optical_nm(a.hop.point),
+        optical_nm(b.hop.point),
+        optical_nm(c.hop.point),
+    );
+    let steps = mat4x3f(a.light - at.light, b.light - a.light, c.light - b.light, d.light - c.light);
+    return FourHits(Hits(walls_nm, steps), d);
+}
+
+// The first four hits: the front wall, which there is none of from inside the bubble, and three inside.
+fn first_hits(path: Path, is_inside: bool, behind: vec3f) -> FourHits {
+    let at = Followed(Hop(path.foot + path.cos_theta * path.direction, path.direction), 0.0, behind);
+    let a = followed(path, at);
+    let b = followed(path, a);
+    let c = followed(path, b);
+    var walls_nm = vec4f(0.0, optical_nm(at.hop.point), optical_nm(a.hop.point), optical_nm(b.hop.point));
+    var steps = mat4x3f(vec3f(0.0), a.light - behind, b.light - a.light, c.light - b.light);
     if (!is_inside) {
         let front = path.foot - path.cos_theta * path.direction;
-        let v0 = path.direction + chord * front;
+        let direction = path.direction + 2.0 * path.cos_theta * front;
         walls_nm.x = optical_nm(front);
-        steps[0] = surroundings(v0, footprint(path, v0, 2.0)) - behind;
+        steps[0] = surroundings(direction, footprint(path, direction, 2.0)) - behind;
     }
-    if (EVERYTHING == 0u) {
-        // One reflection more, by the mean reflectance over all thicknesses, of s light, which outlasts p: no lookup of a film.
-        let r2 = surface_reflectance(axes.index, path.cos_theta).x;
-        steps[3] += 2.0 * r2 / (1.0 + r2) * (light_from(path, reflected(hop3, chord), 4.0) - light3);
-    }
-    var seen = vec3f(0.0);
-    if (EVERYTHING == 1u && path.cos_theta < DEEP_COS) {
-        seen = deep_radiance(path, walls_nm, steps, hop3, light3, polarisation);
-    } else {
-        for (var k = 0u; k < BANDS; k++) {
-            seen += band_radiance(bands[k], path.cos_theta, walls_nm, steps, polarisation);
-        }
-    }
-    if (EVERYTHING == 0u) {
-        seen += wall_reflection(path, walls_nm.x, polarisation, steps[0])
-            + wall_reflection(path, walls_nm.y, polarisation, steps[1]);
-    }
-    return light.seen * behind + light.scale * seen;
+    return FourHits(Hits(walls_nm, steps), c);
 }
 
-fn deep_radiance(
-    path: Path,
-    walls_nm: vec4f,
-    steps: mat4x3f,
-    hop3: Hop,
-    light3: vec3f,
-    polarisation: vec2f,
-) -> vec3f {
-    let chord = 2.0 * path.cos_theta;
-    let hop4 = reflected(hop3, chord);
-    let hop5 = reflected(hop4, chord);
-    let hop6 = reflected(hop5, chord);
-    let light4 = light_from(path, hop4, 4.0);
-    let light5 = light_from(path, hop5, 5.0);
-    let light6 = light_from(path, hop6, 6.0);
-    let light7 = light_from(path, reflected(hop6, chord), 7.0);
-    let deep_nm =
-        vec4f(optical_nm(hop3.point), optical_nm(hop4.point), optical_nm(hop5.point), optical_nm(hop6.point));
-    let deep_steps = mat4x3f(light4 - light3, light5 - light4, light6 - light5, light7 - light6);
+// What is seen along a ray: see optics/walls.wgsl.
+fn film_radiance(path: Path, is_inside: bool) -> vec3f {
+    let polarisation = polarisation_along(path);
+    let behind = backdrop(path.direction, path.pixel);
+    let first = first_hits(path, is_inside, behind);
+    var walls: Walls;
+    walls.first = first.hits;
+    var last = first.last;
+    if (INNER > 3u) {
+        let second = four_hits(path, last);
+        walls.second = second.hits;
+        last = second.last;
+    }
+    if (INNER > 7u) {
+        let third = four_hits(path, last);
+        walls.third = third.hits;
+        last = third.last;
+    }
+    // One reflection more, by the mean reflectance over all thicknesses, of s light, which outlasts p: no lookup of a film.
+    let r2 = surface_reflectance(axes.index, path.cos_theta).x;
+    let more = 2.0 * r2 / (1.0 + r2) * (followed(path, last).light - last.light);
+    if (INNER == 3u) {
+        walls.first.steps[3] += more;
+    } else if (INNER == 7u) {
+        walls.second.steps[3] += more;
+    } else {
+        walls.third.steps[3] += more;
+    }
     var seen = vec3f(0.0);
     for (var k = 0u; k < BANDS; k++) {
-        seen += deep_band_radiance(bands[k], path.cos_theta, walls_nm, steps, deep_nm, deep_steps, polarisation);
+        seen += band_radiance(bands[k], path.cos_theta, walls, polarisation);
     }
-    return seen;
+    if (EVERYTHING == 0u) {
+        seen += wall_reflection(path, walls.first.walls_nm.x, polarisation, walls.first.steps[0])
+            + wall_reflection(path, walls.first.walls_nm.y, polarisation, walls.first.steps[1]);
+    }
+    return light.seen * behind + light.scale * seen;
 }
 
 fn wall_reflection(path: Path, nm: f32, polarisation: vec2f, step: vec3f) -> vec3f {
@@ -273,6 +316,9 @@ fn bubble_radiance(direction: vec3f, width: f32) -> vec3f {
 // One sample: the bubble as far as it covers the sample's square, the backdrop in the rest.
 fn sample_radiance(position: vec2f, width: f32) -> vec3f {
     let plane = view_plane(view, position);
+    if (OUTLINE == 0u) {
+        return bubble_radiance(normalize(plane), width);
+    }
     let edge = silhouette(view, bubble.centre_m, bubble.radius_m, plane, width);
     var radiance = vec3f(0.0);
     if (edge.coverage > 0.0) {
@@ -297,24 +343,8 @@ fn mean_radiance(position: vec2f, side: u32) -> vec3f {
     return total * width * width;
 }
 
-// Relative change of cos theta from pixel to pixel above which a pixel is at the rim.
-const RIM_CHANGE: f32 = 0.3;
-
-fn is_at_rim(position: vec2f) -> bool {
-    let edge = silhouette(view, bubble.centre_m, bubble.radius_m, view_plane(view, position), 1.0);
-    if (edge.coverage < 1.0) {
-        return edge.coverage > 0.0;
-    }
-    let path = path_along(edge.inside, 1.0);
-    return path.pixel * path.theta_rate * length(path.foot) > RIM_CHANGE * path.cos_theta;
-}
-
 @fragment
 fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    // At the rim the film turns into a mirror within a few pixels.
-    if (SAMPLES < 4u && is_at_rim(position.xy)) {
-        return vec4f(mean_radiance(position.xy, SAMPLES * select(2u, 4u, EVERYTHING == 1u)), 1.0);
-    }
     if (SAMPLES == 1u) {
         return vec4f(sample_radiance(position.xy, 1.0), 1.0);
     }

@@ -3,7 +3,7 @@
 import package::optics::band::Band;
 import package::optics::film_colour::film_reflection;
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{BANDS, EVERYTHING, band_radiance};
+import package::optics::walls::{BANDS, EVERYTHING, Hits, INNER, Walls, band_radiance};
 
 // Front, back and exit wall of one ray. Mirrors `ProbePoint` in src/gpu/probe_colour.rs.
 struct ProbePoint {
@@ -41,9 +41,10 @@ fn probe_colour(@builtin(global_invocation_id) id: vec3u) {
     if (EVERYTHING == 0u) {
         seen = wall(at.cos_theta, at.front_nm) + both * wall(at.cos_theta, at.back_nm);
     }
-    let walls_nm = vec4f(at.front_nm, at.back_nm, at.exit_nm, 0.0);
+    var walls: Walls;
+    walls.first = Hits(vec4f(at.front_nm, at.back_nm, at.exit_nm, 0.0), steps);
     for (var k = 0u; k < BANDS; k++) {
-        seen += band_radiance(bands[k], at.cos_theta, walls_nm, steps, UNPOLARISED);
+        seen += band_radiance(bands[k], at.cos_theta, walls, UNPOLARISED);
     }
     colours[id.x] = vec4f(seen, 1.0);
 }

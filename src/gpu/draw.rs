@@ -1,4 +1,4 @@
-//! Draws the linear picture: the backdrop, then each bubble through its bounding quad.
+//! Draws the linear picture: the backdrop, then each bubble, ring by ring.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat3, DVec3};
@@ -10,6 +10,7 @@ use super::{
     environment::{Environment, texel_angle},
     film::{NoFilm, Shown},
     pipelines::RenderKey,
+    rings::{Ring, SIDES, disc, rings},
     timing::Recorder,
 };
 use crate::{
@@ -70,8 +71,10 @@ pub struct BubbleUniform {
     pub centre_m: [f32; 3],
     /// Radius.
     pub radius_m: f32,
-    /// Left, bottom, right, top in clip coordinates.
-    pub bounds: [f32; 4],
+    /// Inner edge of the ring: cos and sin of the angle to the direction of the centre.
+    pub inner: [f32; 2],
+    /// Outer edge.
+    pub outer: [f32; 2],
     /// Thickness of a uniform film, in nm.
     pub thickness_nm: f32,
     /// Cells along a panel's edge.
@@ -116,8 +119,15 @@ pub fn strips([width, height]: [u32; 2]) -> impl Iterator<Item = std::ops::Range
 /// The uniforms and bind groups of one picture, made once and used for each of its strips.
 pub struct DrawPass {
     backdrop: (wgpu::RenderPipeline, wgpu::BindGroup),
-    bubbles: Vec<(wgpu::RenderPipeline, wgpu::BindGroup)>,
+    rings: Vec<RingDraw>,
     width: u32,
+}
+
+/// One ring of a bubble, ready to be drawn.
+struct RingDraw {
+    pipeline: wgpu::RenderPipeline,
+    bindings: wgpu::BindGroup,
+    vertices: u32,
 }
 
 impl DrawPass {
@@ -140,32 +150,35 @@ impl DrawPass {
         };
         let pipeline = gpu.pipelines.render(gpu, &backdrop_key)?;
         let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &shared);
-        let mut pass = Self { backdrop: (pipeline, bindings), bubbles: Vec::new(), width: key.size[0] };
+        let mut pass = Self { backdrop: (pipeline, bindings), rings: Vec::new(), width: key.size[0] };
         let Some(bands) = inputs.bands else { return Ok(pass) };
         let unread = key.table.is_none().then(|| Table::unread(gpu, &key.bands.optics));
         let Some(table) = unread.as_ref().or(inputs.table) else { return Ok(pass) };
         let sampler = table_sampler(gpu);
         let no_film = NoFilm::new(gpu);
         for bubble in &key.bubbles {
-            let pipeline = gpu.pipelines.render(gpu, &bubble_pipeline(key, bubble, bands))?;
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
-            let uniform = gpu.uniform("bubble", &bubble_uniform(key, bubble, &film));
-            let own = [
-                uniform.as_entire_binding(),
-                table.axes.as_entire_binding(),
-                wgpu::BindingResource::TextureView(&table.view),
-                wgpu::BindingResource::Sampler(&sampler),
-                wgpu::BindingResource::TextureView(film.film),
-                bands.buffer.as_entire_binding(),
-                film.balance.as_entire_binding(),
-                film.map.as_entire_binding(),
-                film.tracer.as_entire_binding(),
-            ];
-            // The yardstick reads no film: its layout ends with the bubble itself.
-            let own = if key.yardstick { &own[..1] } else { &own[..] };
-            let resources: Vec<_> = shared.iter().chain(own).cloned().collect();
-            let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &resources);
-            pass.bubbles.push((pipeline, bindings));
+            for ring in bubble_rings(key, bubble) {
+                let pipeline = gpu.pipelines.render(gpu, &ring_pipeline(key, bubble, &ring, bands))?;
+                let uniform = gpu.uniform("bubble", &bubble_uniform(key, bubble, &ring, &film));
+                let own = [
+                    uniform.as_entire_binding(),
+                    table.axes.as_entire_binding(),
+                    wgpu::BindingResource::TextureView(&table.view),
+                    wgpu::BindingResource::Sampler(&sampler),
+                    wgpu::BindingResource::TextureView(film.film),
+                    bands.buffer.as_entire_binding(),
+                    film.balance.as_entire_binding(),
+                    film.map.as_entire_binding(),
+                    film.tracer.as_entire_binding(),
+                ];
+                // The yardstick reads no film: its layout ends with the bubble itself.
+                let own = if key.yardstick { &own[..1] } else { &own[..] };
+                let resources: Vec<_> = shared.iter().chain(own).cloned().collect();
+                let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &resources);
+                let vertices = if ring.edges_rad.is_some() { 2 * (SIDES + 1) } else { 3 };
+                pass.rings.push(RingDraw { pipeline, bindings, vertices });
+            }
         }
         Ok(pass)
     }
@@ -177,13 +190,13 @@ impl DrawPass {
             pass.set_pipeline(&self.backdrop.0);
             pass.set_bind_group(0, &self.backdrop.1, &[]);
             pass.draw(0..3, 0..1);
-            for (pipeline, bindings) in &self.bubbles {
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, bindings, &[]);
-                pass.draw(0..4, 0..1);
+            for ring in &self.rings {
+                pass.set_pipeline(&ring.pipeline);
+                pass.set_bind_group(0, &ring.bindings, &[]);
+                pass.draw(0..ring.vertices, 0..1);
             }
         });
-        recorder.counts.draws += 1 + self.bubbles.len() as u64;
+        recorder.counts.draws += 1 + self.rings.len() as u64;
     }
 }
 
@@ -213,18 +226,25 @@ pub fn radiance_format(full_precision: bool) -> wgpu::TextureFormat {
     if full_precision { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float }
 }
 
-fn bubble_pipeline(key: &DrawKey, bubble: &BubbleKey, bands: &Bands) -> RenderKey {
+fn bubble_rings(key: &DrawKey, bubble: &BubbleKey) -> Vec<Ring> {
+    if key.yardstick { vec![disc(&key.camera, bubble)] } else { rings(&key.camera, bubble, key.bands.quality) }
+}
+
+fn ring_pipeline(key: &DrawKey, bubble: &BubbleKey, ring: &Ring, bands: &Bands) -> RenderKey {
     let uniform = matches!(bubble.film, FilmKey::Uniform(_));
     let coloured = key.table.as_ref().is_some_and(|table| table.coloured);
     RenderKey {
         pass: "bubble",
-        vertex: "bounding_quad",
+        vertex: if ring.edges_rad.is_some() { "ring" } else { "everywhere" },
         fragment: if key.yardstick { "shade_mirror" } else { "shade" },
         format: radiance_format(key.full_precision),
         constants: [
+            ("SIDES", SIDES),
             ("UNIFORM_FILM", u32::from(uniform)),
             ("MAGNIFIED", u32::from(bubble.magnified)),
-            ("SAMPLES", bubble.samples),
+            ("SAMPLES", ring.samples),
+            ("OUTLINE", u32::from(ring.outline)),
+            ("INNER", ring.inner_reflections),
             // A film in a scene is moved as a flow map where it is looked up through one, and always limited.
             ("TAPS", Scheme::Map.taps()),
             ("LIMITER", 1),
@@ -278,9 +298,9 @@ fn light_uniform(key: &DrawKey) -> LightUniform {
     }
 }
 
-fn bubble_uniform(key: &DrawKey, bubble: &BubbleKey, shown: &Shown<'_>) -> BubbleUniform {
+fn bubble_uniform(key: &DrawKey, bubble: &BubbleKey, ring: &Ring, shown: &Shown<'_>) -> BubbleUniform {
     let film = &key.bands.optics.film;
-    let [low, high] = bubble.bounds.map(|corner| corner.as_vec2());
+    let [inner, outer] = ring.corners();
     let (thickness_nm, cells) = match &bubble.film {
         FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0),
         FilmKey::Field(field) => (0.0, field.cells),
@@ -289,7 +309,8 @@ fn bubble_uniform(key: &DrawKey, bubble: &BubbleKey, shown: &Shown<'_>) -> Bubbl
     BubbleUniform {
         centre_m: floats(bubble.centre_m),
         radius_m: bubble.radius_m as f32,
-        bounds: [low.x, low.y, high.x, high.y],
+        inner,
+        outer,
         thickness_nm,
         cells,
         tracer_cells: shown.tracer_cells,

@@ -23,6 +23,7 @@ pub mod read_film;
 pub mod readback;
 pub mod renderer;
 pub mod reset_map;
+pub mod rings;
 pub mod sample_tracer;
 pub mod settle_tracer;
 pub mod shaders;

@@ -21,10 +21,9 @@ const SIZE: [u32; 2] = [256, 144];
 const LAMPS: usize = 6;
 /// Lights of the scenes in turn.
 const LIGHTS: [&str; 4] = ["D65", "A", "LED", "FL2"];
-/// Limits on the mean and the 99.9th percentile of CIEDE2000. That percentile lies at the rim, at cosines below 0.25: there a pixel spans
-/// many fringes and much of the surroundings, of which both pictures take samples, and for `standard` inner reflections beyond the fourth
-/// still tell. Seven of them would bring it to 1.4, for a third more of the frame's time.
-const LIMITS: [(Quality, [f64; 2]); 2] = [(Quality::Standard, [0.3, 4.0]), (Quality::Spectral, [0.05, 1.5])];
+/// Limits on the mean and the 99.9th percentile of CIEDE2000. That percentile lies at the rim: there a pixel spans many fringes and much of
+/// the surroundings, of which both pictures take samples, and light leaves only after many inner reflections.
+const LIMITS: [(Quality, [f64; 2]); 2] = [(Quality::Standard, [0.3, 3.0]), (Quality::Spectral, [0.05, 0.6])];
 
 pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut renderer = Renderer::new(pollster::block_on(run.gpu.another())?);

@@ -1,0 +1,103 @@
+//! The rings that a bubble's disc is drawn in. Towards its outline light grazes the film, stays inside for more reflections, and changes
+//! faster than pixels do: rings there follow more reflections and take more samples, and the middle does not pay for it.
+
+use crate::{
+    plan::{BubbleKey, CameraKey},
+    scene::Quality,
+};
+
+/// Sides of the polygons that rings are made of.
+pub const SIDES: u32 = 96;
+
+/// A part of a bubble's picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ring {
+    /// Inner and outer edge: angle from the direction of the bubble's centre, in radians. None: the whole picture.
+    pub edges_rad: Option<[f64; 2]>,
+    /// Inner reflections that are followed: 3, 7 or 11.
+    pub inner_reflections: u32,
+    /// Samples along each side of a pixel.
+    pub samples: u32,
+    /// Whether the outline crosses it.
+    pub outline: bool,
+}
+
+/// How much a quality takes care of what is near the outline.
+struct Care {
+    /// Cosine of incidence below which more inner reflections are followed than three.
+    deep_cos: f64,
+    /// How many there.
+    deep_reflections: u32,
+    /// How many within [`RIM_PIXELS`] of the outline.
+    rim_reflections: u32,
+    /// Samples along each side of a pixel there.
+    rim_samples: u32,
+}
+
+/// Width of the outermost ring, in pixels: beyond it the cosine of incidence changes by less than a fifth from pixel to pixel.
+const RIM_PIXELS: f64 = 3.0;
+/// How far outside the outline a pixel may have its centre and still be crossed by it, in pixels.
+const MARGIN_PIXELS: f64 = 1.0;
+
+impl Care {
+    fn of(quality: Quality) -> Self {
+        match quality {
+            Quality::Fast => Self { deep_cos: 0.0, deep_reflections: 3, rim_reflections: 3, rim_samples: 2 },
+            Quality::Standard => Self { deep_cos: 0.35, deep_reflections: 7, rim_reflections: 7, rim_samples: 2 },
+            Quality::Spectral => Self { deep_cos: 0.7, deep_reflections: 7, rim_reflections: 11, rim_samples: 4 },
+        }
+    }
+}
+
+impl Ring {
+    /// The whole picture: what a bubble covers from inside.
+    fn everywhere(inner_reflections: u32, samples: u32) -> Self {
+        Self { edges_rad: None, inner_reflections, samples, outline: false }
+    }
+
+    /// For the inner and the outer edge, a corner of the polygon around it: parts along the direction of the centre and across.
+    #[must_use]
+    pub fn corners(&self) -> [[f32; 2]; 2] {
+        let half_side = std::f64::consts::PI / f64::from(SIDES);
+        self.edges_rad.unwrap_or_default().map(|angle| [angle.cos() * half_side.cos(), angle.sin()].map(|x| x as f32))
+    }
+}
+
+/// Angle from a bubble's centre to its outline, in radians; none from inside.
+fn limb_rad(camera: &CameraKey, bubble: &BubbleKey) -> Option<f64> {
+    let sine = bubble.radius_m / camera.eye_m.distance(bubble.centre_m);
+    (sine < 1.0).then(|| sine.asin())
+}
+
+/// The rings of a bubble, from the middle outwards.
+#[must_use]
+pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality) -> Vec<Ring> {
+    let care = Care::of(quality);
+    let deep_sin = (1.0 - care.deep_cos * care.deep_cos).sqrt();
+    let Some(limb_rad) = limb_rad(camera, bubble) else {
+        let is_deep = camera.eye_m.distance(bubble.centre_m) > deep_sin * bubble.radius_m;
+        return vec![Ring::everywhere(if is_deep { care.deep_reflections } else { 3 }, bubble.samples)];
+    };
+    // Pixels span this angle in the middle of the picture, and less elsewhere.
+    let pixel_rad = camera.pixel_height_m;
+    let rim_rad = (limb_rad - RIM_PIXELS * pixel_rad).max(0.0);
+    let deep_rad = (deep_sin * limb_rad.sin()).asin().min(rim_rad);
+    let ring = |edges_rad: [f64; 2], inner_reflections: u32| Ring {
+        edges_rad: Some(edges_rad),
+        inner_reflections,
+        samples: bubble.samples,
+        outline: false,
+    };
+    let rim = ring([rim_rad, limb_rad + MARGIN_PIXELS * pixel_rad], care.rim_reflections);
+    let rim = Ring { samples: bubble.samples.max(care.rim_samples), outline: true, ..rim };
+    let rings = [ring([0.0, deep_rad], 3), ring([deep_rad, rim_rad], care.deep_reflections), rim];
+    rings.into_iter().filter(|ring| ring.edges_rad.is_some_and(|[inner, outer]| outer > inner)).collect()
+}
+
+/// The one ring that covers all of a bubble: for the yardstick.
+#[must_use]
+pub fn disc(camera: &CameraKey, bubble: &BubbleKey) -> Ring {
+    let Some(limb_rad) = limb_rad(camera, bubble) else { return Ring::everywhere(3, 1) };
+    let edges_rad = Some([0.0, limb_rad + MARGIN_PIXELS * camera.pixel_height_m]);
+    Ring { edges_rad, outline: true, ..Ring::everywhere(3, 1) }
+}
