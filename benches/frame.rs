@@ -41,8 +41,14 @@ fn frame(criterion: &mut Criterion) {
 /// The default scene a few ticks in, so that every pass has something to do, a whole step and the part of one included.
 fn wanted(size: [u32; 2], yardstick: bool) -> Want {
     let loaded = load_scene("default").expect("the preset");
-    let shot =
-        Shot { size, moment: Moment::tick(10), full_precision: false, gamut: Gamut::Srgb, yardstick, pace: Pace::Whole };
+    let shot = Shot {
+        size,
+        moment: Moment::tick(10),
+        full_precision: false,
+        gamut: Gamut::Srgb,
+        yardstick,
+        pace: Pace::Whole,
+    };
     want(&loaded.scene, &loaded.resources, &shot).expect("a scene that can be drawn")
 }
 
