@@ -22,7 +22,7 @@ impl Grid {
         Self {
             sphere,
             cells: n as u32,
-            tangents: gpu.storage("tangents", &tangents(n)),
+            tangents: gpu.storage("tangents", &sphere.edge_tangents()),
             areas: gpu.storage("areas", &areas),
         }
     }
@@ -50,13 +50,6 @@ impl Grid {
     pub fn cell_groups(&self) -> [u32; 3] {
         [self.cells.div_ceil(64), self.cells, 6]
     }
-}
-
-/// tan(α) of each cell coordinate of an edge, halo included, rounded once from f64.
-fn tangents(cells: usize) -> Vec<f32> {
-    let step = std::f64::consts::FRAC_PI_2 / cells as f64;
-    let angle = |k: usize| (k as f64 - HALO as f64 + 0.5) * step - std::f64::consts::FRAC_PI_4;
-    (0..cells + 2 * HALO).map(|k| angle(k).tan() as f32).collect()
 }
 
 /// What pictures read of a film: a layer a panel, halo included.

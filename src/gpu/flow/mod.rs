@@ -12,7 +12,7 @@ use multigrid::{Multigrid, System};
 use super::{Gpu, GpuError, pipelines::ComputeKey, timing::Recorder};
 use crate::physics::{
     flow::{BACKTRACE_ITERATIONS, FlowForces, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES},
-    sphere::{CubedSphere, HALO},
+    sphere::CubedSphere,
 };
 
 /// One step: see `shaders/flow/step.wgsl`.
@@ -146,7 +146,7 @@ impl FlowSolver {
         Self {
             grid: FlowGrid {
                 sphere,
-                tangents: gpu.storage("flow tangents", &tangents(sphere)),
+                tangents: gpu.storage("flow tangents", &sphere.edge_tangents()),
                 halo: gpu.storage("flow halo", &halo_entries(sphere)),
             },
             multigrid: Multigrid::new(gpu, sphere),
@@ -387,10 +387,4 @@ impl FlowSolver {
 fn buffer(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
     let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
     gpu.buffer(label, size, usage)
-}
-
-/// tan(α) of each cell coordinate of an edge, halo included, rounded once from f64.
-fn tangents(sphere: CubedSphere) -> Vec<f32> {
-    let angle = |k: usize| (k as f64 - HALO as f64 + 0.5) * sphere.cell_angle() - std::f64::consts::FRAC_PI_4;
-    (0..sphere.padded_width()).map(|k| angle(k).tan() as f32).collect()
 }

@@ -4,7 +4,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{FlowGrid, buffer, tangents};
+use super::{FlowGrid, buffer};
 use crate::{
     gpu::{Gpu, GpuError, timing::Recorder},
     physics::{
@@ -111,7 +111,7 @@ impl Multigrid {
                 tangent: all_tangents.len() as u32,
                 halo: entries.len() as u32,
             });
-            all_tangents.extend(tangents(grid));
+            all_tangents.extend(grid.edge_tangents());
             entries.extend(halo_entries(grid));
             values += grid.padded_len() as u32;
         }

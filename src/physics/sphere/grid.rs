@@ -120,6 +120,12 @@ impl CubedSphere {
         self.n + 2 * HALO
     }
 
+    /// tan(α) of each cell coordinate of an edge, halo included, rounded once from f64: what passes find directions from.
+    pub fn edge_tangents(self) -> Vec<f32> {
+        let angle = |k: usize| (k as f64 - HALO as f64 + 0.5) * self.cell_angle() - FRAC_PI_4;
+        (0..self.padded_width()).map(|k| angle(k).tan() as f32).collect()
+    }
+
     /// Values in padded storage, halos included.
     pub fn padded_len(self) -> usize {
         6 * self.padded_width().pow(2)

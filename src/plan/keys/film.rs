@@ -1,0 +1,266 @@
+//! Keys of films that move: the moment, the laws until then, and the field.
+
+use std::{fmt, ops::Range};
+
+use crate::physics::{
+    film::{InitialFilm, PrescribedFlow},
+    flow::FlowForces,
+    sphere::CubedSphere,
+    transport::Scheme,
+};
+
+/// A moment of a film: a tick, and how far towards the next one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// Whole ticks.
+    pub tick: u64,
+    /// Part of the next tick, in [0, 1).
+    pub fraction: f64,
+}
+
+impl Moment {
+    /// The moment of a tick.
+    #[must_use]
+    pub fn tick(tick: u64) -> Self {
+        Self { tick, fraction: 0.0 }
+    }
+
+    /// The first tick that has no part in this moment.
+    #[must_use]
+    pub fn end_tick(&self) -> u64 {
+        self.tick + u64::from(self.fraction > 0.0)
+    }
+
+    /// The moment of a time, for a tick's length. A time within a billionth of a tick counts as the tick.
+    #[must_use]
+    pub fn of_time(time_s: f64, tick_s: f64) -> Self {
+        let ticks = (time_s / tick_s).max(0.0);
+        let nearest = ticks.round();
+        if (ticks - nearest).abs() < 1e-9 * nearest.max(1.0) {
+            return Self::tick(nearest as u64);
+        }
+        Self { tick: ticks.floor() as u64, fraction: ticks - ticks.floor() }
+    }
+}
+
+impl fmt::Display for Moment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "tick {}", self.tick)?;
+        if self.fraction > 0.0 {
+            write!(f, " + {:.3}", self.fraction)?;
+        }
+        Ok(())
+    }
+}
+
+/// How the film's liquid is driven.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FlowLaw {
+    /// Not at all.
+    Rest,
+    /// Low swings to and fro.
+    Sloshing {
+        /// Factor on all speeds.
+        strength: f64,
+        /// Which of all such flows.
+        seed: u32,
+    },
+    /// A slow large-scale breath of air that never quite rests.
+    Draught {
+        /// Factor on all speeds.
+        strength: f64,
+        /// Which of all such flows.
+        seed: u32,
+    },
+    /// The draught, and vortices that drift in it.
+    Stirred {
+        /// Factor on all speeds.
+        strength: f64,
+        /// Which of all such flows.
+        seed: u32,
+    },
+    /// By gravity and the air: vorticity and stream function are solved for.
+    Free(FreeFlow),
+}
+
+/// What a free film is subject to, on the unit sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeFlow {
+    /// Gravity, drag and viscosity.
+    pub forces: FlowForces,
+    /// Diffusion of thickness, rad²/s.
+    pub diffusion: f64,
+    /// Factor on the speed of the draught around the film.
+    pub draught: f64,
+    /// Which of all draughts.
+    pub seed: u32,
+}
+
+impl FreeFlow {
+    /// The longest step of the flow in seconds: a quarter of a radian of the fastest wave of buoyancy in film whose ln h changes by 1 a
+    /// radian, at which film with 60 times as steep changes is still stable.
+    #[must_use]
+    pub fn longest_step_s(&self) -> f64 {
+        const LONGEST_S: f64 = 1.0 / 30.0;
+        (0.25 / self.forces.gravity.length().sqrt()).min(LONGEST_S)
+    }
+}
+
+impl FlowLaw {
+    /// The law as a velocity field; for a free film that of the air.
+    #[must_use]
+    pub fn prescribed(self) -> PrescribedFlow {
+        match self {
+            Self::Rest => PrescribedFlow::default(),
+            Self::Free(free) => PrescribedFlow::draught(free.seed, free.draught),
+            Self::Sloshing { strength, seed } => PrescribedFlow::sloshing(seed, strength),
+            Self::Draught { strength, seed } => PrescribedFlow::draught(seed, strength),
+            Self::Stirred { strength, seed } => PrescribedFlow::stirred(seed, strength),
+        }
+    }
+
+    /// Ticks in a step of the film, for a tick's length and the angle between cells: as many as keep the step accurate, and more where
+    /// even those would move nothing by a thousandth of a cell.
+    #[must_use]
+    pub fn ticks_a_step(self, tick_s: f64, cell_angle: f64) -> u64 {
+        let strength = match self {
+            Self::Rest => 0.0,
+            Self::Sloshing { strength, .. } | Self::Draught { strength, .. } | Self::Stirred { strength, .. } => {
+                strength
+            }
+            Self::Free(free) => return (free.longest_step_s() / tick_s).max(1.0) as u64,
+        };
+        // At strength 1 the fastest vortices turn by a quarter of a radian in 0.1 s, where a Runge-Kutta step errs by 1e-5 of that; the
+        // swings of 2 s and more are followed by its three moments.
+        let accurate_s = (0.1 / strength).min(0.2);
+        let still_s = 1e-3 * cell_angle / self.prescribed().max_speed_bound();
+        (accurate_s.max(still_s) / tick_s).max(1.0) as u64
+    }
+}
+
+/// A law, and the tick from which it holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlowSegment {
+    /// First tick.
+    pub from_tick: u64,
+    /// The law from there on.
+    pub law: FlowLaw,
+}
+
+/// A film whose thickness varies: how it began, what drove it, and the moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FieldKey {
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    /// Thickness at tick 0.
+    pub initial: InitialFilm,
+    /// Length of a tick in seconds.
+    pub tick_s: f64,
+    /// How the liquid is moved.
+    pub scheme: Scheme,
+    /// The most ticks from one remap of the flow map to the next.
+    pub remap_ticks: u32,
+    /// What evaporates from a tick on, in nm a second, in the order of ticks; empty for films whose motion does not depend on it.
+    pub evaporation: Vec<(u64, f64)>,
+    /// Laws in the order of their ticks, as far as the moment has seen them; the first holds from tick 0.
+    pub flows: Vec<FlowSegment>,
+    /// The moment.
+    pub moment: Moment,
+}
+
+impl FieldKey {
+    /// The same film at another moment.
+    #[must_use]
+    pub fn at(&self, moment: Moment) -> Self {
+        Self { moment, ..self.clone() }
+    }
+
+    /// Cells of the whole sphere.
+    #[must_use]
+    pub fn cell_count(&self) -> u64 {
+        6 * u64::from(self.cells) * u64::from(self.cells)
+    }
+
+    /// The law that holds during a tick.
+    #[must_use]
+    pub fn law(&self, tick: u64) -> FlowLaw {
+        self.flows.iter().rev().find(|segment| segment.from_tick <= tick).map_or(FlowLaw::Rest, |segment| segment.law)
+    }
+
+    /// What has evaporated since the beginning, in nm, at a time in ticks.
+    #[must_use]
+    pub fn thinned_nm(&self, ticks: f64) -> f64 {
+        let ends = self.evaporation.iter().skip(1).map(|(tick, _)| *tick as f64).chain(std::iter::once(f64::INFINITY));
+        let lost =
+            |((from, rate), end): (&(u64, f64), f64)| rate * self.tick_s * (ticks.min(end) - *from as f64).max(0.0);
+        self.evaporation.iter().zip(ends).map(lost).sum()
+    }
+
+    /// The last tick until the moment at which a step ends: where the film's state stands. What the moment is beyond it, the shown
+    /// thickness alone is ahead of the state, so that steps are the same however a history is cut into frames.
+    #[must_use]
+    pub fn state_tick(&self) -> u64 {
+        self.step_at(self.moment.tick).start
+    }
+
+    /// Ticks of the whole steps from the end of one until the moment, in order.
+    pub fn steps_from(&self, tick: u64) -> impl Iterator<Item = Range<u64>> {
+        let mut next = tick;
+        std::iter::from_fn(move || {
+            let step = self.step_at(next);
+            next = step.end;
+            (step.end <= self.moment.tick).then_some(step)
+        })
+    }
+
+    /// The step that a tick lies in. Steps begin with each law and are cut where the next one comes into force; a law of rest is one step.
+    fn step_at(&self, tick: u64) -> Range<u64> {
+        let after = self.flows.partition_point(|segment| segment.from_tick <= tick);
+        let end = self.flows.get(after).map_or(u64::MAX, |next| next.from_tick);
+        let Some(segment) = self.flows[..after].last() else { return 0..end };
+        if segment.law == FlowLaw::Rest {
+            return segment.from_tick..end;
+        }
+        let length = segment.law.ticks_a_step(self.tick_s, self.cell_angle());
+        let start = tick - (tick - segment.from_tick) % length;
+        start..start.saturating_add(length).min(end)
+    }
+
+    /// Angle between neighbouring cells, in radians; that of the coarsest grid for a size that no grid has.
+    #[must_use]
+    pub fn cell_angle(&self) -> f64 {
+        CubedSphere::new(self.cells as usize).map_or(std::f64::consts::FRAC_PI_2 / 8.0, CubedSphere::cell_angle)
+    }
+
+    /// Whether this film's past, up to the other's moment, is the other's: then it can go on from there.
+    #[must_use]
+    pub fn continues(&self, past: &Self) -> bool {
+        past.moment.tick <= self.moment.tick
+            && !self.law_differs_until(past)
+            && self.step_at(past.moment.tick).start == past.moment.tick
+    }
+
+    /// Whether anything that shaped the other film up to its moment is different in this one.
+    #[must_use]
+    pub fn law_differs_until(&self, other: &Self) -> bool {
+        let end = other.moment.end_tick();
+        let past = |key: &Self| key.flows.iter().filter(|segment| segment.from_tick < end).copied().collect::<Vec<_>>();
+        let thinning = |key: &Self| key.evaporation.iter().filter(|(tick, _)| *tick < end).copied().collect::<Vec<_>>();
+        (self.cells, self.initial, self.tick_s, self.scheme, self.remap_ticks)
+            != (other.cells, other.initial, other.tick_s, other.scheme, other.remap_ticks)
+            || past(self) != past(other)
+            || thinning(self) != thinning(other)
+    }
+}
+
+/// Thickness of black film, in nm, at which evaporation ends: common black films are 10 to 30 nm thick.
+pub const BLACK_FILM_NM: f64 = 10.0;
+
+/// What a bubble's film is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FilmKey {
+    /// One thickness everywhere, in nm: no field at all.
+    Uniform(f64),
+    /// A field.
+    Field(FieldKey),
+}

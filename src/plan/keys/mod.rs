@@ -1,0 +1,9 @@
+//! The keys of products: for each, exactly what its pass reads.
+
+mod film;
+mod optics;
+mod picture;
+
+pub use film::{BLACK_FILM_NM, FieldKey, FilmKey, FlowLaw, FlowSegment, FreeFlow, Moment};
+pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
+pub use picture::{BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, TonemapKey};

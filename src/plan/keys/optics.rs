@@ -1,0 +1,136 @@
+//! Keys of what films look like in a light: tables and bands.
+
+use std::sync::Arc;
+
+use crate::{
+    physics::{
+        colour::{BandTask, FilmOptics, Illuminant},
+        optics::FilmMaterial,
+    },
+    scene::Quality,
+};
+
+/// A film in a light.
+#[derive(Clone, Debug)]
+pub struct OpticsKey {
+    /// What the film is made of.
+    pub film: FilmMaterial,
+    /// The light.
+    pub illuminant: Arc<Illuminant>,
+}
+
+impl PartialEq for OpticsKey {
+    fn eq(&self, other: &Self) -> bool {
+        self.film == other.film
+            && (Arc::ptr_eq(&self.illuminant, &other.illuminant) || self.illuminant == other.illuminant)
+    }
+}
+
+impl OpticsKey {
+    /// The film and the light with all their spectra.
+    #[must_use]
+    pub fn spectra(&self) -> FilmOptics {
+        FilmOptics::new(self.film.clone(), &self.illuminant)
+    }
+}
+
+/// The lookup table of what single walls reflect.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableKey {
+    /// Film and light.
+    pub optics: OpticsKey,
+    /// Thickness at the last row, at normal incidence, in nm.
+    pub max_thickness_nm: f64,
+    /// Columns, along √cosθ.
+    pub columns: u32,
+    /// Rows, along thickness times the cosine inside the film.
+    pub rows: u32,
+    /// Whether it holds what is reflected of each of three primaries, or of white light alone.
+    pub coloured: bool,
+    /// Whether s and p light are apart.
+    pub polarised: bool,
+}
+
+impl TableKey {
+    /// Columns of a full table.
+    pub const COLUMNS: u32 = 64;
+    /// Thickness that the table spans at least, in nm.
+    pub const MIN_RANGE_NM: f64 = 1500.0;
+    /// Rows for [`TableKey::MIN_RANGE_NM`]: 0.73 nm a row.
+    pub const MIN_ROWS: u32 = 2048;
+    /// Rows at most: the smallest limit on textures that adapters have.
+    const MAX_ROWS: u32 = 8192;
+
+    /// A full table for films up to a range, see [`range_nm`], for unpolarised white light. The rows grow with the range, so that their
+    /// spacing stays.
+    #[must_use]
+    pub fn full(optics: OpticsKey, max_thickness_nm: f64) -> Self {
+        let rows = (f64::from(Self::MIN_ROWS) * max_thickness_nm / Self::MIN_RANGE_NM).ceil() as u32;
+        let rows = rows.min(Self::MAX_ROWS);
+        Self { optics, max_thickness_nm, columns: Self::COLUMNS, rows, coloured: false, polarised: false }
+    }
+
+    /// The same range with fewer rows: what a window shows until the full table is there.
+    #[must_use]
+    pub fn coarser(&self, factor: u32) -> Self {
+        Self { rows: (self.rows / factor).max(2), ..self.clone() }
+    }
+
+    /// Layers of the texture: a primary each, first of s and then of p light.
+    #[must_use]
+    pub fn layers(&self) -> u32 {
+        (if self.coloured { 3 } else { 1 }) * (if self.polarised { 2 } else { 1 })
+    }
+}
+
+/// The range of tables and bands for films up to a thickness, in nm: steps of 250 nm, so that small edits make nothing anew.
+#[must_use]
+pub fn range_nm(thickest_nm: f64) -> f64 {
+    ((thickest_nm / 250.0).ceil() * 250.0).max(TableKey::MIN_RANGE_NM)
+}
+
+/// The fitted wavelengths that shaders sum over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BandsKey {
+    /// Film and light.
+    pub optics: OpticsKey,
+    /// Thickness that they are fitted to, in nm.
+    pub range_nm: f64,
+    /// Which errors they may leave.
+    pub quality: Quality,
+}
+
+impl BandsKey {
+    /// Bands at most: what a uniform buffer has room for.
+    pub const MOST: usize = 80;
+
+    /// What the bands are summed for.
+    #[must_use]
+    pub fn task(&self) -> BandTask {
+        // Thicker films have single walls from the table at every quality, for more bands than there are would be needed.
+        let is_enough = self.quality == Quality::Spectral && self.wanted() <= Self::MOST;
+        if is_enough { BandTask::Everything } else { BandTask::CrossTerms }
+    }
+
+    /// Whether single walls come from a table.
+    #[must_use]
+    pub fn needs_table(&self) -> bool {
+        self.task() == BandTask::CrossTerms
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.wanted().min(Self::MOST)
+    }
+
+    /// How many would do. Measured for 1500 nm, and as many more as thicker films have more fringes.
+    fn wanted(&self) -> usize {
+        let measured = match self.quality {
+            Quality::Fast => 6.0,
+            Quality::Standard => 13.0,
+            Quality::Spectral => 36.0,
+        };
+        (measured * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
+    }
+}

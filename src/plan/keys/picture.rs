@@ -1,0 +1,172 @@
+//! Keys of pictures: what is in sight, in which light, and how it is shown.
+
+use std::sync::Arc;
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::{BandsKey, FilmKey, TableKey};
+use crate::physics::{colour::Gamut, environment::CubeMap};
+
+/// The light around the bubbles.
+#[derive(Clone, Debug)]
+pub struct EnvironmentKey(pub Arc<CubeMap>);
+
+impl EnvironmentKey {
+    /// Texels along a face's edge.
+    #[must_use]
+    pub fn size(&self) -> u32 {
+        self.0.size() as u32
+    }
+}
+
+impl PartialEq for EnvironmentKey {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.id() == other.0.id()
+    }
+}
+
+/// One bubble as the picture sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BubbleKey {
+    /// Index of the bubble in the scene, and of its film.
+    pub index: usize,
+    /// Centre in metres.
+    pub centre_m: DVec3,
+    /// Radius in metres.
+    pub radius_m: f64,
+    /// Bounding rectangle in clip coordinates, lower left and upper right.
+    pub bounds: [DVec2; 2],
+    /// Takes directions of the world to the film, which may turn as a whole.
+    pub to_film: DMat3,
+    /// What has evaporated from the whole film, in nm.
+    pub thinned_nm: f64,
+    /// Samples along each side of a pixel.
+    pub samples: u32,
+    /// Whether the film is looked up through its flow map at each pixel: where cells are larger than pixels.
+    pub magnified: bool,
+    /// The film.
+    pub film: FilmKey,
+}
+
+/// Where the picture is taken from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraKey {
+    /// The eye, in metres.
+    pub eye_m: DVec3,
+    /// Unit vector along the line of sight.
+    pub forward: DVec3,
+    /// Unit vector to the right of the picture.
+    pub right: DVec3,
+    /// Unit vector to its top.
+    pub up: DVec3,
+    /// Height of a pixel on the plane one metre before the eye, in metres.
+    pub pixel_height_m: f64,
+}
+
+/// What stands straight behind the bubbles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BackdropKey {
+    /// The environment.
+    Environment,
+    /// A radiance, linear BT.2020.
+    Colour(DVec3),
+}
+
+/// How the environment lights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightKey {
+    /// Factor on the environment's radiance, linear BT.2020.
+    pub gain: DVec3,
+    /// From the environment's light to what is seen of it under the illuminant: linear BT.2020, where (1, 1, 1) is daylight's white.
+    pub seen: DMat3,
+    /// Factor that makes daylight's white (1, 1, 1).
+    pub scale: DVec3,
+    /// Direction in the world along which the electric field passes a polariser before the camera, if there is one.
+    pub polariser: Option<DVec3>,
+    /// Turn of the environment about the vertical, anticlockwise from above, in radians.
+    pub rotation_rad: f64,
+    /// The backdrop.
+    pub backdrop: BackdropKey,
+}
+
+/// The linear picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawKey {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Whether radiance is kept as f32, for measurements, or as f16, for looking at.
+    pub full_precision: bool,
+    /// Whether each film is replaced by a sphere with one environment lookup: the yardstick of the frame's cost.
+    pub yardstick: bool,
+    /// The camera.
+    pub camera: CameraKey,
+    /// The light.
+    pub light: LightKey,
+    /// The environment.
+    pub environment: EnvironmentKey,
+    /// The table, where the quality has one.
+    pub table: Option<TableKey>,
+    /// The bands.
+    pub bands: BandsKey,
+    /// The bubbles that can be seen, farthest first.
+    pub bubbles: Vec<BubbleKey>,
+}
+
+impl DrawKey {
+    /// Whether any light from the environment can reach the picture.
+    #[must_use]
+    pub fn needs_environment(&self) -> bool {
+        !self.bubbles.is_empty() || self.light.backdrop == BackdropKey::Environment
+    }
+
+    /// The first thing in which two pictures differ.
+    #[must_use]
+    pub fn difference(&self, other: &Self) -> &'static str {
+        if self.size != other.size {
+            "the picture's size"
+        } else if self.camera != other.camera {
+            "the camera"
+        } else if self.light != other.light || self.environment != other.environment {
+            "the light"
+        } else if self.table != other.table {
+            "the table"
+        } else if self.bands != other.bands {
+            "the bands"
+        } else if self.bubbles != other.bubbles {
+            "a bubble or its film"
+        } else {
+            "the way of drawing"
+        }
+    }
+}
+
+/// The finished picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TonemapKey {
+    /// The linear picture.
+    pub draw: DrawKey,
+    /// Exposure in stops.
+    pub exposure_ev: f64,
+    /// From the linear picture to what the display is given, linear BT.2020: white balance.
+    pub balance: DMat3,
+    /// Colours that the display has.
+    pub gamut: Gamut,
+    /// Seed of the dither, if there is any.
+    pub dither: Option<u32>,
+}
+
+impl TonemapKey {
+    /// The first thing in which two pictures differ.
+    #[must_use]
+    pub fn difference(&self, other: &Self) -> &'static str {
+        if self.draw != other.draw {
+            "the linear picture"
+        } else if self.exposure_ev != other.exposure_ev {
+            "the exposure"
+        } else if self.balance != other.balance || self.gamut != other.gamut {
+            "the white balance or the gamut"
+        } else {
+            "the dither"
+        }
+    }
+}
