@@ -51,12 +51,12 @@ fn between(from: (&Scene, u64), to: (&Scene, u64)) -> Vec<&'static str> {
     names(&plan(&wanted(to.0, to.1, Pace::Whole), &after(from.0, from.1)))
 }
 
-fn default_scene() -> Scene {
-    preset("default").unwrap()
+fn stirred_scene() -> Scene {
+    preset("stirred").unwrap()
 }
 
 fn uniform_scene() -> Scene {
-    let mut scene = default_scene();
+    let mut scene = stirred_scene();
     scene.bubbles[0].film.state = FilmStateName::Uniform;
     scene
 }
@@ -67,7 +67,7 @@ fn event(tick: u64, flow: Flow) -> Event {
 
 #[test]
 fn the_first_picture_makes_everything_once() {
-    let first = names(&plan(&wanted(&default_scene(), 30, Pace::Whole), &Have::default()));
+    let first = names(&plan(&wanted(&stirred_scene(), 30, Pace::Whole), &Have::default()));
     let mut order = first.clone();
     order.dedup();
     let expected =
@@ -77,21 +77,21 @@ fn the_first_picture_makes_everything_once() {
 
 #[test]
 fn the_same_scene_again_costs_nothing() {
-    assert_eq!(between((&default_scene(), 5), (&default_scene(), 5)), [] as [&str; 0]);
+    assert_eq!(between((&stirred_scene(), 5), (&stirred_scene(), 5)), [] as [&str; 0]);
 }
 
 #[test]
 fn exposure_costs_a_tonemap() {
-    let mut brighter = default_scene();
+    let mut brighter = stirred_scene();
     brighter.view.exposure_ev = 1.0;
-    assert_eq!(between((&default_scene(), 5), (&brighter, 5)), ["tonemap"]);
+    assert_eq!(between((&stirred_scene(), 5), (&brighter, 5)), ["tonemap"]);
 }
 
 #[test]
 fn a_camera_move_draws_and_neither_bakes_nor_steps() {
-    let mut moved = default_scene();
+    let mut moved = stirred_scene();
     moved.camera.azimuth_deg += 10.0;
-    assert_eq!(between((&default_scene(), 5), (&moved, 5)), ["draw", "tonemap"]);
+    assert_eq!(between((&stirred_scene(), 5), (&moved, 5)), ["draw", "tonemap"]);
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn a_uniform_film_has_no_field() {
 
 #[test]
 fn a_film_at_rest_is_never_stepped() {
-    let mut scene = default_scene();
+    let mut scene = stirred_scene();
     scene.motion.flow = Flow::Rest;
     for tick in [0, 1, 1_000_000] {
         let passes = names(&plan(&wanted(&scene, tick, Pace::Whole), &Have::default()));
@@ -114,7 +114,7 @@ fn a_film_at_rest_is_never_stepped() {
 
 #[test]
 fn a_bubble_out_of_sight_costs_nothing() {
-    let mut scene = default_scene();
+    let mut scene = stirred_scene();
     scene.bubbles.push(Bubble { center_m: [0.0, 5.0, 0.0], ..Bubble::default() });
     let behind = Bubble { center_m: [5.0, 0.0, 0.0], ..Bubble::default() };
     scene.bubbles.push(behind);
@@ -122,13 +122,13 @@ fn a_bubble_out_of_sight_costs_nothing() {
     assert_eq!(want.picture.draw.bubbles.iter().map(|bubble| bubble.index).collect::<Vec<_>>(), [0]);
     assert_eq!(
         names(&plan(&want, &Have::default())),
-        names(&plan(&wanted(&default_scene(), 4, Pace::Whole), &Have::default()))
+        names(&plan(&wanted(&stirred_scene(), 4, Pace::Whole), &Have::default()))
     );
 }
 
 #[test]
 fn a_bubble_below_a_pixel_is_not_simulated() {
-    let mut scene = default_scene();
+    let mut scene = stirred_scene();
     scene.camera.distance_m = 500.0;
     let passes = names(&plan(&wanted(&scene, 4, Pace::Whole), &Have::default()));
     assert!(!passes.contains(&"seed_field"), "{passes:?}");
@@ -157,7 +157,7 @@ fn a_window_gets_a_coarse_table_first_and_the_full_one_soon() {
 
 #[test]
 fn a_window_catches_up_with_a_film_in_portions() {
-    let want = wanted(&default_scene(), 160, Pace::Frame);
+    let want = wanted(&stirred_scene(), 160, Pace::Frame);
     let (mut have, mut frames) = (Have::default(), 0);
     loop {
         let next = plan(&want, &have);
@@ -173,13 +173,13 @@ fn a_window_catches_up_with_a_film_in_portions() {
 
 #[test]
 fn another_past_seeds_anew_and_another_future_does_not() {
-    let mut sloshing_at_3 = default_scene();
+    let mut sloshing_at_3 = stirred_scene();
     sloshing_at_3.events.push(event(3, Flow::Sloshing));
-    let mut sloshing_at_30 = default_scene();
+    let mut sloshing_at_30 = stirred_scene();
     sloshing_at_30.events.push(event(30, Flow::Sloshing));
-    assert!(between((&default_scene(), 20), (&sloshing_at_3, 20)).contains(&"seed_field"));
-    assert_eq!(between((&default_scene(), 20), (&sloshing_at_30, 20)), [] as [&str; 0]);
-    assert_eq!(between((&default_scene(), 20), (&sloshing_at_30, 40)), ["step_field", "show_field", "draw", "tonemap"]);
+    assert!(between((&stirred_scene(), 20), (&sloshing_at_3, 20)).contains(&"seed_field"));
+    assert_eq!(between((&stirred_scene(), 20), (&sloshing_at_30, 20)), [] as [&str; 0]);
+    assert_eq!(between((&stirred_scene(), 20), (&sloshing_at_30, 40)), ["step_field", "show_field", "draw", "tonemap"]);
 }
 
 /// The ticks of the steps that lead to a film's state.
@@ -192,7 +192,7 @@ fn steps(scene: &Scene, tick: u64) -> Vec<Range<u64>> {
 
 #[test]
 fn a_step_lasts_as_long_as_it_stays_accurate_and_ends_where_a_law_does() {
-    let mut scene = default_scene();
+    let mut scene = stirred_scene();
     assert_eq!(steps(&scene, 30), [0..12, 12..24], "0.2 s at half strength, and the rest is shown ahead of the state");
     scene.events.push(event(15, Flow::Sloshing));
     assert_eq!(steps(&scene, 30), [0..12, 12..15, 15..27]);
@@ -201,8 +201,27 @@ fn a_step_lasts_as_long_as_it_stays_accurate_and_ends_where_a_law_does() {
 }
 
 #[test]
+fn a_free_film_is_stepped_as_its_waves_need() {
+    let mut scene = preset("default").unwrap();
+    assert_eq!(steps(&scene, 3), [0..1, 1..2, 2..3], "waves of 5 cm turn by a quarter of a radian in 18 ms");
+    scene.motion.gravity_m_s2 = [0.0; 3];
+    assert_eq!(steps(&scene, 5), [0..2, 2..4], "without gravity steps of a thirtieth of a second do");
+    let film = |scene: &Scene| match &wanted(scene, 90, Pace::Whole).picture.draw.bubbles[0].film {
+        FilmKey::Field(film) => film.clone(),
+        FilmKey::Uniform(_) => panic!("the film has a field"),
+    };
+    scene.motion.evaporation_nm_s = 30.0;
+    let faster = MotionChange { evaporation_nm_s: Some(60.0), ..MotionChange::default() };
+    scene.events.push(Event { tick: 60, change: Change::Motion(faster) });
+    let thinned = film(&scene).thinned_nm(90.0);
+    assert!((thinned - 60.0).abs() < 1e-9, "30 nm in the first second and 30 in the next half: {thinned}");
+    scene.motion.flow = Flow::Stirred;
+    assert_eq!(film(&scene).thinned_nm(90.0), 0.0, "how thick it is changes nothing in how others move");
+}
+
+#[test]
 fn a_film_that_hardly_moves_takes_few_steps() {
-    let mut scene = default_scene();
+    let mut scene = stirred_scene();
     scene.motion.strength = 1e-7;
     // 1e-3 of a cell of 6 milliradians at less than 1e-5 rad/s: more than half a second.
     let steps = steps(&scene, 3600);
@@ -211,7 +230,7 @@ fn a_film_that_hardly_moves_takes_few_steps() {
 
 #[test]
 fn turning_and_evaporating_as_a_whole_only_draws() {
-    let mut scene = default_scene();
+    let mut scene = stirred_scene();
     scene.motion.flow = Flow::Rest;
     scene.motion.spin_deg_s = [0.0, 0.0, 90.0];
     scene.motion.evaporation_nm_s = 60.0;
@@ -226,17 +245,17 @@ fn turning_and_evaporating_as_a_whole_only_draws() {
 #[test]
 fn going_back_in_time_seeds_anew() {
     let back = ["seed_field", "step_field", "show_field", "draw", "tonemap"];
-    assert_eq!(between((&default_scene(), 30), (&default_scene(), 20)), back);
+    assert_eq!(between((&stirred_scene(), 30), (&stirred_scene(), 20)), back);
 }
 
 #[test]
 fn the_plan_says_what_and_why() {
-    let text = plan(&wanted(&default_scene(), 30, Pace::Whole), &Have::default()).to_string();
+    let text = plan(&wanted(&stirred_scene(), 30, Pace::Whole), &Have::default()).to_string();
     for part in ["bake_table", "film 0, ticks 0..24", "nothing there yet"] {
         assert!(text.contains(part), "{part} in {text}");
     }
     assert_eq!(
-        plan(&wanted(&default_scene(), 2, Pace::Whole), &after(&default_scene(), 2)).to_string(),
+        plan(&wanted(&stirred_scene(), 2, Pace::Whole), &after(&stirred_scene(), 2)).to_string(),
         "nothing to do\n"
     );
 }
@@ -251,7 +270,7 @@ fn scenes() -> impl Strategy<Value = Scene> {
     let exposure_ev = prop_oneof![Just(0.0), Just(1.0)];
     (state, flow(), events, thickness_nm, azimuth_deg, exposure_ev, 1..3_usize).prop_map(
         |(state, flow, mut events, thickness_nm, azimuth_deg, exposure_ev, bubbles)| {
-            let mut scene = default_scene();
+            let mut scene = stirred_scene();
             let film = &mut scene.bubbles[0].film;
             (film.state, film.thickness_nm, film.cells) = (state, thickness_nm, 16);
             let other = Bubble { center_m: [0.0, 0.08, 0.0], radius_mm: 10.0, ..scene.bubbles[0].clone() };

@@ -313,9 +313,9 @@ fn free_flow(motion: &Motion, radius_m: f64) -> FreeFlow {
             gravity: DVec3::from(motion.gravity_m_s2) / radius_m,
             drag: motion.drag_1_s,
             air_drag: AIR_DRAG * motion.air_drag,
-            viscosity: motion.viscosity_m2_s / radius_m.powi(2),
+            viscosity: 1e-6 * motion.viscosity_mm2_s / radius_m.powi(2),
         },
-        diffusion: motion.diffusion_m2_s / radius_m.powi(2),
+        diffusion: 1e-6 * motion.diffusion_mm2_s / radius_m.powi(2),
         draught: motion.strength,
         seed: fold_seed(motion.seed),
     }

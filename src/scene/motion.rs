@@ -22,10 +22,10 @@ pub struct Motion {
     pub drag_1_s: f64,
     /// Factor on the drag of the air's boundary layer, which goes as the root of the speed over the thickness; 0 ..= 10. Default: 0.
     pub air_drag: f64,
-    /// Kinematic viscosity of the film, m²/s: that of the liquid and of its surfaces; 0 ..= 1. Real films: 2e-5 to 2e-3. Default: 1e-4.
-    pub viscosity_m2_s: f64,
-    /// How fast differences of thickness spread within the film, m²/s; 0 ..= 1e-3. Default: 5e-7.
-    pub diffusion_m2_s: f64,
+    /// Kinematic viscosity of the film, mm²/s: that of the liquid and of its surfaces; 0 ..= 1000000. Real films: 20 to 2000. Default: 100.
+    pub viscosity_mm2_s: f64,
+    /// How fast differences of thickness spread within the film, mm²/s; 0 ..= 1000. Default: 0.5.
+    pub diffusion_mm2_s: f64,
     /// Turn of all films as a whole, degrees a second about the three axes of the world; -3600 ..= 3600. Default: [0, 0, 0].
     pub spin_deg_s: [f64; 3],
     /// What evaporates from the whole film, nm of thickness a second, down to 10 nm of black film; 0 ..= 1000. Default: 0.
@@ -48,8 +48,8 @@ impl Default for Motion {
             gravity_m_s2: [0.0, 0.0, -9.81],
             drag_1_s: 2.0,
             air_drag: 0.0,
-            viscosity_m2_s: 1e-4,
-            diffusion_m2_s: 5e-7,
+            viscosity_mm2_s: 100.0,
+            diffusion_mm2_s: 0.5,
             spin_deg_s: [0.0; 3],
             evaporation_nm_s: 0.0,
             scheme: TransportScheme::Map,
@@ -68,8 +68,8 @@ impl Motion {
         check::all_in_range("gravity_m_s2", self.gravity_m_s2, -1000.0..=1000.0)?;
         check::in_range("drag_1_s", self.drag_1_s, 0.0..=1000.0)?;
         check::in_range("air_drag", self.air_drag, 0.0..=10.0)?;
-        check::in_range("viscosity_m2_s", self.viscosity_m2_s, 0.0..=1.0)?;
-        check::in_range("diffusion_m2_s", self.diffusion_m2_s, 0.0..=1e-3)?;
+        check::in_range("viscosity_mm2_s", self.viscosity_mm2_s, 0.0..=1e6)?;
+        check::in_range("diffusion_mm2_s", self.diffusion_mm2_s, 0.0..=1000.0)?;
         check::in_range("remap_ticks", self.remap_ticks, 1..=1000)?;
         check::in_range("speed", self.speed, 0.01..=100.0)
     }

@@ -56,10 +56,12 @@ const VALUE_WIDTH: f32 = 76.0;
 pub fn choice<T: Copy + PartialEq>(ui: &mut Ui, name: &str, value: &mut T, options: &[(T, &str, &str)]) -> bool {
     let before = *value;
     group(ui, name, |ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
-        for (option, label, help) in options {
-            ui.selectable_value(value, *option, *label).on_hover_text(*help);
-        }
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = vec2(3.0, 2.0);
+            for (option, label, help) in options {
+                ui.selectable_value(value, *option, *label).on_hover_text(*help);
+            }
+        });
     });
     *value != before
 }

@@ -13,7 +13,7 @@ const TWISTS: u32 = 24;
 /// Frequencies of the noise in lattice cells per radius, and their weights; the first patches are some 65° wide, the last 15°.
 const OCTAVES: [(f64, f64); 3] = [(1.2, 1.0), (2.3, 0.4), (4.4, 0.1)];
 /// Spreads the sum of octaves over the range: a standard deviation near 0.55 of (−1, 1).
-const CONTRAST: f64 = 3.6;
+const CONTRAST: f64 = 4.4;
 
 /// A marbled random pattern on the sphere.
 #[derive(Clone, Debug)]

@@ -84,7 +84,7 @@ fn written(key: &str, default: &str, value: f64) -> String {
     let number = format!("{value:?}").to_lowercase();
     match key {
         "cells" | "remap_ticks" | "version" => format!("{}", value.round()).to_lowercase(),
-        _ if default.starts_with('[') || ["constant", "spin_deg_s"].contains(&key) => format!("[0, {number}, 0]"),
+        _ if default.starts_with('[') || ["constant", "spin_deg_s", "gravity_m_s2"].contains(&key) => format!("[0, {number}, 0]"),
         _ => number,
     }
 }

@@ -81,7 +81,7 @@ fn flow() -> impl Strategy<Value = Flow> {
 
 fn motion() -> impl Strategy<Value = Motion> {
     let spins = (spin(), 0.0..1000.0, scheme());
-    let forces = (gravity(), 0.0..1000.0, 0.0..10.0, 0.0..1.0, 0.0..1e-3);
+    let forces = (gravity(), 0.0..1000.0, 0.0..10.0, 0.0..1e6, 0.0..1000.0);
     (1e-4..0.1, flow(), 0.0..10.0, any::<u64>(), spins, forces, 1u32..=1000, 0.01..100.0).prop_map(
         |(tick_s, flow, strength, seed, (spin_deg_s, evaporation_nm_s, scheme), forces, remap_ticks, speed)| Motion {
             tick_s,
@@ -91,8 +91,8 @@ fn motion() -> impl Strategy<Value = Motion> {
             gravity_m_s2: forces.0,
             drag_1_s: forces.1,
             air_drag: forces.2,
-            viscosity_m2_s: forces.3,
-            diffusion_m2_s: forces.4,
+            viscosity_mm2_s: forces.3,
+            diffusion_mm2_s: forces.4,
             spin_deg_s,
             evaporation_nm_s,
             scheme,

@@ -87,7 +87,7 @@ fn values_have_their_type() {
         ),
         (
             "[motion]\nflow = \"windy\"",
-            "3: `flow` in [motion] is wrong: unknown word `windy`, expected one of `rest`, `sloshing`, `draught`, `stirred`",
+            "3: `flow` in [motion] is wrong: unknown word `windy`, expected one of `free`, `rest`, `sloshing`, `draught`, `stirred`",
         ),
         ("[motion]\nflow = 3", "3: `flow` in [motion] is wrong: expected a word in quotes"),
         (
