@@ -1,6 +1,7 @@
 //! `soapfilm transport`: the published tests of transport on the sphere, on the GPU.
 
 use std::{
+    f64::consts::{FRAC_PI_2, PI, TAU},
     path::PathBuf,
     time::{Duration, Instant},
 };
@@ -18,9 +19,10 @@ use crate::{
         timing::Recorder,
         transport_case::{Case, values},
     },
-    output::write_text,
+    output::{Metadata, Picture, write_text},
     physics::{
-        sphere::CubedSphere,
+        colour::Gamut,
+        sphere::{CubedSphere, HaloTable, PaddedField},
         transport::{Measured, Quantity, Scheme, Tracer, TracerKind, Wind, WindKind},
     },
 };
@@ -65,6 +67,9 @@ pub struct Arguments {
     /// Write every cell to a CSV file
     #[arg(short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
+    /// Write a map of the tracer, longitude by latitude, black for 0 and white for 1
+    #[arg(long, value_name = "FILE.png")]
+    map: Option<PathBuf>,
     /// Write the norms to a JSON file
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -101,6 +106,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     );
     if let Some(path) = &arguments.output {
         write_text(path, &cells_csv(&case, &moved.values))?;
+    }
+    if let Some(path) = &arguments.map {
+        let about = Metadata::new().with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")));
+        map(&case, &moved.values).save(path, &about)?;
     }
     if let Some(path) = &arguments.json {
         let copy_ms = copy_ms_per_step(&gpu, &case)?;
@@ -157,6 +166,24 @@ fn cells_csv(case: &Case, values: &[f64]) -> String {
         text.push_str(&format!("{},{},{},{},{value}\n", at.x, at.y, at.z, areas[cell]));
     }
     text
+}
+
+/// Height of a map in pixels; its width is twice that.
+const MAP_HEIGHT: u32 = 400;
+
+/// A map of all longitudes from 0 and all latitudes, north on top; grey levels are proportional to values.
+fn map(case: &Case, values: &[f64]) -> Picture {
+    let size = [2 * MAP_HEIGHT, MAP_HEIGHT];
+    let field = PaddedField::from_cells(case.grid, &HaloTable::new(case.grid), |cell| values[cell]);
+    let grey = |pixel: u32| {
+        let [column, row] = [pixel % size[0], pixel / size[0]].map(|k| f64::from(k) + 0.5);
+        let (sin, cos) = (column / f64::from(size[0]) * TAU).sin_cos();
+        let (height, ring) = (FRAC_PI_2 - row / f64::from(size[1]) * PI).sin_cos();
+        let value = field.bilinear(DVec3::new(ring * cos, ring * sin, height));
+        (255.0 * value.clamp(0.0, 1.0)).round() as u8
+    };
+    let rgba = (0..size[0] * size[1]).map(grey).flat_map(|grey| [grey, grey, grey, 255]).collect();
+    Picture::Display { size, gamut: Gamut::Srgb, rgba }
 }
 
 fn report(case: &Case, norms: &Measured, moved: &Moved, kind: Quantity, copy_ms: f64) -> serde_json::Value {

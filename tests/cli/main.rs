@@ -383,7 +383,8 @@ fn glslang(desk: &Desk, file: &str, text: &str, options: &[&str]) {
 #[test]
 fn transport_reports_its_norms() {
     let desk = Desk::new();
-    let arguments = "transport --wind nd --tracer cb --cells 16 --steps 20 -o cells.csv --json norms.json";
+    let arguments =
+        "transport --wind nd --tracer cb --cells 16 --steps 20 -o cells.csv --map map.png --json norms.json";
     if desk.done(arguments).is_none() {
         return;
     }
@@ -408,6 +409,10 @@ fn transport_reports_its_norms() {
     );
     assert_eq!((norms["cells"].as_u64(), norms["steps"].as_u64()), (Some(6 * 16 * 16), Some(20)));
     let csv = std::fs::read_to_string(desk.path("cells.csv")).unwrap();
+    let map = read_png(&desk.path("map.png")).unwrap();
+    // Bells stand on the equator, 30° either side of the middle.
+    let at = |x: usize, y: usize| map.rgba[4 * (y * 800 + x)];
+    assert!(at(333, 200) > 50 && at(467, 200) > 50 && at(10, 200) < 40 && at(333, 20) < 40);
     assert!(csv.starts_with("x,y,z,area,value\n") && csv.lines().count() == 1 + 6 * 16 * 16);
     let area: f64 = csv.lines().skip(1).map(|line| line.split(',').nth(3).unwrap().parse::<f64>().unwrap()).sum();
     assert!((area - 4.0 * std::f64::consts::PI).abs() < 1e-9, "{area}");
@@ -447,4 +452,28 @@ fn a_frame_alone_is_the_frame_of_a_run() {
     let again = desk.done(&format!("sequence default -o alone --frames 5..5 {size}")).unwrap();
     assert!(again.err.contains("already there"), "{}", again.err);
     assert_eq!(std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap(), before);
+}
+
+/// A history that was saved as a scene replays bit by bit: as one picture, and as a frame of a run.
+#[test]
+fn a_saved_history_replays() {
+    let desk = Desk::new();
+    let events = "[[event]]\ntick = 20\nkind = \"motion\"\nflow = \"sloshing\"\nspin_deg_s = [0.0, 0.0, 40.0]\n\
+                  [[event]]\ntick = 45\nkind = \"motion\"\nflow = \"stirred\"\nstrength = 1.5\nevaporation_nm_s = 9.0\n";
+    desk.write("saved.toml", format!("version = 1\n[[bubble]]\n[bubble.film]\ncells = 32\n{events}"));
+    if desk.done("render saved.toml -o once.png --size 64x36 --time 1.5").is_none() {
+        return;
+    }
+    desk.done("sequence saved.toml -o run --frames 7..9 --fps 6 --size 64x36").unwrap();
+    let pixels = |path: &str| read_png(&desk.path(path)).unwrap().rgba;
+    assert_eq!(pixels("run/frame_000009.png"), pixels("once.png"));
+
+    let Some(mut renderer) = support::renderer() else { return };
+    let loaded = support::load(desk.path("saved.toml").to_str().unwrap());
+    for time_s in [0.2, 1.0, 0.4, 1.4] {
+        support::display(&mut renderer, &support::still(&loaded, [64, 36], time_s));
+    }
+    let mut want = support::still(&loaded, [64, 36], 1.5);
+    want.picture.draw.full_precision = false;
+    assert_eq!(support::display(&mut renderer, &want), pixels("once.png"), "another process, after scrubbing");
 }

@@ -4,6 +4,7 @@
 mod support;
 
 mod flow;
+mod history;
 mod layers;
 mod layouts;
 mod optics;
@@ -11,3 +12,4 @@ mod passes;
 mod pictures;
 mod shaders;
 mod transport;
+mod zoom;

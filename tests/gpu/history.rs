@@ -1,0 +1,179 @@
+//! A film's history: equal histories give equal bits however they were cut into frames, and nothing is done for nothing.
+
+use soapfilm::{
+    gpu::{Renderer, timing::Counts},
+    input::LoadedScene,
+    plan::{FieldHave, Moment, Pace, Want},
+    scene::{Change, Event, Flow, MotionChange, Scene},
+};
+
+use crate::support::{load, radiance, renderer, still};
+
+const SIZE: [u32; 2] = [64, 36];
+const CELLS: u32 = 32;
+
+/// The default bubble with a film of few cells.
+fn small() -> LoadedScene {
+    let mut loaded = load("default");
+    loaded.scene.bubbles[0].film.cells = CELLS;
+    loaded
+}
+
+fn event(tick: u64, change: MotionChange) -> Event {
+    Event { tick, change: Change::Motion(change) }
+}
+
+/// A film that is stirred, swings and is stirred again, turns as a whole and evaporates, with remaps on the way.
+fn eventful() -> LoadedScene {
+    let mut loaded = small();
+    loaded.scene.motion.remap_ticks = 40;
+    let slosh = MotionChange { flow: Some(Flow::Sloshing), strength: Some(2.0), ..MotionChange::default() };
+    let turn =
+        MotionChange { spin_deg_s: Some([0.0, 20.0, 50.0]), evaporation_nm_s: Some(30.0), ..MotionChange::default() };
+    let stir = MotionChange { flow: Some(Flow::Stirred), seed: Some(9), ..MotionChange::default() };
+    loaded.scene.events = vec![event(31, slosh), event(47, turn), event(80, stir)];
+    loaded
+}
+
+/// Seconds of a number of ticks, whole or not.
+fn seconds(ticks: f64) -> f64 {
+    ticks / 60.0
+}
+
+/// What a window wants at a moment: a frame's worth.
+fn frame(loaded: &LoadedScene, ticks: f64) -> Want {
+    Want { pace: Pace::Frame, ..still(loaded, SIZE, seconds(ticks)) }
+}
+
+/// Between two ticks, and within a step.
+const END_TICKS: f64 = 130.4;
+
+fn arrive(renderer: &mut Renderer, loaded: &LoadedScene) -> Vec<[u64; 3]> {
+    let pixels = radiance(renderer, &still(loaded, SIZE, seconds(END_TICKS)));
+    pixels.into_iter().map(|pixel| pixel.to_array().map(f64::to_bits)).collect()
+}
+
+#[test]
+fn equal_histories_give_equal_bits() {
+    let Some(mut at_once) = renderer() else { return };
+    let loaded = eventful();
+    let expected = arrive(&mut at_once, &loaded);
+    let moved = arrive(&mut at_once, &small());
+    assert_ne!(expected, moved, "another history must be seen, or this test sees nothing");
+    assert_eq!(arrive(&mut at_once, &loaded), expected, "after another history");
+
+    let frames: [(&str, &[f64]); 3] = [
+        ("uneven frames", &[0.0, 1.0, 1.3, 2.0, 17.0, 30.9, 31.0, 46.0, 79.5, 80.0, 81.0, 130.0]),
+        ("a pause", &[5.0, 33.0, 33.0, 33.0, 34.0, 90.0, 90.0]),
+        ("scrubbing back and forth", &[60.0, 20.0, 130.0, 79.9, 3.0, 200.0, 81.2, 0.0, 140.0]),
+    ];
+    for (name, ticks) in frames {
+        let mut renderer = renderer().unwrap();
+        for ticks in ticks {
+            // A window draws what it has got so far and goes on, whether the film has caught up or not.
+            renderer.bring(&frame(&loaded, *ticks)).unwrap();
+        }
+        assert_eq!(arrive(&mut renderer, &loaded), expected, "{name}");
+    }
+}
+
+/// In a window events are added as they happen, and a saved scene is read by another process.
+#[test]
+fn a_history_made_while_it_runs_is_the_saved_one() {
+    let Some(mut running) = renderer() else { return };
+    let loaded = eventful();
+    let mut live = LoadedScene { scene: Scene { events: Vec::new(), ..loaded.scene.clone() }, ..small() };
+    for tick in (0..130).step_by(3) {
+        let happened = loaded.scene.events.iter().filter(|event| event.tick <= tick);
+        live.scene.events = happened.cloned().collect();
+        running.bring(&frame(&live, tick as f64)).unwrap();
+    }
+    let saved = Scene::from_toml(&live.scene.to_toml(), "saved").unwrap();
+    let read = LoadedScene { scene: saved, ..small() };
+    let mut other = renderer().unwrap();
+    assert_eq!(arrive(&mut running, &live), arrive(&mut other, &read));
+}
+
+/// What the device did to get from the picture of one time to that of another.
+fn cost(loaded: &LoadedScene, from_ticks: f64, to_ticks: f64) -> Option<[Counts; 2]> {
+    let mut renderer = renderer()?;
+    let mut at = |ticks: f64| {
+        assert!(renderer.bring(&still(loaded, SIZE, seconds(ticks))).unwrap().complete);
+        renderer.counts
+    };
+    let first = at(from_ticks);
+    let both = at(to_ticks);
+    let second = Counts {
+        dispatches: both.dispatches - first.dispatches,
+        draws: both.draws - first.draws,
+        pixels_shaded: both.pixels_shaded - first.pixels_shaded,
+        cells_stepped: both.cells_stepped - first.cells_stepped,
+        submissions: both.submissions - first.submissions,
+    };
+    Some([first, second])
+}
+
+#[test]
+fn a_film_at_rest_does_nothing() {
+    let mut loaded = small();
+    loaded.scene.motion.flow = Flow::Rest;
+    let Some([first, second]) = cost(&loaded, 7.0, 700.5) else { return };
+    assert_eq!(first.cells_stepped, 0);
+    assert_eq!(second.submissions, 0, "{second:?}");
+}
+
+#[test]
+fn turning_and_evaporating_as_a_whole_draws_and_steps_no_cell() {
+    let mut loaded = small();
+    loaded.scene.motion.flow = Flow::Rest;
+    (loaded.scene.motion.spin_deg_s, loaded.scene.motion.evaporation_nm_s) = ([10.0, 0.0, 90.0], 20.0);
+    let Some([first, second]) = cost(&loaded, 7.0, 70.5) else { return };
+    assert_eq!((first.cells_stepped, second.cells_stepped, second.dispatches), (0, 0, 0), "{second:?}");
+    assert!(second.draws > 0, "the turn is seen");
+}
+
+#[test]
+fn a_bubble_that_is_not_seen_is_not_moved() {
+    let place = |center_m: [f64; 3]| {
+        let mut loaded = small();
+        loaded.scene.bubbles[0].center_m = center_m;
+        loaded
+    };
+    let mut far = small();
+    far.scene.camera.distance_m = 500.0;
+    let unseen = [("beside the picture", place([0.0, 5.0, 0.0])), ("behind", place([5.0, 0.0, 0.0])), ("a speck", far)];
+    for (name, mut loaded) in unseen {
+        loaded.scene.motion.flow = Flow::Stirred;
+        let Some([first, second]) = cost(&loaded, 7.0, 700.0) else { return };
+        assert_eq!((first.cells_stepped, second.submissions), (0, 0), "{name}: {second:?}");
+    }
+}
+
+/// What moves by less than a thousandth of a cell waits until it is more, and a long jump takes a few long steps.
+#[test]
+fn a_film_that_hardly_moves_is_hardly_stepped() {
+    let mut loaded = small();
+    loaded.scene.motion.strength = 1e-7;
+    let Some([first, second]) = cost(&loaded, 20.0, 36_000.0) else { return };
+    assert_eq!(first.cells_stepped, 0, "a third of a second moves nothing by a thousandth of a cell");
+    let steps = second.cells_stepped / (6 * u64::from(CELLS * CELLS));
+    assert!((1..200).contains(&steps), "{steps} steps for 10 minutes");
+}
+
+/// The state's tick is the last end of a step, the same in one go and frame by frame.
+#[test]
+fn states_end_where_steps_do() {
+    let Some(mut renderer) = renderer() else { return };
+    let loaded = eventful();
+    let mut state = |want: &Want| {
+        while !renderer.bring(want).unwrap().complete {}
+        renderer.have().fields[0].clone().map(|FieldHave { state, shown }| (state.moment, shown)).unwrap()
+    };
+    let jumped = state(&still(&loaded, SIZE, seconds(END_TICKS)));
+    for ticks in [0.0, 77.7, 12.0] {
+        state(&frame(&loaded, ticks));
+    }
+    assert_eq!(state(&frame(&loaded, END_TICKS)), jumped);
+    assert_eq!(jumped.1.map(|shown| shown.tick), Some(130));
+    assert!((80..130).contains(&jumped.0.tick) && jumped.0 == Moment::tick(jumped.0.tick), "{}", jumped.0);
+}
