@@ -305,11 +305,11 @@ fn the_picture_in_even_light_is_the_f64_one() {
     let Some(mut renderer) = renderer() else { return };
     let mut still_film = uniform(320.0, even_light());
     still_film.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
-    let mut moving = load("default");
+    let mut moving = load("stirred");
     moving.resources.environment = Arc::new(even_light());
     moving.scene.bubbles[0].film.cells = 64;
     let (loaded, name) =
-        ([&still_film, &moving], ["uniform 320 nm, even light, black card", "default film at 0.51 s, even light"]);
+        ([&still_film, &moving], ["uniform 320 nm, even light, black card", "stirred film at 0.51 s, even light"]);
     for (loaded, name) in loaded.into_iter().zip(name) {
         let distance = distance_from_reference(&mut renderer, name, loaded, 0.51);
         assert!(distance.mean <= 0.01 && distance.inside_max <= 0.05 && distance.rim_max <= 0.12, "{name}");
@@ -322,7 +322,7 @@ fn the_picture_in_even_light_is_the_f64_one() {
 fn the_pictures_of_presets_are_the_f64_ones() {
     let Some(mut renderer) = renderer() else { return };
     let tent = load("default").resources.environment;
-    for name in ["default", "inside", "lamplight"] {
+    for name in ["bands", "inside", "lamplight"] {
         let mut loaded = load(name);
         loaded.resources.environment = tent.clone();
         loaded.scene.bubbles[0].film.cells = 64;

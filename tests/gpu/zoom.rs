@@ -17,7 +17,7 @@ const TIME_S: f64 = 3.0;
 
 /// A stirred film of so many cells, seen at 16 times the usual size.
 fn near(cells: u32) -> LoadedScene {
-    let mut loaded = load("default");
+    let mut loaded = load("stirred");
     loaded.scene.bubbles[0].film.cells = cells;
     loaded.scene.motion.strength = 1.0;
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
