@@ -51,9 +51,14 @@ impl Clock {
         *self = Self { tick: self.tick.saturating_add(1), fraction: 0.0, running: false };
     }
 
+    /// Goes to a tick, running as before.
+    pub fn seek(&mut self, tick: u64) {
+        *self = Self { tick, fraction: 0.0, ..*self };
+    }
+
     /// Goes back to the films' beginning, running as before.
     pub fn reset(&mut self) {
-        *self = Self { tick: 0, fraction: 0.0, ..*self };
+        self.seek(0);
     }
 
     /// The moment to show.

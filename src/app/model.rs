@@ -70,8 +70,10 @@ pub struct Model {
     pub clock: Clock,
     /// Index of the bubble that the film panel edits.
     pub selected: usize,
-    /// Strength while its slider is being dragged: it counts once it is let go.
-    pub strength_draft: Option<f64>,
+    /// The last tick that was ever shown of this history: how far its time line reaches.
+    pub furthest_tick: u64,
+    /// A change of motion while its slider is being dragged: it counts once it is let go.
+    pub motion_draft: Option<MotionChange>,
     /// Whether the panels are there.
     pub shows_panels: bool,
     /// Whether the help is there.
@@ -99,7 +101,8 @@ impl Model {
             folder: loaded.folder,
             clock: Clock::default(),
             selected: 0,
-            strength_draft: None,
+            furthest_tick: 0,
+            motion_draft: None,
             shows_panels: true,
             shows_help: false,
             loading: None,
@@ -117,6 +120,7 @@ impl Model {
         self.name = loaded.name;
         self.folder = loaded.folder;
         self.clock.reset();
+        self.furthest_tick = 0;
         self.selected = 0;
         self.loading = None;
     }
@@ -134,6 +138,13 @@ impl Model {
     #[must_use]
     pub fn motion(&self) -> Motion {
         self.scene.motion_at(self.clock.tick)
+    }
+
+    /// The end of the time line: the last tick that was shown or at which something happens.
+    #[must_use]
+    pub fn last_tick(&self) -> u64 {
+        let last_event = self.scene.events.last().map_or(0, |event| event.tick);
+        self.furthest_tick.max(self.clock.tick).max(last_event)
     }
 
     /// Changes the motion from now on, which is an event in the scene's history.

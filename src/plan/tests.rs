@@ -229,6 +229,26 @@ fn a_film_that_hardly_moves_takes_few_steps() {
 }
 
 #[test]
+fn a_long_jump_takes_the_steps_of_the_frames_that_it_skips() {
+    let (mut scene, end) = (default_scene(), 600);
+    scene.events.push(event(100, Flow::Sloshing));
+    let in_one_go = steps(&scene, end);
+    let mut in_frames: Vec<Range<u64>> = Vec::new();
+    let mut have = Have::default();
+    for tick in 0..=end {
+        let frame = plan(&wanted(&scene, tick, Pace::Whole), &have);
+        for (pass, _) in &frame.steps {
+            if let Pass::StepField { key, ticks, .. } = pass {
+                in_frames.extend(key.steps_from(ticks.start));
+            }
+        }
+        have = frame.after;
+    }
+    assert_eq!(in_frames, in_one_go);
+    assert!(in_one_go.len() <= 51, "12 ticks each, and one that the new law cut short: {}", in_one_go.len());
+}
+
+#[test]
 fn turning_and_evaporating_as_a_whole_only_draws() {
     let mut scene = stirred_scene();
     scene.motion.flow = Flow::Rest;
@@ -264,7 +284,7 @@ fn the_plan_says_what_and_why() {
 fn scenes() -> impl Strategy<Value = Scene> {
     let state = prop_oneof![Just(FilmStateName::Uniform), Just(FilmStateName::Rest), Just(FilmStateName::Blown)];
     let flow = || prop_oneof![Just(Flow::Rest), Just(Flow::Draught), Just(Flow::Stirred)];
-    let events = proptest::collection::vec((0..6_u64, flow()).prop_map(|(tick, flow)| event(tick, flow)), 0..3);
+    let events = proptest::collection::vec((0..60_u64, flow()).prop_map(|(tick, flow)| event(tick, flow)), 0..3);
     let thickness_nm = prop_oneof![Just(300.0), Just(900.0), Just(2500.0)];
     let azimuth_deg = prop_oneof![Just(0.0), Just(90.0)];
     let exposure_ev = prop_oneof![Just(0.0), Just(1.0)];
@@ -301,7 +321,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn the_way_there_does_not_matter(way in proptest::collection::vec((scenes(), 0..8_u64, any::<bool>()), 1..6), end in scenes(), tick in 0..8_u64) {
+    fn the_way_there_does_not_matter(way in proptest::collection::vec((scenes(), 0..80_u64, any::<bool>()), 1..6), end in scenes(), tick in 0..80_u64) {
         let mut have = Have::default();
         for (scene, tick, whole) in way {
             have = plan(&wanted(&scene, tick, if whole { Pace::Whole } else { Pace::Frame }), &have).after;
@@ -318,7 +338,7 @@ proptest! {
     }
 
     #[test]
-    fn frames_end_where_one_go_does(scene in scenes(), tick in 0..8_u64) {
+    fn frames_end_where_one_go_does(scene in scenes(), tick in 0..80_u64) {
         let (want, mut have) = (wanted(&scene, tick, Pace::Frame), Have::default());
         for _ in 0..200 {
             let next = plan(&want, &have);

@@ -1,11 +1,11 @@
 //! The motion panel: what moves the films, and the clock.
 
-use egui::{Slider, SliderClamping, Ui};
+use egui::{Response, Ui};
 
-use super::widgets::{choice, group, row, seed, slider};
+use super::widgets::{choice, group, seed, slider};
 use crate::{
     app::{history, model::Model},
-    scene::{Flow, Motion, MotionChange},
+    scene::{Flow, MotionChange, TransportScheme},
 };
 
 const FLOWS: [(Flow, &str, &str); 5] = [
@@ -16,15 +16,22 @@ const FLOWS: [(Flow, &str, &str); 5] = [
     (Flow::Stirred, "stirred", "Many turning vortices, as after a stir"),
 ];
 
+const SCHEMES: [(TransportScheme, &str, &str); 3] = [
+    (TransportScheme::Map, "map", "A flow map, remapped rarely: filaments stay sharp"),
+    (TransportScheme::MapAccurate, "accurate", "The same with the thickness on a grid twice as fine"),
+    (TransportScheme::Bicubic, "bicubic", "The usual scheme, for comparison: filaments blur"),
+];
+
 /// Shows and edits the motion that is in force now.
 pub fn show(ui: &mut Ui, model: &mut Model) {
     clock(ui, model);
+    time_line(ui, model);
     let motion = model.motion();
     let mut flow = motion.flow;
     if choice(ui, "Flow", &mut flow, &FLOWS) {
         model.change_motion(MotionChange { flow: Some(flow), ..MotionChange::default() });
     }
-    strength(ui, model, &motion);
+    dials(ui, model);
     let mut number = motion.seed;
     if seed(ui, "Flow seed", &mut number, "Which of all such flows") {
         model.change_motion(MotionChange { seed: Some(number), ..MotionChange::default() });
@@ -33,6 +40,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     slider(ui, "Speed", speed, 0.01..=100.0, "Film time that passes in a second", |slider| {
         slider.logarithmic(true).suffix("x").max_decimals(2)
     });
+    choice(ui, "Scheme", &mut model.scene.motion.scheme, &SCHEMES);
     events(ui, model);
 }
 
@@ -55,20 +63,54 @@ fn clock(ui: &mut Ui, model: &mut Model) {
     }
 }
 
-/// The strength counts once its slider is let go: each value on the way would be an event of its own.
-fn strength(ui: &mut Ui, model: &mut Model, motion: &Motion) {
-    let mut strength = model.strength_draft.unwrap_or(motion.strength);
-    let response = row(ui, "Strength", "Factor on the speed of the flow", |ui| {
-        ui.spacing_mut().slider_width = (ui.available_width() - 76.0).max(40.0);
-        ui.add(Slider::new(&mut strength, 0.0..=10.0).clamping(SliderClamping::Edits).max_decimals(2))
-    });
-    if response.dragged() {
-        model.strength_draft = Some(strength);
+/// The film's whole history on a line. Going back moves the film anew from its beginning: the same history gives the same film.
+fn time_line(ui: &mut Ui, model: &mut Model) {
+    model.furthest_tick = model.furthest_tick.max(model.clock.tick);
+    let tick_s = model.scene.motion.tick_s;
+    let mut time_s = model.clock.time_s(&model.scene.motion);
+    let end_s = model.last_tick() as f64 * tick_s;
+    let response =
+        slider(ui, "Time", &mut time_s, 0.0..=end_s, "Goes back and forth in the film's history", |slider| {
+            slider.suffix(" s").max_decimals(2)
+        });
+    if response.changed() {
+        model.clock.seek((time_s / tick_s).round() as u64);
+    }
+}
+
+/// Sliders of what is an event in the history. They count once they are let go: each value on the way would be an event of its own.
+fn dials(ui: &mut Ui, model: &mut Model) {
+    let motion = model.motion();
+    let shown = model.motion_draft.clone().unwrap_or_default().applied_to(motion.clone());
+    let MotionChange { mut strength, mut spin_deg_s, mut evaporation_nm_s, .. } = MotionChange::default();
+    let mut is_dragged = false;
+    let mut dial = |response: Response| {
+        is_dragged |= response.dragged();
+        response.changed()
+    };
+    let mut value = shown.strength;
+    if dial(slider(ui, "Strength", &mut value, 0.0..=10.0, "Factor on the speed of the flow", |s| s.max_decimals(2))) {
+        strength = Some(value);
+    }
+    let [x, y, mut z] = shown.spin_deg_s;
+    let help = "Turn of the whole film about the vertical";
+    if dial(slider(ui, "Spin", &mut z, -360.0..=360.0, help, |s| s.suffix(" °/s").max_decimals(1))) {
+        spin_deg_s = Some([x, y, z]);
+    }
+    let mut rate = shown.evaporation_nm_s;
+    let help = "Thickness that evaporates from the whole film";
+    if dial(slider(ui, "Evaporation", &mut rate, 0.0..=100.0, help, |s| s.suffix(" nm/s").max_decimals(1))) {
+        evaporation_nm_s = Some(rate);
+    }
+    let edit = MotionChange { strength, spin_deg_s, evaporation_nm_s, ..MotionChange::default() };
+    if edit != MotionChange::default() {
+        model.motion_draft = Some(edit);
+    }
+    if is_dragged {
         return;
     }
-    model.strength_draft = None;
-    if strength != motion.strength {
-        model.change_motion(MotionChange { strength: Some(strength), ..MotionChange::default() });
+    if let Some(change) = model.motion_draft.take().filter(|change| change.applied_to(motion.clone()) != motion) {
+        model.change_motion(change);
     }
 }
 

@@ -6,7 +6,7 @@ use egui_kittest::{Harness, kittest::Queryable};
 use super::Picture;
 use crate::{
     app::model::{Model, Request, Target, tests::model},
-    scene::{Backdrop, FilmStateName, Flow},
+    scene::{Backdrop, FilmStateName, Flow, Scene, TransportScheme},
 };
 
 struct State {
@@ -50,6 +50,8 @@ fn sliders_change_what_they_are_called() {
         ("Thickness", 321.0),
         ("Stratification", -1.0),
         ("Strength", 2.5),
+        ("Spin", -45.0),
+        ("Evaporation", 12.5),
         ("Speed", 0.5),
         ("Rotation", 90.0),
         ("Intensity", 3.0),
@@ -63,6 +65,7 @@ fn sliders_change_what_they_are_called() {
     let bubble = &scene.bubbles[0];
     assert_eq!((bubble.radius_mm, bubble.film.thickness_nm, bubble.film.stratification), (20.0, 321.0, -1.0));
     assert_eq!((scene.motion.strength, scene.motion.speed), (2.5, 0.5));
+    assert_eq!((scene.motion.spin_deg_s, scene.motion.evaporation_nm_s), ([0.0, 0.0, -45.0], 12.5));
     assert_eq!((scene.light.rotation_deg, scene.light.intensity), (90.0, 3.0));
     assert_eq!((scene.view.exposure_ev, scene.camera.fov_y_deg, scene.camera.distance_m), (-1.5, 50.0, 0.5));
     assert_eq!(scene.validate(), Ok(()));
@@ -72,7 +75,8 @@ fn sliders_change_what_they_are_called() {
 fn no_slider_leaves_the_ranges_of_a_scene() {
     let mut window = window();
     let names = ["Radius", "Thickness", "Stratification", "Strength", "Speed", "Rotation", "Intensity", "Exposure"];
-    let names: Vec<_> = names.into_iter().chain(["Field of view", "Distance"]).collect();
+    let others = ["Field of view", "Distance", "Spin", "Evaporation", "Time"];
+    let names: Vec<_> = names.into_iter().chain(others).collect();
     for extreme in [-1e12, 1e12] {
         for name in &names {
             set_slider(&mut window, name, extreme);
@@ -103,6 +107,40 @@ fn a_flow_chosen_while_time_runs_is_an_event_that_can_be_taken_back() {
     window.get_by_label_contains("2.00 s: stirred");
     click(&mut window, "×");
     assert_eq!(window.state().model.scene.events, []);
+}
+
+#[test]
+fn the_time_line_goes_back_and_forth_as_far_as_time_has_gone() {
+    let mut window = window();
+    window.state_mut().model.clock.tick = 300;
+    window.run();
+    let ticks = [1.0, 4.0, 0.0, 5.0, 60.0].map(|time_s| {
+        set_slider(&mut window, "Time", time_s);
+        window.state().model.clock.tick
+    });
+    assert_eq!(ticks, [60, 240, 0, 300, 300]);
+    assert_eq!(window.state().model.scene.events, [], "looking back changes no history");
+}
+
+#[test]
+fn a_change_after_going_back_stands_before_what_came_later() {
+    let mut window = window();
+    window.state_mut().model.clock.tick = 300;
+    set_slider(&mut window, "Spin", 90.0);
+    set_slider(&mut window, "Time", 2.0);
+    set_slider(&mut window, "Evaporation", 5.0);
+    let scene = &window.state().model.scene;
+    assert_eq!(scene.events.iter().map(|event| event.tick).collect::<Vec<_>>(), [120, 300]);
+    assert_eq!((scene.motion_at(299).spin_deg_s[2], scene.motion_at(300).spin_deg_s[2]), (0.0, 90.0));
+    assert_eq!(scene.motion_at(120).evaporation_nm_s, 5.0);
+    assert_eq!(Scene::from_toml(&scene.to_toml(), "saved").as_ref(), Ok(scene));
+}
+
+#[test]
+fn a_scheme_is_chosen_for_the_whole_history() {
+    let mut window = window();
+    click(&mut window, "bicubic");
+    assert_eq!(window.state().model.scene.motion.scheme, TransportScheme::Bicubic);
 }
 
 #[test]
