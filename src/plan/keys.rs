@@ -130,14 +130,27 @@ impl BandsKey {
         self.wanted().min(Self::MOST)
     }
 
-    /// How many would do. Measured for 1500 nm, and as many more as thicker films have more fringes.
+    /// Thickness, in nm, up to which as many as there is room for resolve the products' fringes. Thicker films have none that white light
+    /// would show.
+    #[must_use]
+    pub fn coherent_nm(&self) -> f64 {
+        // Where single walls come from a table, more bands than standard's are of no use.
+        let measured = self.measured().min(if self.needs_table() { 13.0 } else { f64::MAX });
+        Self::MOST as f64 / measured * TableKey::MIN_RANGE_NM
+    }
+
+    /// How many would do.
     fn wanted(&self) -> usize {
-        let measured = match self.quality {
+        (self.measured() * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
+    }
+
+    /// How many do for 1500 nm; thicker films have more fringes, and need as many more.
+    fn measured(&self) -> f64 {
+        match self.quality {
             Quality::Fast => 6.0,
             Quality::Standard => 13.0,
             Quality::Spectral => 36.0,
-        };
-        (measured * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
+        }
     }
 }
 
@@ -397,6 +410,8 @@ pub struct BubbleKey {
     pub samples: u32,
     /// Whether the film is looked up through its flow map at each pixel: where cells are larger than pixels.
     pub magnified: bool,
+    /// Whether thickness is filtered over each sample: where a pixel spans more of the film than a cell.
+    pub filtered: bool,
     /// The film.
     pub film: FilmKey,
 }
@@ -453,23 +468,37 @@ pub struct DrawKey {
     pub yardstick: bool,
     /// The camera.
     pub camera: CameraKey,
-    /// The light.
+    /// The scene's own light.
+    pub lighting: Lighting,
+    /// Lights of other illuminants. Light adds up: the picture is the sum of the pictures in each light alone.
+    pub lamps: Vec<Lighting>,
+    /// The bubbles that can be seen, farthest first.
+    pub bubbles: Vec<BubbleKey>,
+}
+
+/// Light of one illuminant, and what the films' optics in it need.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lighting {
+    /// How it lights.
     pub light: LightKey,
-    /// The environment.
+    /// Where it comes from.
     pub environment: EnvironmentKey,
     /// The table, where the quality has one.
     pub table: Option<TableKey>,
     /// The bands.
     pub bands: BandsKey,
-    /// The bubbles that can be seen, farthest first.
-    pub bubbles: Vec<BubbleKey>,
 }
 
 impl DrawKey {
+    /// All lights, the scene's own first.
+    pub fn lights(&self) -> impl Iterator<Item = &Lighting> {
+        std::iter::once(&self.lighting).chain(&self.lamps)
+    }
+
     /// Whether any light from the environment can reach the picture.
     #[must_use]
     pub fn needs_environment(&self) -> bool {
-        !self.bubbles.is_empty() || self.light.backdrop == BackdropKey::Environment
+        !self.bubbles.is_empty() || self.lighting.light.backdrop == BackdropKey::Environment
     }
 
     /// The first thing in which two pictures differ.
@@ -479,16 +508,26 @@ impl DrawKey {
             "the picture's size"
         } else if self.camera != other.camera {
             "the camera"
-        } else if self.light != other.light || self.environment != other.environment {
-            "the light"
-        } else if self.table != other.table {
-            "the table"
-        } else if self.bands != other.bands {
-            "the bands"
+        } else if self.lighting != other.lighting {
+            self.lighting.difference(&other.lighting)
+        } else if self.lamps != other.lamps {
+            "a light of another illuminant"
         } else if self.bubbles != other.bubbles {
             "a bubble or its film"
         } else {
             "the way of drawing"
+        }
+    }
+}
+
+impl Lighting {
+    fn difference(&self, other: &Self) -> &'static str {
+        if self.light != other.light || self.environment != other.environment {
+            "the light"
+        } else if self.table != other.table {
+            "the table"
+        } else {
+            "the bands"
         }
     }
 }

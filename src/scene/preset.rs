@@ -8,7 +8,7 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 13] = presets![
+const PRESETS: [(&str, &str); 14] = presets![
     "default",
     "fresh",
     "bands",
@@ -17,6 +17,7 @@ const PRESETS: [(&str, &str); 13] = presets![
     "bright",
     "lamplight",
     "sodium",
+    "two_lights",
     "polarised",
     "trio",
     "inside",

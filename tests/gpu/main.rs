@@ -3,7 +3,9 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod far;
 mod flow;
+mod lamps;
 mod layers;
 mod layouts;
 mod optics;
