@@ -66,3 +66,27 @@ fn film_reflectances(n: f32, cos_theta: f32, thickness_nm: vec4f, wavelength_nm:
     let p = r2.y * interference;
     return Reflectances(s / max(gap.x + s, vec4f(1e-30)), p / max(gap.y + p, vec4f(1e-30)));
 }
+
+// The mean reflectances of four films whose fringes keep a part of their contrast: `coherence`, 1 for all, 0 for the incoherent limit
+// 2 r^2 / (1 + r^2). See `Incidence::damped_reflectance` for the formula.
+fn damped_reflectances(
+    n: f32,
+    cos_theta: f32,
+    thickness_nm: vec4f,
+    wavelength_nm: f32,
+    coherence: vec4f,
+) -> Reflectances {
+    let r2 = surface_reflectance(n, cos_theta);
+    let half_turns = (2.0 * n * cos_refracted(n, cos_theta) / wavelength_nm) * thickness_nm;
+    let sine = sin_pi4(half_turns - round(half_turns));
+    let interference = 4.0 * sine * sine;
+    return Reflectances(damped(r2.x, interference, coherence), damped(r2.y, interference, coherence));
+}
+
+fn damped(r2: f32, interference: vec4f, coherence: vec4f) -> vec4f {
+    let q = coherence * r2;
+    let fringes = q * interference;
+    let gap = 1.0 - q;
+    let reflected = 2.0 * r2 * (1.0 - coherence) * gap + (1.0 + r2) * fringes;
+    return reflected / max((1.0 + r2) * (gap * gap + fringes), vec4f(1e-30));
+}

@@ -5,4 +5,6 @@ struct Band {
     wavelength_nm: f32,
     // Refractive index of the film's liquid.
     index: f32,
+    // Thickness from which on the bands are too few to resolve the film's fringes; read where THICK is 1.
+    coherent_nm: f32,
 }

@@ -9,6 +9,12 @@ override COLOURED: u32;
 // 1: the table holds s and p light apart. 0: their mean.
 override POLARISED: u32;
 
+// 1: films are means over the thicknesses that a sample spans.
+override FILTERED: u32;
+
+// Thicknesses that such a mean is taken over.
+const SPREAD_TAPS: u32 = 4u;
+
 fn table_light(table: texture_2d_array<f32>, table_sampler: sampler, uv: vec2f, first: u32, light: vec3f) -> vec3f {
     let red = textureSampleLevel(table, table_sampler, uv, first, 0.0).rgb;
     if (COLOURED == 0u) {
@@ -22,6 +28,28 @@ fn table_light(table: texture_2d_array<f32>, table_sampler: sampler, uv: vec2f, 
 // What is seen of light that a film reflects, linear BT.2020. `polarisation` are the shares of s and p light, (1/2, 1/2) without a
 // polariser.
 fn film_reflection(
+    table: texture_2d_array<f32>,
+    table_sampler: sampler,
+    axes: TableAxes,
+    film: FilmPoint,
+    polarisation: vec2f,
+    light: vec3f,
+) -> vec3f {
+    if (FILTERED == 0u) {
+        return reflection_at(table, table_sampler, axes, film, polarisation, light);
+    }
+    var sum = vec3f(0.0);
+    for (var k = 0u; k < SPREAD_TAPS; k++) {
+        let part = (f32(k) + 0.5) / f32(SPREAD_TAPS) - 0.5;
+        // Reflectance is even in the thickness.
+        let nm = abs(film.thickness_nm + part * film.spread_nm);
+        let tap = FilmPoint(film.cos_theta, nm, 0.0);
+        sum += reflection_at(table, table_sampler, axes, tap, polarisation, light);
+    }
+    return sum / f32(SPREAD_TAPS);
+}
+
+fn reflection_at(
     table: texture_2d_array<f32>,
     table_sampler: sampler,
     axes: TableAxes,

@@ -31,6 +31,8 @@ fn row_of_path(v: f32) -> f32 {
 struct FilmPoint {
     cos_theta: f32,
     thickness_nm: f32,
+    // Width of the thicknesses that a sample spans, in nm.
+    spread_nm: f32,
 }
 
 // The film that a texel centre stands for.
@@ -38,7 +40,7 @@ fn film_of_texel(axes: TableAxes, texel: vec2f) -> FilmPoint {
     let u = texel.x / (axes.size.x - 1.0);
     let cos_theta = u * u;
     let path_nm = axes.max_thickness_nm * path_of_row(texel.y / (axes.size.y - 1.0));
-    return FilmPoint(cos_theta, path_nm / cos_refracted(axes.index, cos_theta));
+    return FilmPoint(cos_theta, path_nm / cos_refracted(axes.index, cos_theta), 0.0);
 }
 
 // Texture coordinates of a film: the inverse of film_of_texel.

@@ -9,8 +9,9 @@
 // the bubble vanishes exactly. R0 (E0 - B) and R1 (E1 - B) are single walls, which a table can hold; the rest are products of
 // reflectances, which must be formed wavelength by wavelength.
 
-import package::optics::airy::{Reflectances, film_reflectances};
+import package::optics::airy::{Reflectances, cos_refracted, damped_reflectances, film_reflectances};
 import package::optics::band::Band;
+import package::optics::film_colour::FILTERED;
 
 // 1: the sum over bands gives everything. 0: it gives the products, and single walls come from the table.
 override EVERYTHING: u32;
@@ -18,10 +19,14 @@ override EVERYTHING: u32;
 override BANDS: u32;
 // Inner reflections that are followed: 3, 7 or 11.
 override INNER: u32;
+// 1: there are films that the bands are too few for.
+override THICK: u32;
 
 // Four hits in a row, and the steps of light that their reflectances are factors on, as columns.
 struct Hits {
     walls_nm: vec4f,
+    // Width of the thicknesses that the sample spans at each hit, in nm; read where FILTERED is 1.
+    spread_nm: vec4f,
     steps: mat4x3f,
 }
 
@@ -51,20 +56,56 @@ fn table_factors(r: vec4f) -> vec4f {
     return select(vec4f(r.xy, 0.0, 0.0), vec4f(0.0), EVERYTHING == 1u);
 }
 
+// Walls whose products the bands resolve. Where all walls are thick, only the differences of their fringes can be seen (Brewster's
+// fringes), and those stay the same when all walls lose as much thickness.
+fn resolved(walls: Walls, coherent_nm: f32) -> Walls {
+    if (THICK == 0u) {
+        return walls;
+    }
+    let kept_nm = COHERENT_PART * coherent_nm;
+    let pair_nm = min(walls.first.walls_nm.xy, walls.first.walls_nm.zw);
+    let lost_nm = max(min(pair_nm.x, pair_nm.y) - kept_nm, 0.0);
+    var thinner = walls;
+    thinner.first.walls_nm -= lost_nm;
+    thinner.second.walls_nm = max(walls.second.walls_nm - lost_nm, min(walls.second.walls_nm, vec4f(kept_nm)));
+    thinner.third.walls_nm = max(walls.third.walls_nm - lost_nm, min(walls.third.walls_nm, vec4f(kept_nm)));
+    return thinner;
+}
+
+// Part of the thickness that bands resolve up to which fringes keep all their contrast.
+const COHERENT_PART: f32 = 0.6;
+
+// Reflectances at four hits.
+fn wall_reflectances(band: Band, cos_theta: f32, hits: Hits) -> Reflectances {
+    if (FILTERED == 0u && THICK == 0u) {
+        return film_reflectances(band.index, cos_theta, hits.walls_nm, band.wavelength_nm);
+    }
+    var coherence = vec4f(1.0);
+    if (FILTERED == 1u) {
+        // Of a Gaussian as wide as the box of thicknesses: its variance is w^2 / 12, and contrast falls by exp(-delta^2 / 2).
+        let turns = 2.0 * band.index * cos_refracted(band.index, cos_theta) / band.wavelength_nm * hits.spread_nm;
+        coherence = exp(-1.645 * turns * turns);
+    }
+    if (THICK == 1u) {
+        coherence *= 1.0 - smoothstep(vec4f(COHERENT_PART * band.coherent_nm), vec4f(band.coherent_nm), hits.walls_nm);
+    }
+    return damped_reflectances(band.index, cos_theta, hits.walls_nm, band.wavelength_nm, coherence);
+}
+
 // One band's part of L - B, in light of that band.
 fn band_radiance(band: Band, cos_theta: f32, walls: Walls, polarisation: vec2f) -> vec3f {
-    let r = film_reflectances(band.index, cos_theta, walls.first.walls_nm, band.wavelength_nm);
+    let r = wall_reflectances(band, cos_theta, walls.first);
     var s = polarisation.x * first_factors(r.s);
     var p = polarisation.y * first_factors(r.p);
     var light = walls.first.steps * (s + p - polarisation.x * table_factors(r.s) - polarisation.y * table_factors(r.p));
     if (INNER > 3u) {
-        let r = film_reflectances(band.index, cos_theta, walls.second.walls_nm, band.wavelength_nm);
+        let r = wall_reflectances(band, cos_theta, walls.second);
         s = later_factors(s.w, r.s);
         p = later_factors(p.w, r.p);
         light += walls.second.steps * (s + p);
     }
     if (INNER > 7u) {
-        let r = film_reflectances(band.index, cos_theta, walls.third.walls_nm, band.wavelength_nm);
+        let r = wall_reflectances(band, cos_theta, walls.third);
         light += walls.third.steps * (later_factors(s.w, r.s) + later_factors(p.w, r.p));
     }
     return band.response * light;

@@ -4,11 +4,11 @@
 import package::camera::view::{View, pixel_angle, view_plane};
 import package::film::control::{Balance, balanced};
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
-import package::optics::airy::surface_reflectance;
+import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::band::Band;
-import package::optics::film_colour::{POLARISED, film_reflection};
+import package::optics::film_colour::{FILTERED, POLARISED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{BANDS, EVERYTHING, Hits, INNER, Walls, band_radiance};
+import package::optics::walls::{BANDS, EVERYTHING, Hits, INNER, Walls, band_radiance, resolved};
 import package::sphere::cubed::{HALO, locate};
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::silhouette::{Silhouette, silhouette};
@@ -65,10 +65,10 @@ const TAU: f32 = 6.2831853;
 // Sides of the polygons that rings are made of.
 override SIDES: u32;
 
-// A strip between two polygons around the direction to the centre. Rings that share an edge share its vertices to the last bit, so that
+// A strip between two polygons around the direction to the centre. Rings that share an edge compute its vertices alike, so that
 // every pixel belongs to one of them.
 @vertex
-fn ring(@builtin(vertex_index) index: u32) -> @invariant @builtin(position) vec4f {
+fn ring(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     let to_centre = normalize(bubble.centre_m - view.eye_m);
     let helper = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(to_centre.x) > 0.7);
     let right = normalize(cross(to_centre, helper));
@@ -210,6 +210,18 @@ fn followed(path: Path, before: Followed) -> Followed {
     return Followed(hop, reflections, surroundings(hop.direction, footprint(path, hop.direction, -2.0 * reflections)));
 }
 
+// Width of the thicknesses that a sample spans, in nm: the change of the path in the film from pixel to pixel, which angles have a part in.
+fn spread_nm(path: Path, walls_nm: vec4f) -> vec4f {
+    if (FILTERED == 0u) {
+        return vec4f(0.0);
+    }
+    let cos_t = cos_refracted(axes.index, path.cos_theta);
+    let path_nm = cos_t * walls_nm;
+    let across = dpdx(path_nm);
+    let down = dpdy(path_nm);
+    return sqrt(across * across + down * down) / (f32(SAMPLES) * cos_t);
+}
+
 // Four hits more, and where the ray is after them.
 struct FourHits {
     hits: Hits,
@@ -228,7 +240,7 @@ fn four_hits(path: Path, at: Followed) -> FourHits {
         optical_nm(c.hop.point),
     );
     let steps = mat4x3f(a.light - at.light, b.light - a.light, c.light - b.light, d.light - c.light);
-    return FourHits(Hits(walls_nm, steps), d);
+    return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), d);
 }
 
 // The first four hits: the front wall, which there is none of from inside the bubble, and three inside.
@@ -245,7 +257,7 @@ fn first_hits(path: Path, is_inside: bool, behind: vec3f) -> FourHits {
         walls_nm.x = optical_nm(front);
         steps[0] = surroundings(direction, footprint(path, direction, 2.0)) - behind;
     }
-    return FourHits(Hits(walls_nm, steps), c);
+    return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), c);
 }
 
 // What is seen along a ray: see optics/walls.wgsl.
@@ -277,18 +289,21 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
         walls.third.steps[3] += more;
     }
     var seen = vec3f(0.0);
+    let products = resolved(walls, bands[0].coherent_nm);
     for (var k = 0u; k < BANDS; k++) {
-        seen += band_radiance(bands[k], path.cos_theta, walls, polarisation);
+        seen += band_radiance(bands[k], path.cos_theta, products, polarisation);
     }
     if (EVERYTHING == 0u) {
-        seen += wall_reflection(path, walls.first.walls_nm.x, polarisation, walls.first.steps[0])
-            + wall_reflection(path, walls.first.walls_nm.y, polarisation, walls.first.steps[1]);
+        let nm = walls.first.walls_nm;
+        let spread = walls.first.spread_nm;
+        seen += wall_reflection(path, nm.x, spread.x, polarisation, walls.first.steps[0])
+            + wall_reflection(path, nm.y, spread.y, polarisation, walls.first.steps[1]);
     }
     return light.seen * behind + light.scale * seen;
 }
 
-fn wall_reflection(path: Path, nm: f32, polarisation: vec2f, step: vec3f) -> vec3f {
-    return film_reflection(table, table_sampler, axes, FilmPoint(path.cos_theta, nm), polarisation, step);
+fn wall_reflection(path: Path, nm: f32, spread_nm: f32, polarisation: vec2f, step: vec3f) -> vec3f {
+    return film_reflection(table, table_sampler, axes, FilmPoint(path.cos_theta, nm, spread_nm), polarisation, step);
 }
 
 // Geometry of a view ray that meets the sphere.
@@ -320,15 +335,10 @@ fn sample_radiance(position: vec2f, width: f32) -> vec3f {
         return bubble_radiance(normalize(plane), width);
     }
     let edge = silhouette(view, bubble.centre_m, bubble.radius_m, plane, width);
-    var radiance = vec3f(0.0);
-    if (edge.coverage > 0.0) {
-        radiance = bubble_radiance(edge.inside, width);
-    }
-    if (edge.coverage < 1.0) {
-        let ray = normalize(plane);
-        radiance = mix(light.seen * backdrop(ray, pixel_angle(view, ray)), radiance, edge.coverage);
-    }
-    return radiance;
+    // Not only where it is covered: derivatives need the neighbours.
+    let radiance = bubble_radiance(edge.inside, width);
+    let ray = normalize(plane);
+    return mix(light.seen * backdrop(ray, pixel_angle(view, ray)), radiance, edge.coverage);
 }
 
 // The mean over a grid of samples in a pixel.

@@ -3,7 +3,7 @@
 import package::optics::band::Band;
 import package::optics::film_colour::film_reflection;
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{BANDS, EVERYTHING, Hits, INNER, Walls, band_radiance};
+import package::optics::walls::{BANDS, EVERYTHING, Hits, INNER, Walls, band_radiance, resolved};
 
 // Front, back and exit wall of one ray. Mirrors `ProbePoint` in src/gpu/probe_colour.rs.
 struct ProbePoint {
@@ -25,7 +25,7 @@ struct ProbePoint {
 const UNPOLARISED: vec2f = vec2f(0.5, 0.5);
 
 fn wall(cos_theta: f32, thickness_nm: f32) -> vec3f {
-    return film_reflection(table, table_sampler, axes, FilmPoint(cos_theta, thickness_nm), UNPOLARISED, vec3f(1.0));
+    return film_reflection(table, table_sampler, axes, FilmPoint(cos_theta, thickness_nm, 0.0), UNPOLARISED, vec3f(1.0));
 }
 
 // White light from where the outer and the first inner reflection lead, none from elsewhere: what is seen is the sum of the walls.
@@ -42,7 +42,8 @@ fn probe_colour(@builtin(global_invocation_id) id: vec3u) {
         seen = wall(at.cos_theta, at.front_nm) + both * wall(at.cos_theta, at.back_nm);
     }
     var walls: Walls;
-    walls.first = Hits(vec4f(at.front_nm, at.back_nm, at.exit_nm, 0.0), steps);
+    walls.first = Hits(vec4f(at.front_nm, at.back_nm, at.exit_nm, at.exit_nm), vec4f(0.0), steps);
+    walls = resolved(walls, bands[0].coherent_nm);
     for (var k = 0u; k < BANDS; k++) {
         seen += band_radiance(bands[k], at.cos_theta, walls, UNPOLARISED);
     }

@@ -15,7 +15,6 @@ use super::model::{Model, Target};
 use crate::{
     input::{LoadError, LoadedScene, load_environment, load_illuminant, load_scene},
     output::{Metadata, Picture, write_text},
-    physics::{colour::Illuminant, environment::CubeMap},
     plan::Resources,
     scene::Light,
 };
@@ -72,12 +71,11 @@ impl Files {
         self.begin_load(model, "the light");
         let folder = model.folder.clone();
         let known = &model.scene.light;
-        let same = (&known.environment, known.constant) == (&light.environment, light.constant);
-        let (known, liquids) = (same.then(|| model.resources.environment.clone()), model.resources.liquids.clone());
-        self.run(move || match load_light(&light, &folder, known) {
-            Ok((environment, illuminant)) => {
-                Outcome::Light(Box::new(light), Resources { environment, illuminant, liquids })
-            }
+        let same = (&known.environment, known.constant, &known.patches)
+            == (&light.environment, light.constant, &light.patches);
+        let resources = model.resources.clone();
+        self.run(move || match load_light(&light, &folder, same, resources) {
+            Ok(resources) => Outcome::Light(Box::new(light), resources),
             Err(error) => Outcome::Failed(error.to_string()),
         });
     }
@@ -169,13 +167,14 @@ impl Files {
     }
 }
 
-fn load_light(
-    light: &Light,
-    folder: &Path,
-    known: Option<Arc<CubeMap>>,
-) -> Result<(Arc<CubeMap>, Arc<Illuminant>), LoadError> {
+/// What a scene names, with another light; its environment and lamps are loaded only if they are not known.
+fn load_light(light: &Light, folder: &Path, known: bool, resources: Resources) -> Result<Resources, LoadError> {
     let illuminant = Arc::new(load_illuminant(&light.illuminant, folder)?);
-    Ok((known.map_or_else(|| load_environment(light, folder), Ok)?, illuminant))
+    if known {
+        return Ok(Resources { illuminant, ..resources });
+    }
+    let (environment, lamps) = load_environment(light, folder)?;
+    Ok(Resources { environment, illuminant, lamps, ..resources })
 }
 
 #[cfg(test)]

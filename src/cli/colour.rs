@@ -6,11 +6,11 @@ use anyhow::Context;
 use clap::Args;
 use glam::DVec3;
 
-use super::{AdapterArguments, parse};
+use super::{AdapterArguments, parse, strip};
 use crate::{
     gpu::probe_colour::{ColourProbe, ProbePoint},
     input::{load_illuminant, load_liquid, read_text},
-    output::write_text,
+    output::{Metadata, write_text},
     physics::{
         colour::{BT2020, FilmOptics, Walls},
         optics::FilmMaterial,
@@ -22,11 +22,11 @@ use crate::{
 /// Report the colour that a film reflects.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), and linear BT.2020 r,g,b."
+    after_help = "Example:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n  soapfilm colour --strip strip.png\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), and linear BT.2020 r,g,b."
 )]
 pub struct Arguments {
     /// Thickness in nm
-    #[arg(long, value_name = "NM", value_parser = parse::thickness_nm, requires = "cos", required_unless_present = "points")]
+    #[arg(long, value_name = "NM", value_parser = parse::thickness_nm, requires = "cos", required_unless_present_any = ["points", "strip"])]
     thickness: Option<f64>,
     /// Cosine of the angle outside the film
     #[arg(long, value_name = "C", value_parser = parse::cosine, requires = "thickness")]
@@ -34,6 +34,9 @@ pub struct Arguments {
     /// A CSV file of films
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["thickness", "cos"])]
     points: Option<PathBuf>,
+    /// Paint the colours of films from 0 to 1500 nm at normal incidence, a column a nanometre, in place of reporting any
+    #[arg(long, value_name = "FILE.png", conflicts_with_all = ["thickness", "cos", "points", "spectrum", "output"])]
+    strip: Option<PathBuf>,
     /// `water`, `water 25C`, `glycerol 30%`, a refractive index, or a CSV file of wavelength_nm,n
     #[arg(long, value_name = "FILM", default_value = "water")]
     film: String,
@@ -57,15 +60,26 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    if let Some(path) = &arguments.strip {
+        let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        anyhow::ensure!(is_png, "{}: write to a file that ends in .png", path.display());
+    }
     let folder = Path::new("");
     let film = FilmMaterial { index: load_liquid(&arguments.film, folder)?, skin_nm: arguments.skin };
     let key = OpticsKey { film, illuminant: load_illuminant(&arguments.illuminant, folder)?.into() };
     let points = points(arguments)?;
     let optics = key.spectra();
-    let colours = match arguments.quality {
+    let colours: Vec<DVec3> = match arguments.quality {
         parse::Quality::Reference => points.films.iter().map(|film| optics.xyz(film.cos_theta, film.walls)).collect(),
         parse::Quality::Gpu(quality) => through_shaders(arguments, &key, quality, &points.films)?,
     };
+    if let Some(path) = &arguments.strip {
+        let metadata = Metadata::new()
+            .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
+            .with("Film", &arguments.film)
+            .with("Illuminant", &arguments.illuminant);
+        return Ok(strip::save(path, &colours, &key.film, &metadata)?);
+    }
     let text = table(&points, &colours, arguments.spectrum.then_some(&optics))?;
     match &arguments.output {
         Some(path) => write_text(path, &text)?,
@@ -92,6 +106,9 @@ fn points(arguments: &Arguments) -> anyhow::Result<Points> {
     if let Some(path) = &arguments.points {
         return read_points(path);
     }
+    if arguments.strip.is_some() {
+        return Ok(films_of_strip());
+    }
     let (thickness_nm, cos_theta) =
         arguments.thickness.zip(arguments.cos).context("give --thickness and --cos, or --points")?;
     Ok(Points {
@@ -99,6 +116,11 @@ fn points(arguments: &Arguments) -> anyhow::Result<Points> {
         rows: vec![vec![thickness_nm.to_string(), cos_theta.to_string()]],
         films: vec![FilmPoint { cos_theta, walls: Walls::One { thickness_nm } }],
     })
+}
+
+fn films_of_strip() -> Points {
+    let film = |nm: u32| FilmPoint { cos_theta: 1.0, walls: Walls::One { thickness_nm: nm.into() } };
+    Points { header: Vec::new(), rows: Vec::new(), films: (0..=strip::LAST_NM).map(film).collect() }
 }
 
 fn read_points(path: &Path) -> anyhow::Result<Points> {

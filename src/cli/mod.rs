@@ -13,6 +13,7 @@ mod progress;
 mod reference;
 mod render;
 mod sequence;
+mod strip;
 mod transport;
 mod verify;
 

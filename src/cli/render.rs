@@ -140,7 +140,7 @@ fn compute(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result
     if arguments.explain || arguments.repeat > 0 || arguments.stats.is_some() {
         bail!("--explain, --repeat and --stats tell of the GPU; leave them out with --quality reference");
     }
-    let progress = Progress::new("reference", arguments.size[1] as usize);
+    let progress = Progress::new("reference", arguments.size[1] as usize * want.picture.draw.lights().count());
     let radiance = verify::reference::radiance(&want.picture.draw, &|| progress.step())?;
     drop(progress);
     Ok(match format {

@@ -18,7 +18,9 @@ pub struct BandSample {
     pub wavelength_nm: f32,
     /// Refractive index of the film's liquid there.
     pub index: f32,
-    pad: [f32; 2],
+    /// Thickness from which on the bands are too few to resolve fringes, in nm.
+    pub coherent_nm: f32,
+    pad: f32,
 }
 
 impl From<&Band> for BandSample {
@@ -27,7 +29,8 @@ impl From<&Band> for BandSample {
             response: matrix(band.response),
             wavelength_nm: band.wavelength_nm as f32,
             index: band.index as f32,
-            pad: [0.0; 2],
+            coherent_nm: f32::MAX,
+            pad: 0.0,
         }
     }
 }
@@ -46,6 +49,8 @@ pub struct Bands {
     pub buffer: wgpu::Buffer,
     /// How many count.
     pub count: u32,
+    /// Whether there are films that they are too few for.
+    pub thick: bool,
     task: BandTask,
 }
 
@@ -57,15 +62,21 @@ impl Bands {
     /// Fits and sends them.
     #[must_use]
     pub fn fit(gpu: &Gpu, key: &BandsKey) -> Self {
-        let bands = fit_bands(&key.optics.spectra(), key.task(), key.count(), key.range_nm);
+        let coherent_nm = key.coherent_nm();
+        let optics = key.optics.spectra();
+        // A light of few lines is summed exactly, whatever the film.
+        let thick = coherent_nm < key.range_nm && optics.indices().len() > key.count();
+        let bands = fit_bands(&optics, key.task(), key.count(), coherent_nm.min(key.range_nm));
         let mut samples = [BandSample::zeroed(); MOST_BANDS];
-        samples.iter_mut().zip(&bands).for_each(|(sample, band)| *sample = band.into());
-        Self { buffer: gpu.uniform("bands", &samples), count: bands.len() as u32, task: key.task() }
+        let sample = |band: &Band| BandSample { coherent_nm: coherent_nm as f32, ..band.into() };
+        samples.iter_mut().zip(&bands).for_each(|(place, band)| *place = sample(band));
+        Self { buffer: gpu.uniform("bands", &samples), count: bands.len() as u32, thick, task: key.task() }
     }
 }
 
 /// The constants of all passes that sum over bands.
 #[must_use]
-pub fn band_constants(bands: &Bands) -> [(&'static str, u32); 2] {
-    [("EVERYTHING", u32::from(bands.task == BandTask::Everything)), ("BANDS", bands.count)]
+pub fn band_constants(bands: &Bands) -> [(&'static str, u32); 3] {
+    let everything = u32::from(bands.task == BandTask::Everything);
+    [("EVERYTHING", everything), ("BANDS", bands.count), ("THICK", bands.thick.into())]
 }

@@ -14,8 +14,8 @@ use super::{
     timing::Recorder,
 };
 use crate::{
-    physics::transport::Scheme,
-    plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmKey},
+    physics::{optics::FilmMaterial, transport::Scheme},
+    plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmKey, Lighting},
 };
 
 /// The camera: see `shaders/camera/view.wgsl`.
@@ -131,10 +131,10 @@ struct RingDraw {
 }
 
 impl DrawPass {
-    /// Makes ready what a key asks for.
-    pub fn new(gpu: &Gpu, key: &DrawKey, inputs: &DrawInputs<'_>) -> Result<Self, GpuError> {
+    /// Makes ready what a key asks for in one of its lights.
+    pub fn new(gpu: &Gpu, key: &DrawKey, lighting: &Lighting, inputs: &DrawInputs<'_>) -> Result<Self, GpuError> {
         let view = gpu.uniform("view", &view_uniform(key));
-        let light = gpu.uniform("light", &light_uniform(key));
+        let light = gpu.uniform("light", &light_uniform(lighting));
         let shared = [
             view.as_entire_binding(),
             light.as_entire_binding(),
@@ -152,15 +152,16 @@ impl DrawPass {
         let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &shared);
         let mut pass = Self { backdrop: (pipeline, bindings), rings: Vec::new(), width: key.size[0] };
         let Some(bands) = inputs.bands else { return Ok(pass) };
-        let unread = key.table.is_none().then(|| Table::unread(gpu, &key.bands.optics));
+        let unread = lighting.table.is_none().then(|| Table::unread(gpu, &lighting.bands.optics));
         let Some(table) = unread.as_ref().or(inputs.table) else { return Ok(pass) };
         let sampler = table_sampler(gpu);
         let no_film = NoFilm::new(gpu);
         for bubble in &key.bubbles {
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             for ring in bubble_rings(key, bubble) {
-                let pipeline = gpu.pipelines.render(gpu, &ring_pipeline(key, bubble, &ring, bands))?;
-                let uniform = gpu.uniform("bubble", &bubble_uniform(key, bubble, &ring, &film));
+                let pipeline = gpu.pipelines.render(gpu, &ring_pipeline(key, lighting, bubble, &ring, bands))?;
+                let uniform = bubble_uniform(&lighting.bands.optics.film, bubble, &ring, &film);
+                let uniform = gpu.uniform("bubble", &uniform);
                 let own = [
                     uniform.as_entire_binding(),
                     table.axes.as_entire_binding(),
@@ -227,12 +228,12 @@ pub fn radiance_format(full_precision: bool) -> wgpu::TextureFormat {
 }
 
 fn bubble_rings(key: &DrawKey, bubble: &BubbleKey) -> Vec<Ring> {
-    if key.yardstick { vec![disc(&key.camera, bubble)] } else { rings(&key.camera, bubble, key.bands.quality) }
+    if key.yardstick { vec![disc(&key.camera, bubble)] } else { rings(&key.camera, bubble, key.lighting.bands.quality) }
 }
 
-fn ring_pipeline(key: &DrawKey, bubble: &BubbleKey, ring: &Ring, bands: &Bands) -> RenderKey {
+fn ring_pipeline(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey, ring: &Ring, bands: &Bands) -> RenderKey {
     let uniform = matches!(bubble.film, FilmKey::Uniform(_));
-    let coloured = key.table.as_ref().is_some_and(|table| table.coloured);
+    let coloured = lighting.table.as_ref().is_some_and(|table| table.coloured);
     RenderKey {
         pass: "bubble",
         vertex: if ring.edges_rad.is_some() { "ring" } else { "everywhere" },
@@ -244,13 +245,14 @@ fn ring_pipeline(key: &DrawKey, bubble: &BubbleKey, ring: &Ring, bands: &Bands) 
             ("MAGNIFIED", u32::from(bubble.magnified)),
             ("SAMPLES", ring.samples),
             ("OUTLINE", u32::from(ring.outline)),
+            ("FILTERED", u32::from(bubble.filtered)),
             ("INNER", ring.inner_reflections),
             // A film in a scene is moved as a flow map where it is looked up through one, and always limited.
             ("TAPS", Scheme::Map.taps()),
             ("LIMITER", 1),
         ]
         .into_iter()
-        .chain(table_constants(coloured, key.light.polariser.is_some()))
+        .chain(table_constants(coloured, lighting.light.polariser.is_some()))
         .chain(band_constants(bands))
         .collect(),
     }
@@ -279,15 +281,15 @@ fn view_uniform(key: &DrawKey) -> ViewUniform {
     }
 }
 
-fn light_uniform(key: &DrawKey) -> LightUniform {
-    let light = &key.light;
+fn light_uniform(lighting: &Lighting) -> LightUniform {
+    let light = &lighting.light;
     let (backdrop, is_environment) = match light.backdrop {
         BackdropKey::Environment => (DVec3::ZERO, 1.0),
         BackdropKey::Colour(colour) => (colour, 0.0),
     };
     LightUniform {
         gain: floats(light.gain),
-        texel_angle: texel_angle(key.environment.size()),
+        texel_angle: texel_angle(lighting.environment.size()),
         backdrop: floats(backdrop),
         backdrop_is_environment: is_environment,
         scale: floats(light.scale),
@@ -298,8 +300,7 @@ fn light_uniform(key: &DrawKey) -> LightUniform {
     }
 }
 
-fn bubble_uniform(key: &DrawKey, bubble: &BubbleKey, ring: &Ring, shown: &Shown<'_>) -> BubbleUniform {
-    let film = &key.bands.optics.film;
+fn bubble_uniform(film: &FilmMaterial, bubble: &BubbleKey, ring: &Ring, shown: &Shown<'_>) -> BubbleUniform {
     let [inner, outer] = ring.corners();
     let (thickness_nm, cells) = match &bubble.film {
         FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0),

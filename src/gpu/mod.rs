@@ -2,6 +2,7 @@
 //!
 //! Nothing here decides whether a pass runs: a pass is recorded from its key alone, and the plan says which.
 
+pub mod add_light;
 pub mod bake_table;
 pub mod bands;
 pub mod compose_map;

@@ -92,7 +92,7 @@ impl ColourProbe {
 
     fn start(&self, gpu: &Gpu, points: &[ProbePoint]) -> Result<Readback, GpuError> {
         let constants = table_constants(false, false).into_iter().chain(band_constants(&self.bands));
-        let constants = constants.chain([("INNER", 3)]).collect();
+        let constants = constants.chain([("INNER", 3), ("FILTERED", 0)]).collect();
         let key = ComputeKey { pass: "probe_colour", entry: "probe_colour", constants };
         let pipeline = gpu.pipelines.compute(gpu, &key)?;
         let size = points.len() as u64 * 16;

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::{
     Gpu, GpuError,
+    add_light::add_light,
     bake_table::Table,
     bands::Bands,
     decide_remap::RemapRule,
@@ -31,13 +32,22 @@ const MOST_PARTS_A_STEP: f64 = 16.0;
 /// Everything that is on the device.
 #[derive(Default)]
 struct Products {
+    lights: Vec<LightProducts>,
+    films: Vec<Option<Film>>,
+    radiance: Option<Target>,
+    /// The picture in the light of one lamp, and its sum with those before.
+    lamp: Option<Target>,
+    sum: Option<Target>,
+    picture: Option<Target>,
+}
+
+/// What one light's pictures are drawn with.
+#[derive(Default)]
+struct LightProducts {
     table: Option<Table>,
     baking: Option<Table>,
     bands: Option<Bands>,
     environment: Option<Environment>,
-    films: Vec<Option<Film>>,
-    radiance: Option<Target>,
-    picture: Option<Target>,
 }
 
 /// A film on the device.
@@ -73,20 +83,11 @@ impl Target {
     }
 
     /// Keeps a target that fits, else makes a new one.
-    fn fit<'a>(
-        slot: &'a mut Option<Self>,
-        gpu: &Gpu,
-        label: &str,
-        size: [u32; 2],
-        format: wgpu::TextureFormat,
-    ) -> &'a Self {
+    fn fit(old: Option<Self>, gpu: &Gpu, label: &str, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
         let fits = |target: &Self| {
             [target.texture.width(), target.texture.height()] == size && target.texture.format() == format
         };
-        if !slot.as_ref().is_some_and(fits) {
-            *slot = None;
-        }
-        slot.get_or_insert_with(|| Self::new(gpu, label, size, format))
+        old.filter(fits).unwrap_or_else(|| Self::new(gpu, label, size, format))
     }
 }
 
@@ -168,13 +169,13 @@ impl Renderer {
 
     fn run(&mut self, pass: &Pass) -> Result<(), GpuError> {
         match pass {
-            Pass::UploadEnvironment(key) => {
-                self.products.environment = Some(Environment::upload(&self.gpu, &key.0));
+            Pass::UploadEnvironment { light, key } => {
+                self.light(*light).environment = Some(Environment::upload(&self.gpu, &key.0));
                 Ok(())
             }
-            Pass::BakeTable { key, rows } => self.bake(key, rows.clone()),
-            Pass::FitBands(key) => {
-                self.products.bands = Some(Bands::fit(&self.gpu, key));
+            Pass::BakeTable { light, key, rows } => self.bake(*light, key, rows.clone()),
+            Pass::FitBands { light, key } => {
+                self.light(*light).bands = Some(Bands::fit(&self.gpu, key));
                 Ok(())
             }
             Pass::SeedField { film, key } => self.seed(*film, key),
@@ -194,16 +195,25 @@ impl Renderer {
         counts.submissions += done.submissions;
     }
 
-    fn bake(&mut self, key: &TableKey, rows: Range<u32>) -> Result<(), GpuError> {
-        if rows.start == 0 {
-            self.products.baking = Some(Table::new(&self.gpu, key));
+    fn light(&mut self, light: usize) -> &mut LightProducts {
+        let lights = &mut self.products.lights;
+        if lights.len() <= light {
+            lights.resize_with(light + 1, LightProducts::default);
         }
-        let Some(table) = &self.products.baking else { return Ok(()) };
+        &mut lights[light]
+    }
+
+    fn bake(&mut self, light: usize, key: &TableKey, rows: Range<u32>) -> Result<(), GpuError> {
+        if rows.start == 0 {
+            self.light(light).baking = Some(Table::new(&self.gpu, key));
+        }
+        let Some(table) = &self.products.lights[light].baking else { return Ok(()) };
         let mut recorder = Recorder::new(&self.gpu);
         table.bake(&mut recorder, key, rows.clone())?;
         Self::submit(&self.times, &mut self.counts, recorder);
         if rows.end == key.rows {
-            self.products.table = self.products.baking.take();
+            let light = self.light(light);
+            light.table = light.baking.take();
         }
         Ok(())
     }
@@ -250,23 +260,37 @@ impl Renderer {
         Ok(())
     }
 
+    /// The picture in the scene's own light, and that in each lamp's added to it.
     fn draw(&mut self, key: &DrawKey) -> Result<(), GpuError> {
         let format = radiance_format(key.full_precision);
-        let target = Target::fit(&mut self.products.radiance, &self.gpu, "radiance", key.size, format);
+        let mut radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
+        self.draw_light(key, 0, &radiance)?;
+        for light in 1..=key.lamps.len() {
+            let [lamp, sum] = [self.products.lamp.take(), self.products.sum.take()]
+                .map(|slot| Target::fit(slot, &self.gpu, "lamp", key.size, format));
+            self.draw_light(key, light, &lamp)?;
+            let mut recorder = Recorder::new(&self.gpu);
+            add_light(&mut recorder, format, [&radiance.view, &lamp.view], &sum.view)?;
+            Self::submit(&self.times, &mut self.counts, recorder);
+            self.products.lamp = Some(lamp);
+            self.products.sum = Some(std::mem::replace(&mut radiance, sum));
+        }
+        self.products.radiance = Some(radiance);
+        Ok(())
+    }
+
+    /// The picture in one light alone.
+    fn draw_light(&mut self, key: &DrawKey, light: usize, target: &Target) -> Result<(), GpuError> {
+        self.light(light);
+        let products = &mut self.products.lights[light];
         // Without an environment key nothing of it is read; a black one fills the binding.
-        let environment = self
-            .products
-            .environment
-            .get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant(DVec3::ZERO)));
+        let environment =
+            products.environment.get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant(DVec3::ZERO)));
         let films = &self.products.films;
         let film = |film: usize| films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());
-        let inputs = DrawInputs {
-            environment,
-            table: self.products.table.as_ref(),
-            bands: self.products.bands.as_ref(),
-            film: &film,
-        };
-        let pass = DrawPass::new(&self.gpu, key, &inputs)?;
+        let (table, bands) = (products.table.as_ref(), products.bands.as_ref());
+        let Some(lighting) = key.lights().nth(light) else { return Ok(()) };
+        let pass = DrawPass::new(&self.gpu, key, lighting, &DrawInputs { environment, table, bands, film: &film })?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);
             pass.record(&mut recorder, &target.view, rows);
@@ -278,11 +302,12 @@ impl Renderer {
 
     fn tonemap(&mut self, key: &TonemapKey) -> Result<(), GpuError> {
         let Some(radiance) = &self.products.radiance else { return Ok(()) };
-        let picture = Target::fit(&mut self.products.picture, &self.gpu, "picture", key.draw.size, PICTURE_FORMAT);
+        let picture = Target::fit(self.products.picture.take(), &self.gpu, "picture", key.draw.size, PICTURE_FORMAT);
         let mut recorder = Recorder::new(&self.gpu);
         tonemap(&mut recorder, key, &radiance.view, &picture.view)?;
         recorder.counts.pixels_shaded += key.draw.size.map(u64::from).iter().product::<u64>();
         Self::submit(&self.times, &mut self.counts, recorder);
+        self.products.picture = Some(picture);
         Ok(())
     }
 }

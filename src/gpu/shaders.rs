@@ -31,6 +31,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "optics/film_colour",
     "optics/table",
     "optics/walls",
+    "pass/add_light",
     "pass/backdrop",
     "pass/bake_table",
     "pass/bubble",

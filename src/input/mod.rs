@@ -4,6 +4,7 @@ mod chromaticities;
 mod environment;
 mod error;
 mod exr;
+mod light;
 mod panic_guard;
 mod radiance;
 mod scene;
@@ -11,5 +12,7 @@ mod text;
 
 pub use environment::{MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_WIDTH, read_environment};
 pub use error::InputError;
-pub use scene::{LoadError, LoadedScene, load_environment, load_illuminant, load_liquid, load_scene};
+pub use light::{load_environment, load_illuminant};
+use scene::is_table;
+pub use scene::{LoadError, LoadedScene, load_liquid, load_scene};
 pub use text::{MAX_TEXT_BYTES, read_text};

@@ -6,18 +6,15 @@ use std::{
     sync::Arc,
 };
 
-use glam::DVec3;
-
-use super::{InputError, read_environment, read_text};
+use super::{InputError, load_environment, load_illuminant, read_text};
 use crate::{
     physics::{
-        colour::{Illuminant, UnknownIlluminant},
-        environment::{CubeMap, Procedural},
+        colour::UnknownIlluminant,
         optics::{FilmIndex, FilmIndexError},
         spectra::SpectrumError,
     },
     plan::Resources,
-    scene::{Environment, FilmIndexName, Light, Scene, SceneError, preset, preset_names},
+    scene::{FilmIndexName, Scene, SceneError, preset, preset_names},
 };
 
 /// A scene, where it came from, and what it names.
@@ -77,31 +74,14 @@ pub fn load_scene(name: &str) -> Result<LoadedScene, LoadError> {
             (Scene::from_toml(&text, name)?, path.parent().map(Path::to_owned).unwrap_or_default())
         }
     };
+    let (environment, lamps) = load_environment(&scene.light, &folder)?;
     let resources = Resources {
-        environment: load_environment(&scene.light, &folder)?,
+        environment,
         illuminant: Arc::new(load_illuminant(&scene.light.illuminant, &folder)?),
+        lamps,
         liquids: load_liquids(&scene, &folder)?,
     };
     Ok(LoadedScene { scene, name: name.to_owned(), folder, resources })
-}
-
-/// Loads the environment that a light names; file paths start from a folder.
-pub fn load_environment(light: &Light, folder: &Path) -> Result<Arc<CubeMap>, LoadError> {
-    let map = match &light.environment {
-        _ if light.constant.is_some() => CubeMap::constant(DVec3::ONE),
-        Environment::Tent => CubeMap::from_procedural(Procedural::Tent),
-        Environment::Windows => CubeMap::from_procedural(Procedural::Windows),
-        Environment::File(path) => CubeMap::from_equirect(&read_environment(&folder.join(path))?),
-    };
-    Ok(Arc::new(map))
-}
-
-/// A light by its name, or from the `.csv` file of that path.
-pub fn load_illuminant(name: &str, folder: &Path) -> Result<Illuminant, LoadError> {
-    if !is_table(name) {
-        return Ok(name.parse()?);
-    }
-    Ok(Illuminant::from_csv(name, &read_text(&folder.join(name))?)?)
 }
 
 /// A liquid by its name or index, or from the `.csv` file of that path.
@@ -112,7 +92,7 @@ pub fn load_liquid(name: &str, folder: &Path) -> Result<FilmIndex, LoadError> {
     Ok(FilmIndex::from_csv(name, &read_text(&folder.join(name))?)?)
 }
 
-fn is_table(name: &str) -> bool {
+pub(super) fn is_table(name: &str) -> bool {
     name.trim().to_ascii_lowercase().ends_with(".csv")
 }
 

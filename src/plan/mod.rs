@@ -11,9 +11,9 @@ use std::{fmt, ops::Range};
 
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw,
-    FlowSegment, FreeFlow, LightKey, Moment, OpticsKey, TableKey, TonemapKey, range_nm,
+    FlowSegment, FreeFlow, LightKey, Lighting, Moment, OpticsKey, TableKey, TonemapKey, range_nm,
 };
-pub use want::{Resources, Shot, WantError, want};
+pub use want::{Lamp, Resources, Shot, WantError, want};
 
 /// How much may be done before the next picture must be out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +36,19 @@ pub struct Want {
 /// What is on the GPU. Nothing at first, and nothing after a lost device.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Have {
+    /// What belongs to each light, the scene's own first.
+    pub lights: Vec<LightHave>,
+    /// The field of each film, by the film's index.
+    pub fields: Vec<Option<FieldHave>>,
+    /// The linear picture.
+    pub radiance: Option<DrawKey>,
+    /// The finished picture.
+    pub picture: Option<TonemapKey>,
+}
+
+/// What is there of one light.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LightHave {
     /// The table in use.
     pub table: Option<TableKey>,
     /// A table in the making, and how many of its rows are done.
@@ -44,12 +57,6 @@ pub struct Have {
     pub bands: Option<BandsKey>,
     /// The environment.
     pub environment: Option<EnvironmentKey>,
-    /// The field of each film, by the film's index.
-    pub fields: Vec<Option<FieldHave>>,
-    /// The linear picture.
-    pub radiance: Option<DrawKey>,
-    /// The finished picture.
-    pub picture: Option<TonemapKey>,
 }
 
 /// A film's field: its state at a tick, and the moment that its shown thickness belongs to.
@@ -64,17 +71,29 @@ pub struct FieldHave {
 /// One pass, with all that it reads.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pass {
-    /// Sends the environment's faces and levels.
-    UploadEnvironment(EnvironmentKey),
+    /// Sends the faces and levels of a light's environment.
+    UploadEnvironment {
+        /// Index of the light.
+        light: usize,
+        /// The environment.
+        key: EnvironmentKey,
+    },
     /// Bakes some rows of a lookup table.
     BakeTable {
+        /// Index of the light.
+        light: usize,
         /// The table.
         key: TableKey,
         /// Rows to bake.
         rows: Range<u32>,
     },
     /// Fits and sends the bands.
-    FitBands(BandsKey),
+    FitBands {
+        /// Index of the light.
+        light: usize,
+        /// The bands.
+        key: BandsKey,
+    },
     /// Sets a film to its initial thickness.
     SeedField {
         /// Index of the film.
@@ -109,9 +128,9 @@ impl Pass {
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
-            Self::UploadEnvironment(_) => "upload_environment",
+            Self::UploadEnvironment { .. } => "upload_environment",
             Self::BakeTable { .. } => "bake_table",
-            Self::FitBands(_) => "fit_bands",
+            Self::FitBands { .. } => "fit_bands",
             Self::SeedField { .. } => "seed_field",
             Self::StepField { .. } => "step_field",
             Self::ShowField { .. } => "show_field",
@@ -168,7 +187,7 @@ impl fmt::Display for Plan {
         }
         for (pass, reason) in &self.steps {
             let detail = match pass {
-                Pass::BakeTable { key, rows } => {
+                Pass::BakeTable { key, rows, .. } => {
                     format!("rows {}..{} of {}, {} columns", rows.start, rows.end, key.rows, key.columns)
                 }
                 Pass::SeedField { film, key } => format!("film {film}, 6x{0}x{0} cells", key.cells),
@@ -176,10 +195,10 @@ impl fmt::Display for Plan {
                 Pass::ShowField { film, key } => format!("film {film} at {}", key.moment),
                 Pass::Draw(key) => format!("{}x{}, bubbles: {}", key.size[0], key.size[1], key.bubbles.len()),
                 Pass::Tonemap(key) => format!("exposure {} EV", key.exposure_ev),
-                Pass::FitBands(key) => {
+                Pass::FitBands { key, .. } => {
                     format!("{} wavelengths, {}, films to {} nm", key.count(), key.quality.name(), key.range_nm)
                 }
-                Pass::UploadEnvironment(key) => format!("6x{0}x{0} texels", key.size()),
+                Pass::UploadEnvironment { key, .. } => format!("6x{0}x{0} texels", key.size()),
             };
             writeln!(f, "{:<18} {detail}: {reason}", pass.name())?;
         }
@@ -202,12 +221,16 @@ pub fn plan(want: &Want, have: &Have) -> Plan {
     let mut planner = Planner { steps: Vec::new(), after: have.clone(), pace: want.pace, complete: true };
     let mut picture = want.picture.clone();
     let draw = &mut picture.draw;
-    if !draw.bubbles.is_empty() {
-        draw.table = draw.table.as_ref().map(|table| planner.table(table));
-        planner.bands(&draw.bands);
-    }
-    if draw.needs_environment() {
-        planner.environment(&draw.environment);
+    let (has_bubbles, needs_environment) = (!draw.bubbles.is_empty(), draw.needs_environment());
+    planner.after.lights.resize_with(1 + draw.lamps.len(), LightHave::default);
+    for (light, lighting) in std::iter::once(&mut draw.lighting).chain(&mut draw.lamps).enumerate() {
+        if has_bubbles {
+            lighting.table = lighting.table.as_ref().map(|table| planner.table(light, table));
+            planner.bands(light, &lighting.bands);
+        }
+        if needs_environment {
+            planner.environment(light, &lighting.environment);
+        }
     }
     for index in 0..draw.bubbles.len() {
         if let FilmKey::Field(field) = &mut draw.bubbles[index].film {
@@ -230,27 +253,28 @@ impl Planner {
         self.steps.push((pass, reason));
     }
 
-    /// Plans the table and returns the one that will be there to draw with.
-    fn table(&mut self, wanted: &TableKey) -> TableKey {
-        if self.after.table.as_ref() == Some(wanted) {
-            self.after.baking = None;
+    /// Plans a light's table and returns the one that will be there to draw with.
+    fn table(&mut self, light: usize, wanted: &TableKey) -> TableKey {
+        let have = &mut self.after.lights[light];
+        if have.table.as_ref() == Some(wanted) {
+            have.baking = None;
             return wanted.clone();
         }
         let coarse = wanted.coarser(COARSE);
-        let reason = if self.after.table.is_none() { Reason::Missing } else { Reason::Changed("film or light") };
-        if self.pace == Pace::Frame && self.after.table.as_ref() != Some(&coarse) {
-            self.push(Pass::BakeTable { key: coarse.clone(), rows: 0..coarse.rows }, reason);
-            self.after.table = Some(coarse.clone());
-            self.after.baking = None;
+        let reason = if have.table.is_none() { Reason::Missing } else { Reason::Changed("film or light") };
+        if self.pace == Pace::Frame && have.table.as_ref() != Some(&coarse) {
+            have.table = Some(coarse.clone());
+            have.baking = None;
+            self.push(Pass::BakeTable { light, key: coarse.clone(), rows: 0..coarse.rows }, reason);
             self.complete = false;
             return coarse;
         }
-        self.bake(wanted, reason);
-        self.after.table.clone().unwrap_or(coarse)
+        self.bake(light, wanted, reason);
+        self.after.lights[light].table.clone().unwrap_or(coarse)
     }
 
-    fn bake(&mut self, wanted: &TableKey, reason: Reason) {
-        let mut done = match &self.after.baking {
+    fn bake(&mut self, light: usize, wanted: &TableKey, reason: Reason) {
+        let mut done = match &self.after.lights[light].baking {
             Some((key, rows)) if key == wanted => *rows,
             _ => 0,
         };
@@ -262,30 +286,30 @@ impl Planner {
             let rows = done..(done + portion).min(wanted.rows);
             done = rows.end;
             let reason = if rows.start == 0 { reason } else { Reason::Unfinished };
-            self.push(Pass::BakeTable { key: wanted.clone(), rows }, reason);
+            self.push(Pass::BakeTable { light, key: wanted.clone(), rows }, reason);
             if done == wanted.rows {
-                self.after.table = Some(wanted.clone());
-                self.after.baking = None;
+                let have = &mut self.after.lights[light];
+                (have.table, have.baking) = (Some(wanted.clone()), None);
                 return;
             }
         }
-        self.after.baking = Some((wanted.clone(), done));
+        self.after.lights[light].baking = Some((wanted.clone(), done));
         self.complete = false;
     }
 
-    fn bands(&mut self, wanted: &BandsKey) {
-        if let Some(reason) = changed(self.after.bands.as_ref(), wanted, |_, _| "film, light or quality") {
-            self.push(Pass::FitBands(wanted.clone()), reason);
-            self.after.bands = Some(wanted.clone());
+    fn bands(&mut self, light: usize, wanted: &BandsKey) {
+        let have = &mut self.after.lights[light].bands;
+        if let Some(reason) = changed(have.as_ref(), wanted, |_, _| "film, light or quality") {
+            *have = Some(wanted.clone());
+            self.push(Pass::FitBands { light, key: wanted.clone() }, reason);
         }
     }
 
-    fn environment(&mut self, wanted: &EnvironmentKey) {
-        if self.after.environment.as_ref() != Some(wanted) {
-            let reason =
-                if self.after.environment.is_none() { Reason::Missing } else { Reason::Changed("environment") };
-            self.push(Pass::UploadEnvironment(wanted.clone()), reason);
-            self.after.environment = Some(wanted.clone());
+    fn environment(&mut self, light: usize, wanted: &EnvironmentKey) {
+        let have = &mut self.after.lights[light].environment;
+        if let Some(reason) = changed(have.as_ref(), wanted, |_, _| "environment") {
+            *have = Some(wanted.clone());
+            self.push(Pass::UploadEnvironment { light, key: wanted.clone() }, reason);
         }
     }
 

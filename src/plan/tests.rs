@@ -18,6 +18,7 @@ fn resources() -> Resources {
     Resources {
         environment: Arc::new(CubeMap::constant(DVec3::ONE)),
         illuminant: Arc::new(Illuminant::default()),
+        lamps: Vec::new(),
         liquids: BTreeMap::new(),
     }
 }
@@ -63,6 +64,24 @@ fn uniform_scene() -> Scene {
 
 fn event(tick: u64, flow: Flow) -> Event {
     Event { tick, change: Change::Motion(MotionChange { flow: Some(flow), ..MotionChange::default() }) }
+}
+
+#[test]
+fn each_light_has_what_it_needs_and_loses_nothing_to_another() {
+    let lamp = |illuminant: &str| Lamp {
+        environment: Arc::new(CubeMap::constant(DVec3::ONE)),
+        illuminant: Arc::new(illuminant.parse().unwrap()),
+    };
+    let lit =
+        |lamps: Vec<Lamp>| want(&uniform_scene(), &Resources { lamps, ..resources() }, &shot(0, Pace::Whole)).unwrap();
+    let alone = plan(&lit(vec![]), &Have::default());
+    let both = plan(&lit(vec![lamp("A")]), &alone.after);
+    assert_eq!(both.after.lights.len(), 2);
+    let mut passes = names(&both);
+    passes.dedup();
+    assert_eq!(passes, ["bake_table", "fit_bands", "upload_environment", "draw", "tonemap"]);
+    assert!(plan(&lit(vec![lamp("A")]), &both.after).is_empty());
+    assert_eq!(names(&plan(&lit(vec![]), &both.after)), ["draw", "tonemap"]);
 }
 
 #[test]
@@ -137,17 +156,17 @@ fn a_bubble_below_a_pixel_is_not_simulated() {
 #[test]
 fn a_window_gets_a_coarse_table_first_and_the_full_one_soon() {
     let want = wanted(&uniform_scene(), 0, Pace::Frame);
-    let full = want.picture.draw.table.clone().unwrap();
+    let full = want.picture.draw.lighting.table.clone().unwrap();
     let mut have = Have::default();
     let first = plan(&want, &have);
-    let coarse = first.after.table.clone().unwrap();
+    let coarse = first.after.lights[0].table.clone().unwrap();
     assert!(coarse.rows < full.rows && coarse.max_thickness_nm == full.max_thickness_nm && !first.complete);
     assert!(names(&first).ends_with(&["draw", "tonemap"]), "something is shown at once");
     for frame in 0..100 {
         let plan = plan(&want, &have);
         have = plan.after;
         if plan.complete {
-            assert_eq!(have.table.as_ref(), Some(&full));
+            assert_eq!(have.lights[0].table.as_ref(), Some(&full));
             assert!(frame > 1, "the full table is baked in portions");
             return;
         }
@@ -305,7 +324,7 @@ fn scenes() -> impl Strategy<Value = Scene> {
 
 /// What of a state a whole picture decides. Products that this picture does not need may linger from others, and a table in the making
 /// may be left where it was.
-fn decided(have: &Have, want: &Want) -> (Option<TonemapKey>, Option<TableKey>, Vec<Option<FieldHave>>) {
+fn decided(have: &Have, want: &Want) -> (Option<TonemapKey>, Vec<Option<TableKey>>, Vec<Option<FieldHave>>) {
     let needed = |index: usize| {
         want.picture.draw.bubbles.iter().any(|bubble| bubble.index == index && matches!(bubble.film, FilmKey::Field(_)))
     };
@@ -314,7 +333,8 @@ fn decided(have: &Have, want: &Want) -> (Option<TonemapKey>, Option<TableKey>, V
     while fields.last().is_some_and(Option::is_none) {
         fields.pop();
     }
-    (have.picture.clone(), have.table.clone(), fields)
+    let tables = have.lights.iter().map(|light| light.table.clone()).collect();
+    (have.picture.clone(), tables, fields)
 }
 
 proptest! {

@@ -6,7 +6,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{
     BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment,
-    FreeFlow, LightKey, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want, range_nm,
+    FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want, range_nm,
 };
 use crate::{
     physics::{
@@ -27,8 +27,19 @@ pub struct Resources {
     pub environment: Arc<CubeMap>,
     /// The light's spectrum.
     pub illuminant: Arc<Illuminant>,
+    /// Lamps of other spectra, which the environment lacks.
+    pub lamps: Vec<Lamp>,
     /// Liquids from files, by the paths that the scene gives them.
     pub liquids: BTreeMap<String, FilmIndex>,
+}
+
+/// All light of one spectrum that is not the scene's own.
+#[derive(Clone, Debug)]
+pub struct Lamp {
+    /// Where it comes from, in linear BT.2020.
+    pub environment: Arc<CubeMap>,
+    /// Its spectrum.
+    pub illuminant: Arc<Illuminant>,
 }
 
 /// One picture of a scene.
@@ -72,18 +83,18 @@ pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, W
         .collect();
     let distance = |bubble: &BubbleKey| bubble.centre_m.distance_squared(camera.eye_m);
     bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
-    let optics = OpticsKey { film: material(scene, resources, &bubbles)?, illuminant: resources.illuminant.clone() };
+    let film = material(scene, resources, &bubbles)?;
     let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
-    let bands = BandsKey { optics: optics.clone(), range_nm, quality: scene.view.quality };
+    let own = Lamp { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
+    let lighting = |lamp: &Lamp, light: LightKey| lighting(scene, lamp, light, &film, range_nm);
+    let light = light(scene, resources, &camera);
     let draw = DrawKey {
         size: shot.size,
         full_precision: shot.full_precision,
         yardstick: shot.yardstick,
-        light: light(scene, resources, &camera),
         camera,
-        environment: EnvironmentKey(resources.environment.clone()),
-        table: bands.needs_table().then(|| table(scene, resources, &optics, range_nm)),
-        bands,
+        lighting: lighting(&own, light),
+        lamps: resources.lamps.iter().map(|lamp| lighting(lamp, lamp_light(scene, lamp, light))).collect(),
         bubbles,
     };
     let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
@@ -125,14 +136,31 @@ fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     }
 }
 
-fn table(scene: &Scene, resources: &Resources, optics: &OpticsKey, range_nm: f64) -> TableKey {
-    let full = TableKey::full(optics.clone(), range_nm);
-    let is_grey = |rgb: [f64; 3]| rgb.iter().all(|value| *value == rgb[0]);
-    let backdrop = match scene.view.backdrop {
-        Backdrop::Radiance(rgb) => is_grey(rgb),
-        Backdrop::Environment => true,
+/// What a lamp's light is beside the scene's own.
+fn lamp_light(scene: &Scene, lamp: &Lamp, own: LightKey) -> LightKey {
+    let backdrop = match own.backdrop {
+        BackdropKey::Environment => BackdropKey::Environment,
+        // A colour behind the bubbles is seen by the scene's own light.
+        BackdropKey::Colour(_) => BackdropKey::Colour(DVec3::ZERO),
     };
-    let neutral = resources.environment.is_neutral() && scene.light.constant.is_none_or(is_grey) && backdrop;
+    LightKey { gain: DVec3::splat(scene.light.intensity), seen: seen_light(&lamp.illuminant), backdrop, ..own }
+}
+
+fn lighting(scene: &Scene, lamp: &Lamp, light: LightKey, film: &FilmMaterial, range_nm: f64) -> Lighting {
+    let optics = OpticsKey { film: film.clone(), illuminant: lamp.illuminant.clone() };
+    let bands = BandsKey { optics, range_nm, quality: scene.view.quality };
+    let table = bands.needs_table().then(|| table(scene, lamp, &light, &bands));
+    Lighting { light, environment: EnvironmentKey(lamp.environment.clone()), table, bands }
+}
+
+fn table(scene: &Scene, lamp: &Lamp, light: &LightKey, bands: &BandsKey) -> TableKey {
+    let full = TableKey::full(bands.optics.clone(), bands.range_nm);
+    let is_grey = |rgb: DVec3| rgb.max_element() - rgb.min_element() <= 1e-12 * rgb.max_element();
+    let backdrop = match light.backdrop {
+        BackdropKey::Colour(rgb) => is_grey(rgb),
+        BackdropKey::Environment => true,
+    };
+    let neutral = lamp.environment.is_neutral() && is_grey(light.gain) && backdrop;
     TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full }
 }
 
@@ -188,6 +216,7 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         to_film: if matches!(film, FilmKey::Uniform(_)) { DMat3::IDENTITY } else { DMat3::from_quat(turn.inverse()) },
         thinned_nm,
         samples: samples(radius_pixels),
+        filtered: is_filtered(&film, radius_pixels),
         magnified: is_magnified(&film, radius_m, radius_pixels, centre_m.distance(camera.eye_m)),
         film,
     })
@@ -202,6 +231,13 @@ fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f
     let nearest_m = (distance_m - radius_m).abs().max(1e-3 * radius_m);
     let magnification = (distance_m.max(radius_m) / nearest_m).min(16.0);
     field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
+}
+
+/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Where samples are most, they see
+/// that better than a filter which takes the film to change evenly from pixel to pixel.
+fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
+    let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < 1.0);
+    is_finer && samples(radius_pixels) < MOST_SAMPLES
 }
 
 /// How far all films have turned as a whole, and what has evaporated from them, in nm.
@@ -229,11 +265,14 @@ fn scheme(motion: &Motion) -> Scheme {
     }
 }
 
+/// Samples along a pixel's side at most.
+const MOST_SAMPLES: u32 = 8;
+
 /// Samples along a pixel's side: bubbles of few pixels need more, for their film and their reflections are finer than a pixel.
 fn samples(radius_pixels: f64) -> u32 {
     match radius_pixels {
-        r if r < 8.0 => 8,
-        r if r < 24.0 => 4,
+        r if r < 12.0 => MOST_SAMPLES,
+        r if r < 28.0 => 4,
         r if r < 64.0 => 2,
         _ => 1,
     }

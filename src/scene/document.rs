@@ -2,7 +2,7 @@
 
 use super::check::{KeyPath, Step};
 use super::error::{Located, Problem};
-use super::{Bubble, Change, Event, Flow, Light, MotionChange, Scene, VERSION, View};
+use super::{Bubble, Change, Event, Flow, Light, LightPatch, MotionChange, Scene, VERSION, View};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
@@ -53,7 +53,11 @@ pub(super) fn every_key() -> Table {
     };
     let scene = Scene {
         bubbles: vec![Bubble::default()],
-        light: Light { constant: Some([0.0; 3]), ..Light::default() },
+        light: Light {
+            constant: Some([0.0; 3]),
+            patches: vec![LightPatch { radiance: Some([0.0; 3]), ..LightPatch::default() }],
+            ..Light::default()
+        },
         view: View { polariser_deg: Some(0.0), ..View::default() },
         events: vec![Event { tick: 0, change: Change::Motion(everything) }],
         ..Scene::default()

@@ -18,6 +18,61 @@ pub struct Light {
     pub rotation_deg: f64,
     /// Factor on the radiance of the light; 0 ..= 10000. Default: 1.
     pub intensity: f64,
+    /// Parts of the environment that are lamps of other spectra, at most [`MAX_PATCHES`]. Where two overlap the later one counts.
+    #[serde(rename = "patch", skip_serializing_if = "Vec::is_empty")]
+    pub patches: Vec<LightPatch>,
+}
+
+/// The largest number of patches in one light: each spectrum is drawn for itself.
+pub const MAX_PATCHES: usize = 8;
+
+/// A round part of the environment that another illuminant lights, as a lamp in a room with a window: `[[light.patch]]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LightPatch {
+    /// Direction of its middle around the vertical, from +x towards +y, degrees; any finite number. Default: 0.
+    pub azimuth_deg: f64,
+    /// The same above the horizon, degrees; -90 ..= 90. Default: 0.
+    pub elevation_deg: f64,
+    /// Angle from its middle to where half of it is left, degrees; 1 ..= 180. Default: 20.
+    pub radius_deg: f64,
+    /// Width of its soft edge, degrees; 0 ..= 90. Default: 4.
+    pub edge_deg: f64,
+    /// Its illuminant, as in [`Light::illuminant`]. Default: `D65`.
+    pub illuminant: String,
+    /// Its radiance, linear BT.709 relative to its illuminant's white; each 0 ..= 65504. Default: absent, what the environment has there.
+    pub radiance: Option<[f64; 3]>,
+}
+
+impl Default for LightPatch {
+    fn default() -> Self {
+        Self {
+            azimuth_deg: 0.0,
+            elevation_deg: 0.0,
+            radius_deg: 20.0,
+            edge_deg: 4.0,
+            illuminant: "D65".to_owned(),
+            radiance: None,
+        }
+    }
+}
+
+impl LightPatch {
+    fn check(&self) -> Checked {
+        check::finite("azimuth_deg", self.azimuth_deg)?;
+        check::in_range("elevation_deg", self.elevation_deg, -90.0..=90.0)?;
+        check::in_range("radius_deg", self.radius_deg, 1.0..=180.0)?;
+        check::in_range("edge_deg", self.edge_deg, 0.0..=90.0)?;
+        check_illuminant(&self.illuminant)?;
+        self.radiance.map_or(Ok(()), |radiance| check::all_in_range("radiance", radiance, check::RADIANCE))
+    }
+}
+
+fn check_illuminant(name: &str) -> Checked {
+    if name.trim().is_empty() {
+        return Err(Fault::new("illuminant", "is empty; name one, as in `illuminant = \"D65\"`"));
+    }
+    Ok(())
 }
 
 impl Default for Light {
@@ -28,6 +83,7 @@ impl Default for Light {
             constant: None,
             rotation_deg: 0.0,
             intensity: 1.0,
+            patches: Vec::new(),
         }
     }
 }
@@ -35,12 +91,12 @@ impl Default for Light {
 impl Light {
     pub(super) fn check(&self) -> Checked {
         self.environment.check()?;
-        if self.illuminant.trim().is_empty() {
-            return Err(Fault::new("illuminant", "is empty; name one, as in `illuminant = \"D65\"`"));
-        }
+        check_illuminant(&self.illuminant)?;
         self.constant.map_or(Ok(()), |radiance| check::all_in_range("constant", radiance, check::RADIANCE))?;
         check::finite("rotation_deg", self.rotation_deg)?;
-        check::in_range("intensity", self.intensity, 0.0..=10_000.0)
+        check::in_range("intensity", self.intensity, 0.0..=10_000.0)?;
+        check::at_most("patch", self.patches.len(), MAX_PATCHES)?;
+        check::each("patch", &self.patches, LightPatch::check)
     }
 }
 

@@ -20,7 +20,7 @@ mod tests;
 pub use bubble::{Bubble, Film, FilmIndexName, FilmStateName};
 pub use camera::Camera;
 pub use error::{Problem, SceneError};
-pub use light::{Backdrop, Environment, Light, Quality, View};
+pub use light::{Backdrop, Environment, Light, LightPatch, MAX_PATCHES, Quality, View};
 pub use motion::{Change, Event, Flow, Motion, MotionChange, TransportScheme};
 pub use preset::{preset, preset_names, preset_toml};
 

@@ -8,7 +8,7 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 18] = presets![
+const PRESETS: [(&str, &str); 19] = presets![
     "default",
     "fresh",
     "bands",
@@ -22,6 +22,7 @@ const PRESETS: [(&str, &str); 18] = presets![
     "bright",
     "lamplight",
     "sodium",
+    "two_lights",
     "polarised",
     "trio",
     "inside",

@@ -11,7 +11,7 @@ use crate::{
         colour::{BT2020, Gamut, bt709_to_bt2020, ciede2000, xyz_to_lab},
         environment::CubeMap,
     },
-    plan::{DrawKey, Moment, Pace, Resources, Shot, Want, want},
+    plan::{DrawKey, Lamp, Moment, Pace, Resources, Shot, Want, want},
     scene::{Backdrop, Bubble, Camera, Film, FilmStateName, Flow, Motion, Quality, Scene, View},
 };
 
@@ -23,31 +23,53 @@ const LAMPS: usize = 6;
 const LIGHTS: [&str; 4] = ["D65", "A", "LED", "FL2"];
 /// Limits on the mean and the 99.9th percentile of CIEDE2000. That percentile lies at the rim: there a pixel spans many fringes and much of
 /// the surroundings, of which both pictures take samples, and light leaves only after many inner reflections.
-const LIMITS: [(Quality, [f64; 2]); 2] = [(Quality::Standard, [0.3, 3.0]), (Quality::Spectral, [0.05, 0.6])];
+const LIMITS: [(Quality, [f64; 2]); 3] =
+    [(Quality::Fast, [1.0, 8.0]), (Quality::Standard, [0.3, 3.0]), (Quality::Spectral, [0.05, 0.6])];
 
 pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut renderer = Renderer::new(pollster::block_on(run.gpu.another())?);
     let scenes = if run.long { 12 } else { LIGHTS.len() };
-    let mut errors: [Vec<f64>; 2] = Default::default();
-    for seed in 0..scenes {
-        let (mut scene, resources) = random_scene(seed)?;
+    let random: Vec<_> = (0..scenes).map(random_scene).collect::<Result<_, _>>()?;
+    let lamps: Vec<_> = ["sodium", "A"].into_iter().map(lamplit_scene).collect::<Result<_, _>>()?;
+    measure(run, &mut renderer, &format!("{scenes} pictures in coloured light"), random)?;
+    measure(run, &mut renderer, "daylight and a lamp, sodium or A", lamps)
+}
+
+/// Errors over all pixels of some scenes, at each quality.
+fn measure(
+    run: &mut Run<'_>,
+    renderer: &mut Renderer,
+    what: &str,
+    scenes: Vec<(Scene, Resources)>,
+) -> Result<(), GpuError> {
+    let mut errors: [Vec<f64>; LIMITS.len()] = Default::default();
+    for (mut scene, resources) in scenes {
         let truth = reference::radiance(&wanted(&scene, &resources)?.picture.draw, &|| ());
         let truth = truth.map_err(|error| GpuError::Refused(error.to_string()))?;
         for ((quality, _), errors) in LIMITS.iter().zip(&mut errors) {
             scene.view.quality = *quality;
             let want = wanted(&scene, &resources)?;
-            errors.extend(differences(&want.picture.draw, &truth, &radiance(&mut renderer, &want)?));
+            errors.extend(differences(&want.picture.draw, &truth, &radiance(renderer, &want)?));
         }
     }
     for ((quality, limits), mut errors) in LIMITS.into_iter().zip(errors) {
         errors.sort_by(f64::total_cmp);
         let mean = errors.iter().sum::<f64>() / errors.len() as f64;
         let rare = errors[(errors.len() - 1) * 999 / 1000];
-        let name = format!("{scenes} pictures in coloured light, {}: dE2000", quality.name());
+        let name = format!("{what}, {}: dE2000", quality.name());
         run.at_most(format!("{name} mean"), mean, limits[0]);
         run.at_most(format!("{name} 99.9th percentile"), rare, limits[1]);
     }
     Ok(())
+}
+
+/// A scene in daylight, some of whose soft lamps are of another illuminant: those of another random scene.
+fn lamplit_scene(illuminant: &str) -> Result<(Scene, Resources), GpuError> {
+    let (scene, mut resources) = random_scene(0)?;
+    let (_, other) = random_scene(1)?;
+    let illuminant = Arc::new(illuminant.parse().map_err(|error| GpuError::Refused(format!("{error}")))?);
+    resources.lamps = vec![Lamp { environment: other.environment, illuminant }];
+    Ok((scene, resources))
 }
 
 /// A bubble of random film among soft lamps of saturated colours. Lamps have no edges finer than pixels: the pictures compare optics, not
@@ -87,7 +109,10 @@ fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
     };
     let illuminant = LIGHTS[seed % LIGHTS.len()].parse().map_err(|error| GpuError::Refused(format!("{error}")))?;
     let environment = Arc::new(CubeMap::from_fn(128, 1, light));
-    Ok((scene, Resources { environment, illuminant: Arc::new(illuminant), liquids: BTreeMap::new() }))
+    Ok((
+        scene,
+        Resources { environment, illuminant: Arc::new(illuminant), lamps: Vec::new(), liquids: BTreeMap::new() },
+    ))
 }
 
 fn wanted(scene: &Scene, resources: &Resources) -> Result<Want, GpuError> {

@@ -8,27 +8,37 @@ use crate::{
         sphere::{CubedSphere, GridError},
         transport::FlowMap,
     },
-    plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey},
+    plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey, Lighting},
 };
 
-/// Radiance of each pixel, linear BT.2020. `progress` hears of each finished row.
+/// Radiance of each pixel, linear BT.2020. `progress` hears of each finished row, once for each light.
 ///
 /// # Errors
 /// A film's grid that is too coarse or too fine.
 pub fn radiance(key: &DrawKey, progress: &(dyn Fn() + Sync)) -> Result<Vec<DVec3>, GridError> {
-    let optics = key.bands.optics.spectra();
-    let surroundings = |direction: DVec3| key.light.gain * key.environment.0.sample(turned(&key.light, direction));
+    let mut sum = radiance_in(key, &key.lighting, progress)?;
+    for lamp in &key.lamps {
+        let lamp = radiance_in(key, lamp, progress)?;
+        sum.iter_mut().zip(lamp).for_each(|(sum, lamp)| *sum += lamp);
+    }
+    Ok(sum)
+}
+
+/// Radiance in one light alone.
+fn radiance_in(key: &DrawKey, lighting: &Lighting, progress: &(dyn Fn() + Sync)) -> Result<Vec<DVec3>, GridError> {
+    let (optics, light) = (lighting.bands.optics.spectra(), &lighting.light);
+    let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
     let scene = PictureScene {
         size: key.size,
         camera: camera(&key.camera),
         optics: &optics,
         spheres: key.bubbles.iter().map(sphere).collect::<Result<_, _>>()?,
         surroundings: &surroundings,
-        backdrop: match key.light.backdrop {
+        backdrop: match light.backdrop {
             BackdropKey::Environment => None,
             BackdropKey::Colour(radiance) => Some(radiance),
         },
-        polariser: key.light.polariser,
+        polariser: light.polariser,
         samples: key.bubbles.iter().map(|bubble| bubble.samples).fold(SAMPLES, u32::max),
     };
     Ok(scene.radiance(progress))

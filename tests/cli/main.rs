@@ -168,6 +168,8 @@ fn arguments_that_make_no_sense_are_refused() {
         "lut -o a.exr --range 0",
         "lut -o a.exr --size 1x1",
         "colour --points missing.csv",
+        "colour --strip a.jpg",
+        "colour --strip a.png --cos 1",
         "transport --wind sb --tracer tc1 --cells 4 --steps 10",
         "transport --wind sb --tracer tc1 --cells 16 --steps 0",
         "transport --wind sb --tracer tc1 --cells 16 --steps 10 --axis 0,0,0",

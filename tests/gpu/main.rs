@@ -3,8 +3,10 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod far;
 mod flow;
 mod history;
+mod lamps;
 mod layers;
 mod layouts;
 mod optics;

@@ -290,7 +290,7 @@ fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedS
         errors.fold(0.0, f64::max)
     };
     let (mean, _) = mean_and_max(errors.iter().copied());
-    let white = want.picture.draw.light.gain.max_element() / scale;
+    let white = want.picture.draw.lighting.light.gain.max_element() / scale;
     let distance = Distance { mean, inside_max: part(false), rim_max: part(true) / white };
     let Distance { mean, inside_max, rim_max } = distance;
     eprintln!("measured: GPU - f64 picture, {name}: mean {mean:.5}, max {inside_max:.4}, at the rim {rim_max:.4}");

@@ -11,7 +11,7 @@ use naga::{
 
 use crate::passes::{entry_points, names, parse, validate};
 
-/// Values that pipelines are specialised with, by constant. Every combination of a pass's own is translated.
+/// Values that pipelines are specialised with, by constant.
 fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
     BTreeMap::from([
         ("HALO", vec![soapfilm::physics::sphere::HALO as f64]),
@@ -29,6 +29,8 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
         ("SIDES", vec![96.0]),
         ("OUTLINE", vec![0.0, 1.0]),
         ("INNER", vec![3.0, 7.0, 11.0]),
+        ("FILTERED", vec![0.0, 1.0]),
+        ("THICK", vec![0.0, 1.0]),
         ("COLOURED", vec![0.0, 1.0]),
         ("POLARISED", vec![0.0, 1.0]),
         ("EVERYTHING", vec![0.0, 1.0]),
@@ -38,26 +40,29 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
     ])
 }
 
-/// All combinations of values for the constants that a module declares.
+/// Values for the constants that a module declares: each of a constant's, beside the first of all others' and beside the last.
 fn specialisations(pass: &str, module: &Module) -> Result<Vec<PipelineConstants>, String> {
     let known = constant_values();
-    let mut all = vec![PipelineConstants::default()];
+    let mut own: Vec<(String, &[f64])> = Vec::new();
     for (_, constant) in module.overrides.iter() {
         let name = constant.name.clone().unwrap_or_default();
         let values = known.get(name.as_str()).ok_or_else(|| format!("{pass}: no values to test for `{name}`"))?;
         if constant.init.is_some() {
             return Err(format!("{pass}: `{name}` has a default: a value that is forgotten must be refused"));
         }
-        all = all
-            .iter()
-            .flat_map(|set| {
-                values
-                    .iter()
-                    .map(|value| set.iter().map(|(k, v)| (k.clone(), *v)).chain([(name.clone(), *value)]).collect())
-            })
-            .collect();
+        own.push((name, values));
     }
-    Ok(all)
+    let ends = [0, usize::MAX].map(|end| {
+        let value = |values: &[f64]| values[end.min(values.len() - 1)];
+        own.iter().map(|(name, values)| (name.clone(), value(values))).collect::<PipelineConstants>()
+    });
+    let changed = |all: &PipelineConstants| {
+        let all = all.clone();
+        own.iter()
+            .flat_map(|(name, values)| values.iter().map(move |value| (name.clone(), *value)))
+            .map(move |change| all.clone().into_iter().chain([change]).collect())
+    };
+    Ok(ends.iter().cloned().chain(ends.iter().flat_map(changed)).collect())
 }
 
 /// Runs a check on each specialised entry point of each pass and fails with all that went wrong.

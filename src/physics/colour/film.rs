@@ -161,6 +161,22 @@ mod tests {
         points(count).map(error).sum::<f64>() / f64::from(count)
     }
 
+    /// Beyond the last visible fringe a film shows the mean over a fringe, 2R₁ / (1 + R₁) for each polarisation. Near grazing its fringes
+    /// are as sharp as a resonator's, and the 421 wavelengths begin to miss some of them.
+    #[test]
+    fn thick_films_tend_to_the_incoherent_limit() {
+        let optics = water();
+        for (cos_theta, tolerance) in [(0.05, 0.05), (0.2, 0.01), (0.5, 0.01), (1.0, 0.01)] {
+            let incidence = |i: usize| Incidence::new(optics.indices()[i], cos_theta);
+            let limit = optics.weights().integrate(|i| incidence(i).damped_reflectance(0.0, 500.0, 0.0).mean());
+            let error = |nm: u32| (optics.xyz(cos_theta, one(nm.into())) - limit).abs().max_element() / limit.y;
+            let worst = |nm: std::ops::Range<u32>| nm.step_by(97).map(error).fold(0.0, f64::max);
+            let [visible, thick] = [worst(300..2000), worst(10_000..30_000)];
+            eprintln!("measured: cos {cos_theta}: thick films are within {thick:.4} of the incoherent limit");
+            assert!(thick <= tolerance && thick < 0.5 * visible, "{cos_theta}: {visible} {thick}");
+        }
+    }
+
     #[test]
     fn colours_to_check_by_eye() {
         let table: [(f64, [u8; 3]); 12] = [

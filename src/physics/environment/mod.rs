@@ -8,11 +8,13 @@ mod cube_face;
 mod cube_map;
 mod equirect;
 mod mip;
+mod patch;
 mod procedural;
 mod repair;
 
 pub use cube_face::CubeFace;
 pub use cube_map::{CubeLevel, CubeMap};
 pub use equirect::{Equirect, WrongPixelCount, direction_of_uv, uv_of_direction};
+pub use patch::Patch;
 pub use procedural::Procedural;
 pub use repair::{MAX_RADIANCE, Repairs};

@@ -53,6 +53,23 @@ impl Incidence {
         let sin2 = half_phase.sin().powi(2);
         self.face.map(|r2| airy(r2, sin2, thickness_nm))
     }
+
+    /// The mean reflectance where thickness, angle or wavelength are spread, so that only a part of the fringes' contrast is left:
+    /// `coherence`, 1 for none of that, 0 for the incoherent limit 2r² / (1 + r²).
+    ///
+    /// Airy's T is (1 − r²) / (1 + r²) · (1 + 2 Σ r²ᵏ cos kδ). With coherenceᵏ on its k-th harmonic, as a Lorentz distribution of δ has it,
+    /// the sum is closed: with q = coherence · r², T = (1 − r²) / (1 + r²) · (1 − q²) / (1 + q² − 2q cos δ).
+    pub fn damped_reflectance(&self, thickness_nm: f64, wavelength_nm: f64, coherence: f64) -> Polarised {
+        let sin2 = (TAU * self.n_cos_refracted * thickness_nm / wavelength_nm).sin().powi(2);
+        self.face.map(|r2| {
+            let q = coherence * r2;
+            let fringes = 4.0 * q * sin2;
+            let reflected = 2.0 * r2 * (1.0 - coherence) * (1.0 - q) + (1.0 + r2) * fringes;
+            let all = (1.0 + r2) * ((1.0 - q).powi(2) + fringes);
+            // As in `airy`.
+            if all > 0.0 { reflected / all } else { f64::from(thickness_nm != 0.0) }
+        })
+    }
 }
 
 fn airy(r2: f64, sin2_half_phase: f64, thickness_nm: f64) -> f64 {
@@ -120,6 +137,31 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn damped_fringes_are_means_over_a_lorentz_distribution() {
+        for_all_cases(|n, cos_theta, thickness_nm, nm| {
+            let incidence = Incidence::new(n, cos_theta);
+            let whole = incidence.damped_reflectance(thickness_nm, nm, 1.0);
+            let plain = incidence.reflectance(thickness_nm, nm);
+            assert!((whole.s - plain.s).abs() < 1e-12 && (whole.p - plain.p).abs() < 1e-12, "{n} {cos_theta}");
+            let none = incidence.damped_reflectance(thickness_nm, nm, 0.0);
+            let limit = incidence.face.map(|r2| 2.0 * r2 / (1.0 + r2));
+            assert!((none.s - limit.s).abs() < 1e-12 && (none.p - limit.p).abs() < 1e-12, "{n} {cos_theta}");
+        });
+        // By quadrature: phases δ + γ tan(π (u − ½)), u uniform, with γ = −ln coherence.
+        let (incidence, nm, coherence) = (Incidence::new(1.33, 0.4), 550.0, 0.6_f64);
+        let nm_a_radian = nm / (2.0 * TAU * incidence.n_cos_refracted);
+        let count = 400_000;
+        let sample = |k: u32| {
+            let u = (f64::from(k) + 0.5) / f64::from(count);
+            let phase = -coherence.ln() * (std::f64::consts::PI * (u - 0.5)).tan();
+            incidence.reflectance(300.0 + nm_a_radian * phase, nm).s
+        };
+        let mean = (0..count).map(sample).sum::<f64>() / f64::from(count);
+        let closed = incidence.damped_reflectance(300.0, nm, coherence).s;
+        assert!((mean - closed).abs() < 1e-4, "{mean} {closed}");
     }
 
     /// R and T of one polarisation by the characteristic matrix (Macleod, *Thin-Film Optical Filters*, ch. 2), η the tilted admittances:

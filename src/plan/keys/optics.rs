@@ -124,13 +124,26 @@ impl BandsKey {
         self.wanted().min(Self::MOST)
     }
 
-    /// How many would do. Measured for 1500 nm, and as many more as thicker films have more fringes.
+    /// Thickness, in nm, up to which as many as there is room for resolve the products' fringes. Thicker films have none that white light
+    /// would show.
+    #[must_use]
+    pub fn coherent_nm(&self) -> f64 {
+        // Where single walls come from a table, more bands than standard's are of no use.
+        let measured = self.measured().min(if self.needs_table() { 13.0 } else { f64::MAX });
+        Self::MOST as f64 / measured * TableKey::MIN_RANGE_NM
+    }
+
+    /// How many would do.
     fn wanted(&self) -> usize {
-        let measured = match self.quality {
+        (self.measured() * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
+    }
+
+    /// How many do for 1500 nm; thicker films have more fringes, and need as many more.
+    fn measured(&self) -> f64 {
+        match self.quality {
             Quality::Fast => 6.0,
             Quality::Standard => 13.0,
             Quality::Spectral => 36.0,
-        };
-        (measured * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
+        }
     }
 }

@@ -44,6 +44,8 @@ pub struct BubbleKey {
     pub samples: u32,
     /// Whether the film is looked up through its flow map at each pixel: where cells are larger than pixels.
     pub magnified: bool,
+    /// Whether thickness is filtered over each sample: where a pixel spans more of the film than a cell.
+    pub filtered: bool,
     /// The film.
     pub film: FilmKey,
 }
@@ -100,23 +102,37 @@ pub struct DrawKey {
     pub yardstick: bool,
     /// The camera.
     pub camera: CameraKey,
-    /// The light.
+    /// The scene's own light.
+    pub lighting: Lighting,
+    /// Lights of other illuminants. Light adds up: the picture is the sum of the pictures in each light alone.
+    pub lamps: Vec<Lighting>,
+    /// The bubbles that can be seen, farthest first.
+    pub bubbles: Vec<BubbleKey>,
+}
+
+/// Light of one illuminant, and what the films' optics in it need.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lighting {
+    /// How it lights.
     pub light: LightKey,
-    /// The environment.
+    /// Where it comes from.
     pub environment: EnvironmentKey,
     /// The table, where the quality has one.
     pub table: Option<TableKey>,
     /// The bands.
     pub bands: BandsKey,
-    /// The bubbles that can be seen, farthest first.
-    pub bubbles: Vec<BubbleKey>,
 }
 
 impl DrawKey {
+    /// All lights, the scene's own first.
+    pub fn lights(&self) -> impl Iterator<Item = &Lighting> {
+        std::iter::once(&self.lighting).chain(&self.lamps)
+    }
+
     /// Whether any light from the environment can reach the picture.
     #[must_use]
     pub fn needs_environment(&self) -> bool {
-        !self.bubbles.is_empty() || self.light.backdrop == BackdropKey::Environment
+        !self.bubbles.is_empty() || self.lighting.light.backdrop == BackdropKey::Environment
     }
 
     /// The first thing in which two pictures differ.
@@ -126,16 +142,26 @@ impl DrawKey {
             "the picture's size"
         } else if self.camera != other.camera {
             "the camera"
-        } else if self.light != other.light || self.environment != other.environment {
-            "the light"
-        } else if self.table != other.table {
-            "the table"
-        } else if self.bands != other.bands {
-            "the bands"
+        } else if self.lighting != other.lighting {
+            self.lighting.difference(&other.lighting)
+        } else if self.lamps != other.lamps {
+            "a light of another illuminant"
         } else if self.bubbles != other.bubbles {
             "a bubble or its film"
         } else {
             "the way of drawing"
+        }
+    }
+}
+
+impl Lighting {
+    fn difference(&self, other: &Self) -> &'static str {
+        if self.light != other.light || self.environment != other.environment {
+            "the light"
+        } else if self.table != other.table {
+            "the table"
+        } else {
+            "the bands"
         }
     }
 }

@@ -41,6 +41,7 @@ fn setting(section: &str, key: &str, value: &str) -> String {
         "" => format!("{key} = {value}\n"),
         "bubble" => with_version(&format!("[[bubble]]\n{key} = {value}\n")),
         "bubble.film" => with_version(&format!("[[bubble]]\n[bubble.film]\n{key} = {value}\n")),
+        "light.patch" => with_version(&format!("[[light.patch]]\n{key} = {value}\n")),
         "event" => with_version(&format!("[[event]]\nkind = \"motion\"\nseed = 2\n{key} = {value}\n")),
         _ => with_version(&format!("[{section}]\n{key} = {value}\n")),
     }
@@ -50,7 +51,7 @@ fn setting(section: &str, key: &str, value: &str) -> String {
 fn documented_keys_are_the_coded_keys() {
     let every_key = document::every_key();
     let rows = documented();
-    for path in ["", "bubble", "bubble.film", "camera", "light", "view", "motion", "event"] {
+    for path in ["", "bubble", "bubble.film", "camera", "light", "light.patch", "view", "motion", "event"] {
         let coded = section(&every_key, path).iter();
         let mut coded: Vec<&str> = coded.filter(|(_, value)| !is_section(value)).map(|(key, _)| key.as_str()).collect();
         let mut listed: Vec<&str> = rows.iter().filter(|row| row[0] == path).map(|row| row[1]).collect();
@@ -66,8 +67,11 @@ fn is_section(value: &toml::Value) -> bool {
 
 #[test]
 fn documented_defaults_are_the_coded_defaults() {
-    let scene =
-        Scene { events: vec![Event { tick: 0, change: Change::Motion(MotionChange::default()) }], ..Scene::default() };
+    let scene = Scene {
+        light: Light { patches: vec![LightPatch::default()], ..Light::default() },
+        events: vec![Event { tick: 0, change: Change::Motion(MotionChange::default()) }],
+        ..Scene::default()
+    };
     let coded = toml::Table::try_from(scene).unwrap();
     let rows = documented();
     assert!(rows.len() > 30, "only {} keys found in the page", rows.len());
@@ -84,7 +88,9 @@ fn written(key: &str, default: &str, value: f64) -> String {
     let number = format!("{value:?}").to_lowercase();
     match key {
         "cells" | "remap_ticks" | "version" => format!("{}", value.round()).to_lowercase(),
-        _ if default.starts_with('[') || ["constant", "spin_deg_s", "gravity_m_s2"].contains(&key) => format!("[0, {number}, 0]"),
+        _ if default.starts_with('[') || ["constant", "radiance", "spin_deg_s", "gravity_m_s2"].contains(&key) => {
+            format!("[0, {number}, 0]")
+        }
         _ => number,
     }
 }

@@ -47,13 +47,33 @@ fn radiance() -> impl Strategy<Value = [f64; 3]> {
 fn light() -> impl Strategy<Value = Light> {
     let file = "[a-z \\\\\"'é/]{0,8}\\.(exr|hdr)".prop_map(Environment::File);
     let environment = prop_oneof![Just(Environment::Tent), Just(Environment::Windows), file];
-    (environment, "[A-Z][A-Z0-9\"]{0,4}", prop::option::of(radiance()), -1e9..1e9, 0.0..1e4).prop_map(
-        |(environment, illuminant, constant, rotation_deg, intensity)| Light {
+    let patches = prop::collection::vec(patch(), 0..3);
+    (environment, illuminant(), prop::option::of(radiance()), -1e9..1e9, 0.0..1e4, patches).prop_map(
+        |(environment, illuminant, constant, rotation_deg, intensity, patches)| Light {
             environment,
             illuminant,
             constant,
             rotation_deg,
             intensity,
+            patches,
+        },
+    )
+}
+
+fn illuminant() -> impl Strategy<Value = String> {
+    "[A-Z][A-Z0-9\"]{0,4}"
+}
+
+fn patch() -> impl Strategy<Value = LightPatch> {
+    let place = (-1e9..1e9, -90.0..90.0, 1.0..180.0, 0.0..90.0);
+    (place, illuminant(), prop::option::of(radiance())).prop_map(
+        |((azimuth_deg, elevation_deg, radius_deg, edge_deg), illuminant, radiance)| LightPatch {
+            azimuth_deg,
+            elevation_deg,
+            radius_deg,
+            edge_deg,
+            illuminant,
+            radiance,
         },
     )
 }

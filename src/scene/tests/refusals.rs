@@ -50,7 +50,7 @@ fn unknown_keys_name_the_nearest_known_one() {
         ("[[event]]\nkind = \"motion\"\nspeed = 2", "4: unknown key `speed` in [[event]]; did you mean `seed`?"),
         (
             "[light]\nx.y = 1\n[camera]\nfov = 3",
-            "3: unknown key `x` in [light]; known here: `constant`, `environment`, `illuminant`, `intensity`, `rotation_deg`",
+            "3: unknown key `x` in [light]; known here: `constant`, `environment`, `illuminant`, `intensity`, `patch`, `rotation_deg`",
         ),
         (
             "\"a\\nb\" = 1",
@@ -62,6 +62,13 @@ fn unknown_keys_name_the_nearest_known_one() {
 #[test]
 fn tables_and_lists_are_told_apart() {
     assert_refused(&[
+        ("[light.patch]\nradius_deg = 3", "2: `patch` in [light] has the wrong kind of table; write [[patch]]"),
+        ("[[light.patch]]\nradius_deg = 0", "3: `radius_deg` in [[light.patch]] is 0; it must be within 1 ..= 180"),
+        (
+            "[[light.patch]]\n[[light.patch]]\nilluminant = \"\"",
+            "4: `illuminant` in [[light.patch]] number 2 is empty; name one, as in `illuminant = \"D65\"`",
+        ),
+        ("[[light.patch]]\nradius = 3", "3: unknown key `radius` in [[light.patch]]; did you mean `radius_deg`?"),
         ("[bubble]\nradius_mm = 3", "2: `bubble` has the wrong kind of table; write [[bubble]]"),
         ("[[camera]]", "2: `camera` has the wrong kind of table; write [camera]"),
         ("camera = 3", "2: `camera` is wrong: invalid type: integer `3`, expected the table Camera"),

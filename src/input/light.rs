@@ -1,0 +1,112 @@
+//! Brings the light that a scene names into memory: its environment, its spectrum, and the parts of it that have others.
+
+use std::{path::Path, sync::Arc};
+
+use glam::DVec3;
+
+use super::{LoadError, is_table, read_environment, read_text};
+use crate::{
+    physics::{
+        colour::{Illuminant, bt709_to_bt2020},
+        environment::{CubeMap, Patch, Procedural},
+    },
+    plan::Lamp,
+    scene::{Environment, Light, LightPatch},
+};
+
+/// Texels that a cube map with patches has along an edge at least: their edges are then sharp to a third of a degree.
+const MIN_PATCHED_SIZE: usize = 256;
+
+/// Loads the environment that a light names, and the lamps that its patches take out of it; file paths start from a folder.
+pub fn load_environment(light: &Light, folder: &Path) -> Result<(Arc<CubeMap>, Vec<Lamp>), LoadError> {
+    let map = match &light.environment {
+        _ if light.constant.is_some() => CubeMap::constant(DVec3::ONE),
+        Environment::Tent => CubeMap::from_procedural(Procedural::Tent),
+        Environment::Windows => CubeMap::from_procedural(Procedural::Windows),
+        Environment::File(path) => CubeMap::from_equirect(&read_environment(&folder.join(path))?),
+    };
+    if light.patches.is_empty() {
+        return Ok((Arc::new(map), Vec::new()));
+    }
+    let patches: Vec<Patch> = light.patches.iter().map(patch).collect();
+    let size = map.size().max(MIN_PATCHED_SIZE);
+    let rest = |direction| Patch::shares(&patches, direction)[patches.len()] * map.sample(direction);
+    let rest = CubeMap::from_fn(size, 1, rest);
+    let mut names: Vec<&str> = light.patches.iter().map(|patch| patch.illuminant.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    let lamp = |name: &str| {
+        let environment =
+            Arc::new(CubeMap::from_fn(size, 1, |direction| of_lamp(light, &patches, name, &map, direction)));
+        Ok(Lamp { environment, illuminant: Arc::new(load_illuminant(name, folder)?) })
+    };
+    let lamps = names.into_iter().map(lamp).collect::<Result<_, LoadError>>()?;
+    Ok((Arc::new(rest), lamps))
+}
+
+fn patch(patch: &LightPatch) -> Patch {
+    let (azimuth, elevation) = (patch.azimuth_deg.to_radians(), patch.elevation_deg.to_radians());
+    Patch {
+        towards: DVec3::new(elevation.cos() * azimuth.cos(), elevation.cos() * azimuth.sin(), elevation.sin()),
+        radius_rad: patch.radius_deg.to_radians(),
+        edge_rad: patch.edge_deg.to_radians(),
+    }
+}
+
+/// What comes from a direction of the light of all patches with one illuminant.
+fn of_lamp(light: &Light, patches: &[Patch], illuminant: &str, map: &CubeMap, direction: DVec3) -> DVec3 {
+    let linear = |rgb: [f64; 3]| bt709_to_bt2020() * DVec3::from(rgb);
+    let there = light.constant.map_or(DVec3::ONE, linear) * map.sample(direction);
+    let shares = Patch::shares(patches, direction);
+    let own = light.patches.iter().zip(shares).filter(|(patch, _)| patch.illuminant == illuminant);
+    own.map(|(patch, share)| share * patch.radiance.map_or(there, linear)).sum()
+}
+
+/// A light by its name, or from the `.csv` file of that path.
+pub fn load_illuminant(name: &str, folder: &Path) -> Result<Illuminant, LoadError> {
+    if !is_table(name) {
+        return Ok(name.parse()?);
+    }
+    Ok(Illuminant::from_csv(name, &read_text(&folder.join(name))?)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lit(patches: Vec<LightPatch>) -> (Arc<CubeMap>, Vec<Lamp>) {
+        let light = Light { constant: Some([0.5, 0.4, 0.3]), patches, ..Light::default() };
+        load_environment(&light, Path::new("")).expect("all is built in")
+    }
+
+    #[test]
+    fn patches_take_from_the_environment_what_they_show() {
+        let sodium = LightPatch { illuminant: "sodium".to_owned(), radius_deg: 30.0, ..LightPatch::default() };
+        let (rest, lamps) = lit(vec![sodium]);
+        assert_eq!(lamps.len(), 1);
+        let constant = bt709_to_bt2020() * DVec3::new(0.5, 0.4, 0.3);
+        let mut covered = 0;
+        for angle in (0..36).map(|k| f64::from(k).to_radians() * 5.0) {
+            let direction = DVec3::new(angle.cos(), angle.sin(), 0.1);
+            let sum = constant * rest.sample(direction) + lamps[0].environment.sample(direction);
+            assert!((sum - constant).abs().max_element() < 1e-3, "{angle}: {sum}");
+            covered += u32::from(rest.sample(direction).x < 0.5);
+        }
+        assert!((5..=7).contains(&covered), "{covered} of 36 directions");
+    }
+
+    #[test]
+    fn patches_of_one_illuminant_are_one_lamp_and_may_have_a_radiance() {
+        let patch = |azimuth_deg: f64, illuminant: &str| LightPatch {
+            azimuth_deg,
+            illuminant: illuminant.to_owned(),
+            radiance: Some([2.0; 3]),
+            ..LightPatch::default()
+        };
+        let (_, lamps) = lit(vec![patch(0.0, "A"), patch(90.0, "sodium"), patch(180.0, "A")]);
+        assert_eq!(lamps.len(), 2);
+        let level = |lamp: usize, direction: DVec3| lamps[lamp].environment.sample(direction).y;
+        assert!((level(0, DVec3::X) - 2.0).abs() < 1e-3 && (level(0, DVec3::NEG_X) - 2.0).abs() < 1e-3);
+        assert!((level(1, DVec3::Y) - 2.0).abs() < 1e-3 && level(1, DVec3::X) == 0.0);
+    }
+}

@@ -1,0 +1,65 @@
+//! Light of several illuminants in one picture.
+
+use std::{path::Path, sync::Arc};
+
+use glam::DVec3;
+use soapfilm::{
+    input::load_environment,
+    physics::{colour::Illuminant, environment::CubeMap},
+    plan::Lamp,
+    scene::{Environment, Flow, Quality},
+    verify::reference,
+};
+
+use crate::support::{load, mean_and_max, radiance, renderer, still};
+
+const SIZE: [u32; 2] = [96, 54];
+
+/// Light adds up: a lamp of the scene's own illuminant, taken out of the environment, leaves the picture as it is but for the rounding of
+/// half floats in the two cube maps.
+#[test]
+fn a_lamp_of_the_same_illuminant_changes_nothing() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = load("default");
+    loaded.scene.motion.flow = Flow::Rest;
+    let whole = |direction: DVec3| DVec3::new(0.6, 0.5, 0.4) * (1.0 + 0.9 * direction.normalize().y);
+    let share = |direction: DVec3| 0.5 + 0.5 * direction.normalize().z;
+    loaded.resources.environment = Arc::new(CubeMap::from_fn(64, 1, whole));
+    let alone = radiance(&mut renderer, &still(&loaded, SIZE, 0.0));
+    loaded.resources.environment = Arc::new(CubeMap::from_fn(64, 1, |d| (1.0 - share(d)) * whole(d)));
+    let environment = Arc::new(CubeMap::from_fn(64, 1, |d| share(d) * whole(d)));
+    loaded.resources.lamps = vec![Lamp { environment, illuminant: loaded.resources.illuminant.clone() }];
+    let split = radiance(&mut renderer, &still(&loaded, SIZE, 0.0));
+    let (_, error) = mean_and_max(alone.iter().zip(&split).map(|(a, b)| (*a - *b).abs().max_element()));
+    assert!(error <= 1e-3, "{error}");
+    loaded.resources.lamps[0].illuminant = Arc::new("sodium".parse::<Illuminant>().unwrap());
+    let other = radiance(&mut renderer, &still(&loaded, SIZE, 0.0));
+    let (mean, _) = mean_and_max(alone.iter().zip(&other).map(|(a, b)| (*a - *b).abs().max_element()));
+    assert!(mean > 0.01, "a lamp of another spectrum must look different: {mean}");
+}
+
+/// The preset's lamp in the tent, whose lamps are soft, against the f64 picture: the limits are those of the other presets, for filtered
+/// lookups of the environment against averages over samples.
+#[test]
+fn the_picture_in_two_lights_is_the_f64_one() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = load("two_lights");
+    loaded.scene.bubbles[0].film.cells = 64;
+    loaded.scene.motion.flow = Flow::Rest;
+    loaded.scene.light.environment = Environment::Tent;
+    let (environment, lamps) = load_environment(&loaded.scene.light, Path::new("")).unwrap();
+    (loaded.resources.environment, loaded.resources.lamps) = (environment, lamps);
+    for quality in Quality::ALL {
+        loaded.scene.view.quality = quality;
+        let want = still(&loaded, SIZE, 0.0);
+        assert_eq!(want.picture.draw.lamps.len(), 1);
+        let truth = reference::radiance(&want.picture.draw, &|| ()).unwrap();
+        let seen = radiance(&mut renderer, &want);
+        let mut levels: Vec<f64> = truth.iter().map(|pixel| pixel.max_element()).collect();
+        levels.sort_by(f64::total_cmp);
+        let scale = levels[levels.len() * 9 / 10];
+        let (mean, _) = mean_and_max(seen.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element() / scale));
+        eprintln!("measured: GPU - f64 picture, two lights, {}: mean {mean:.5}", quality.name());
+        assert!(mean <= 0.012, "{}: {mean}", quality.name());
+    }
+}
