@@ -249,7 +249,7 @@ fn a_film_that_hardly_moves_takes_few_steps() {
 
 #[test]
 fn a_long_jump_takes_the_steps_of_the_frames_that_it_skips() {
-    let (mut scene, end) = (default_scene(), 600);
+    let (mut scene, end) = (stirred_scene(), 600);
     scene.events.push(event(100, Flow::Sloshing));
     let in_one_go = steps(&scene, end);
     let mut in_frames: Vec<Range<u64>> = Vec::new();
