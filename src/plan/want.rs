@@ -233,11 +233,11 @@ fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f
     field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
 }
 
-/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Where samples are most, they see
-/// that better than a filter which takes the film to change evenly from pixel to pixel.
+/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples a pixel
+/// see that better than a filter which takes the film to change evenly from pixel to pixel.
 fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
     let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < 1.0);
-    is_finer && samples(radius_pixels) < MOST_SAMPLES
+    is_finer && samples(radius_pixels) == 1
 }
 
 /// How far all films have turned as a whole, and what has evaporated from them, in nm.
@@ -265,13 +265,10 @@ fn scheme(motion: &Motion) -> Scheme {
     }
 }
 
-/// Samples along a pixel's side at most.
-const MOST_SAMPLES: u32 = 8;
-
 /// Samples along a pixel's side: bubbles of few pixels need more, for their film and their reflections are finer than a pixel.
 fn samples(radius_pixels: f64) -> u32 {
     match radius_pixels {
-        r if r < 12.0 => MOST_SAMPLES,
+        r if r < 12.0 => 8,
         r if r < 28.0 => 4,
         r if r < 64.0 => 2,
         _ => 1,
