@@ -10,9 +10,15 @@ use crate::{
     gpu::{GpuError, Renderer},
     input::{LoadedScene, load_scene},
     output::{Metadata, Picture},
-    physics::colour::Gamut,
+    physics::{
+        colour::Gamut,
+        sphere::{HaloTable, PaddedField},
+    },
     plan::{Moment, Pace, Shot, Want, want},
-    verify,
+    verify::{
+        self,
+        reference::{MovedFilms, needs_device},
+    },
 };
 
 /// Draw one picture into a PNG or EXR file.
@@ -32,7 +38,7 @@ pub struct Arguments {
     /// Moment of the film, in seconds from its start
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = parse::time_s)]
     time: f64,
-    /// `fast`, `standard`, `spectral` (wavelengths in the shader) or `reference` (f64 on the CPU, no GPU needed) [default: the scene's]
+    /// `fast`, `standard`, `spectral` (wavelengths in the shader) or `reference` (f64 on the CPU; a GPU is needed for a film that moves by itself) [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = parse::quality)]
     quality: Option<parse::Quality>,
     /// Colours of a PNG: `srgb`, or `p3` for wide displays
@@ -141,12 +147,30 @@ fn compute(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result
         bail!("--explain, --repeat and --stats tell of the GPU; leave them out with --quality reference");
     }
     let progress = Progress::new("reference", arguments.size[1] as usize * want.picture.draw.lights().count());
-    let radiance = verify::reference::radiance(&want.picture.draw, &|| progress.step())?;
+    let films = moved_films(arguments, want)?;
+    let radiance = verify::reference::radiance(&want.picture.draw, &films, &|| progress.step())?;
     drop(progress);
     Ok(match format {
         Format::Png => reference::display(&want.picture, &radiance),
         Format::Exr => reference::linear(arguments.size, &radiance),
     })
+}
+
+/// The films that only the device can move, at their moment.
+fn moved_films(arguments: &Arguments, want: &Want) -> anyhow::Result<MovedFilms> {
+    let bubbles = &want.picture.draw.bubbles;
+    if !bubbles.iter().any(needs_device) {
+        return Ok(MovedFilms::new());
+    }
+    let mut renderer = Renderer::new(arguments.adapter.open()?);
+    fits(&renderer, arguments.size)?;
+    renderer.bring(want)?;
+    let films = bubbles.iter().filter(|bubble| needs_device(bubble)).map(|bubble| {
+        let (grid, cells) = renderer.read_film(bubble.index)?.context("the film was not moved")?;
+        let field = PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| f64::from(cells[cell]));
+        Ok((bubble.index, field))
+    });
+    films.collect()
 }
 
 fn metadata(arguments: &Arguments, loaded: &LoadedScene) -> Metadata {

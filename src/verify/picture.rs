@@ -44,7 +44,7 @@ fn measure(
 ) -> Result<(), GpuError> {
     let mut errors: [Vec<f64>; LIMITS.len()] = Default::default();
     for (mut scene, resources) in scenes {
-        let truth = reference::radiance(&wanted(&scene, &resources)?.picture.draw, &|| ());
+        let truth = reference::radiance(&wanted(&scene, &resources)?.picture.draw, &Default::default(), &|| ());
         let truth = truth.map_err(|error| GpuError::Refused(error.to_string()))?;
         for ((quality, _), errors) in LIMITS.iter().zip(&mut errors) {
             scene.view.quality = *quality;

@@ -1,38 +1,70 @@
 //! The picture in f64 on the CPU, from the same keys that the GPU's passes read.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use crate::{
     physics::{
         picture::{FilmSphere, PictureCamera, PictureScene},
-        sphere::{CubedSphere, GridError},
+        sphere::{CubedSphere, GridError, PaddedField},
         transport::FlowMap,
     },
-    plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey, Lighting},
+    plan::{
+        BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey, Lighting,
+        Moment,
+    },
 };
+
+/// Thickness in nm of films that the device has moved, by the index of the film.
+pub type MovedFilms = BTreeMap<usize, PaddedField<f64>>;
+
+/// No picture in f64.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ReferenceError {
+    /// A film's grid that is too coarse or too fine.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// A film that moves by itself, and that nobody has moved.
+    #[error("film {0} moves by itself: its thickness must come from the device")]
+    NotMoved(usize),
+}
+
+/// Whether a bubble's film must come from the device: the motion of one that moves by itself is not repeated in f64, for small differences
+/// grow until nothing could be compared.
+#[must_use]
+pub fn needs_device(bubble: &BubbleKey) -> bool {
+    let FilmKey::Field(field) = &bubble.film else { return false };
+    field.moment != Moment::default() && field.flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_)))
+}
 
 /// Radiance of each pixel, linear BT.2020. `progress` hears of each finished row, once for each light.
 ///
 /// # Errors
-/// A film's grid that is too coarse or too fine.
-pub fn radiance(key: &DrawKey, progress: &(dyn Fn() + Sync)) -> Result<Vec<DVec3>, GridError> {
-    let mut sum = radiance_in(key, &key.lighting, progress)?;
+/// A film's grid that is too coarse or too fine, or one that [`needs_device`] and is not there.
+pub fn radiance(key: &DrawKey, films: &MovedFilms, progress: &(dyn Fn() + Sync)) -> Result<Vec<DVec3>, ReferenceError> {
+    let mut sum = radiance_in(key, &key.lighting, films, progress)?;
     for lamp in &key.lamps {
-        let lamp = radiance_in(key, lamp, progress)?;
+        let lamp = radiance_in(key, lamp, films, progress)?;
         sum.iter_mut().zip(lamp).for_each(|(sum, lamp)| *sum += lamp);
     }
     Ok(sum)
 }
 
 /// Radiance in one light alone.
-fn radiance_in(key: &DrawKey, lighting: &Lighting, progress: &(dyn Fn() + Sync)) -> Result<Vec<DVec3>, GridError> {
+fn radiance_in(
+    key: &DrawKey,
+    lighting: &Lighting,
+    films: &MovedFilms,
+    progress: &(dyn Fn() + Sync),
+) -> Result<Vec<DVec3>, ReferenceError> {
     let (optics, light) = (lighting.bands.optics.spectra(), &lighting.light);
     let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
     let scene = PictureScene {
         size: key.size,
         camera: camera(&key.camera),
         optics: &optics,
-        spheres: key.bubbles.iter().map(sphere).collect::<Result<_, _>>()?,
+        spheres: key.bubbles.iter().map(|bubble| sphere(bubble, films)).collect::<Result<_, _>>()?,
         surroundings: &surroundings,
         backdrop: match light.backdrop {
             BackdropKey::Environment => None,
@@ -65,8 +97,13 @@ fn turned(light: &LightKey, direction: DVec3) -> DVec3 {
     DVec3::new(cos * direction.x + sin * direction.y, cos * direction.y - sin * direction.x, direction.z)
 }
 
-fn sphere(key: &BubbleKey) -> Result<FilmSphere<'static>, GridError> {
-    let field: Box<dyn Fn(DVec3) -> f64 + Send + Sync> = match &key.film {
+fn sphere<'a>(key: &BubbleKey, films: &'a MovedFilms) -> Result<FilmSphere<'a>, ReferenceError> {
+    let field: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match &key.film {
+        FilmKey::Field(_) if needs_device(key) => {
+            let film = films.get(&key.index).ok_or(ReferenceError::NotMoved(key.index))?;
+            // As pictures of the device interpolate what it shows.
+            Box::new(|direction| film.bilinear(direction))
+        }
         FilmKey::Uniform(thickness_nm) => {
             let thickness_nm = *thickness_nm;
             Box::new(move |_| thickness_nm)

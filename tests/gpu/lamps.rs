@@ -53,7 +53,7 @@ fn the_picture_in_two_lights_is_the_f64_one() {
         loaded.scene.view.quality = quality;
         let want = still(&loaded, SIZE, 0.0);
         assert_eq!(want.picture.draw.lamps.len(), 1);
-        let truth = reference::radiance(&want.picture.draw, &|| ()).unwrap();
+        let truth = reference::radiance(&want.picture.draw, &Default::default(), &|| ()).unwrap();
         let seen = radiance(&mut renderer, &want);
         let mut levels: Vec<f64> = truth.iter().map(|pixel| pixel.max_element()).collect();
         levels.sort_by(f64::total_cmp);

@@ -273,7 +273,7 @@ fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedS
     let size = [160, 90];
     let want = still(loaded, size, time_s);
     let seen = radiance(renderer, &want);
-    let truth = reference::radiance(&want.picture.draw, &|| ()).unwrap();
+    let truth = reference::radiance(&want.picture.draw, &Default::default(), &|| ()).unwrap();
     let mut levels: Vec<f64> = truth.iter().map(|pixel| pixel.max_element()).collect();
     levels.sort_by(f64::total_cmp);
     let scale = levels[levels.len() * 9 / 10];
