@@ -64,6 +64,17 @@ const RADIUS_M: f64 = 0.05;
 const STEPS_A_SUBMISSION: u32 = 4;
 
 impl Sorting {
+    /// A viscous film as laboratories have them, drawn with the cells of scenes.
+    pub const LABORATORY: Self = Self {
+        cells: 256,
+        map_coarsening: 2,
+        seed: 1,
+        viscosity_m2_s: 3e-4,
+        diffusion_m2_s: 1e-6,
+        drag: 2.0,
+        dt_s: 1.0 / 60.0,
+    };
+
     /// Lets it sort itself, and looks at it at these times in seconds.
     pub fn measure(&self, gpu: &Gpu, times_s: &[f64]) -> Result<Vec<Sorted>, GpuError> {
         let sphere = CubedSphere::new(self.cells).map_err(|error| GpuError::Refused(error.to_string()))?;
@@ -174,18 +185,9 @@ fn sand(sphere: CubedSphere, values: &[f64]) -> f64 {
 
 /// With the parameters of laboratory films.
 pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
-    let film = Sorting {
-        cells: 256,
-        map_coarsening: 2,
-        seed: 1,
-        viscosity_m2_s: 3e-4,
-        diffusion_m2_s: 1e-6,
-        drag: 2.0,
-        dt_s: 1.0 / 60.0,
-    };
     for (name, viscosity_m2_s) in [("5e-5", 5e-5), ("3e-4", 3e-4)] {
         let name = format!("a blown film of viscosity {name} m²/s after 2 s");
-        let found = Sorting { viscosity_m2_s, ..film }.measure(run.gpu, &[2.0])?[0];
+        let found = Sorting { viscosity_m2_s, ..Sorting::LABORATORY }.measure(run.gpu, &[2.0])?[0];
         run.at_most(format!("{name}: variance that height does not explain"), 1.0 - found.explained, 0.1);
         run.at_most(format!("{name}: 2.5 fringes over those between top and bottom"), 2.5 / found.fringes, 1.0);
         run.at_most(format!("{name}: standard deviation that is lost"), 1.0 - found.kept, 0.4);

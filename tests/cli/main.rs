@@ -228,7 +228,7 @@ fn the_reference_works_without_any_adapter() {
 fn pictures_have_their_size_and_equal_runs_equal_bytes() {
     let desk = Desk::new();
     for name in ["a.png", "b.png", "a.exr", "b.exr"] {
-        if desk.done(&format!("render default -o {name} --size 64x36 --time 0.3")).is_none() {
+        if desk.done(&format!("render default -o {name} --size 64x36 --time 0.1")).is_none() {
             return;
         }
     }
@@ -246,7 +246,7 @@ fn pictures_have_their_size_and_equal_runs_equal_bytes() {
 #[test]
 fn a_plan_and_its_cost_are_told() {
     let desk = Desk::new();
-    let Some(run) = desk.done("render default -o a.png --size 64x36 --time 0.5 --explain --repeat 2 --stats s.json")
+    let Some(run) = desk.done("render default -o a.png --size 64x36 --time 0.1 --explain --repeat 2 --stats s.json")
     else {
         return;
     };
@@ -270,7 +270,7 @@ fn a_plan_and_its_cost_are_told() {
             "wall_ms_per_frame",
         ],
     );
-    assert!(stats["cells_stepped"].as_u64().unwrap() >= 2 * 6 * 256 * 256);
+    assert!(stats["cells_stepped"].as_u64().unwrap() >= 6 * 6 * 256 * 256);
     assert!(stats["cpu_ms_per_frame"].as_f64().unwrap() > 0.0);
 }
 

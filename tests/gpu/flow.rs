@@ -14,6 +14,7 @@ use soapfilm::{
         flow::{self, FlowCase, FlowCaseKind, FlowForces, Mode, relative_l2},
         sphere::PaddedField,
     },
+    verify::sorting::Sorting,
 };
 
 use crate::support::{gpu, mean_and_max};
@@ -152,6 +153,16 @@ fn nonsense_is_contained() {
         let (_, max) = mean_and_max(read(&gpu, &solver, buffer).into_iter().map(f64::abs));
         assert!(max < 50.0, "{max}");
     }
+}
+
+/// Gravity sorts a blown film into bands within two seconds, and leaves it its contrast.
+#[test]
+fn a_blown_film_sorts_itself() {
+    let Some(gpu) = gpu() else { return };
+    let film = Sorting { cells: 64, map_coarsening: 1, ..Sorting::LABORATORY };
+    let found = film.measure(&gpu, &[2.0]).unwrap()[0];
+    eprintln!("measured: a blown film after 2 s: {found:?}");
+    assert!(found.explained >= 0.9 && found.fringes >= 2.5 && found.kept >= 0.6 && found.drift <= 1e-7, "{found:?}");
 }
 
 /// Steps that last no time, or nonsense, change nothing.

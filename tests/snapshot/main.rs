@@ -23,7 +23,7 @@ use compare::Comparison;
 
 /// Presets, and moments in seconds at which each shows what it is for.
 const GOLDENS: [(&str, f64); 6] =
-    [("default", 1.0), ("windows", 0.0), ("fresh", 1.0), ("black", 0.5), ("trio", 0.25), ("inside", 0.0)];
+    [("default", 0.4), ("windows", 0.0), ("fresh", 0.9), ("black", 0.0), ("trio", 0.0), ("inside", 0.0)];
 const SIZE: [u32; 2] = [320, 180];
 /// Limits where another adapter or driver draws.
 const MAX_STEPS: u8 = 1;
