@@ -166,7 +166,8 @@ fn moved_films(arguments: &Arguments, want: &Want) -> anyhow::Result<MovedFilms>
     fits(&renderer, arguments.size)?;
     renderer.bring(want)?;
     let films = bubbles.iter().filter(|bubble| needs_device(bubble)).map(|bubble| {
-        let (grid, cells) = renderer.read_film(bubble.index)?.context("the film was not moved")?;
+        let (grid, thickness_nm) = renderer.read_film(bubble.index)?.context("the film was not moved")?;
+        let cells: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.wait(&renderer.gpu)?);
         let field = PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| f64::from(cells[cell]));
         Ok((bubble.index, field))
     });

@@ -167,15 +167,14 @@ impl Renderer {
         self.products.radiance.as_ref().map(|target| Readback::of_texture(&self.gpu, &target.texture))
     }
 
-    /// Brings back the thickness in nm that a film shows, in the grid's order of cells; nothing for a film without a field. What has
-    /// evaporated is not taken away.
-    pub fn read_film(&self, film: usize) -> Result<Option<(CubedSphere, Vec<f32>)>, GpuError> {
+    /// Starts to bring back the thickness that a film shows: f32 in nm, in the order of its grid's cells. Nothing for a film without a
+    /// field. What has evaporated is not taken away.
+    pub fn read_film(&self, film: usize) -> Result<Option<(CubedSphere, Readback)>, GpuError> {
         let Some(Some(film)) = self.products.films.get(film) else { return Ok(None) };
         let mut recorder = Recorder::new(&self.gpu);
         let values = film.field.read(&mut recorder)?;
         recorder.submit(&self.times);
-        let bytes = Readback::of_buffer(&self.gpu, &values, values.size()).wait(&self.gpu)?;
-        Ok(Some((film.field.sphere(), bytemuck::pod_collect_to_vec(&bytes))))
+        Ok(Some((film.field.sphere(), Readback::of_buffer(&self.gpu, &values, values.size()))))
     }
 
     fn run(&mut self, pass: &Pass) -> Result<(), GpuError> {
