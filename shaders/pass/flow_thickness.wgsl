@@ -13,7 +13,7 @@ struct Thickness {
     cells: u32,
     map_cells: u32,
     tracer_cells: u32,
-    // What has evaporated from the tracer's thickness, and the black film that is left at least, nm.
+    // What has evaporated from the tracer's thickness, and the thickness at which evaporation ends, nm.
     thinned_nm: f32,
     black_nm: f32,
 }
@@ -44,10 +44,11 @@ fn flow_thickness(@builtin(global_invocation_id) id: vec3u) {
     if (HAS_MAP == 1u) {
         origin = map_at(0u, origin, thickness.map_cells).xyz;
     }
-    let value = tracer_at(origin, thickness.tracer_cells) - thickness.thinned_nm;
+    let nm = tracer_at(origin, thickness.tracer_cells);
     if (healed > 0u) {
         atomicAdd(&control.healed, healed);
     }
     let place = padded_index(id.z, i32(id.x), i32(id.y), thickness.cells);
-    log_thickness[place] = log(max(value, thickness.black_nm));
+    // As pictures have it: evaporation ends at black film.
+    log_thickness[place] = log(max(nm - thickness.thinned_nm, min(nm, thickness.black_nm)));
 }

@@ -9,31 +9,26 @@ use super::{
     add_light::add_light,
     bake_table::Table,
     bands::Bands,
-    decide_remap::RemapRule,
     draw::{DrawInputs, DrawPass, pixels_shaded, radiance_format, strips},
     environment::Environment,
-    film::{Field, FreeMotion, Rules, Surroundings},
+    film::{Field, LawInForce, MovingFilm, rules},
     readback::Readback,
-    sample_tracer::Gathered,
     timing::{Counts, Recorder, TimeLog},
     tonemap::{PICTURE_FORMAT, tonemap},
-    trace_step::Step,
 };
 use crate::{
-    physics::{environment::CubeMap, film::PrescribedFlow, sphere::CubedSphere},
-    plan::{BLACK_FILM_NM, DrawKey, FieldKey, FlowLaw, FreeFlow, Have, Pass, Plan, TableKey, TonemapKey, Want, plan},
+    physics::{environment::CubeMap, sphere::CubedSphere},
+    plan::{DrawKey, FieldKey, FlowLaw, Have, Pass, Plan, TableKey, TonemapKey, Want, plan},
 };
 
 /// Cells stepped in one submission, so that none runs long: about 50 ms on a software rasteriser.
 const CELLS_A_SUBMISSION: u64 = 1_600_000;
-/// Steps of a flow in one step of its film at most: enough for 250 times the gravity of the Earth on a bubble of 5 cm.
-const MOST_PARTS_A_STEP: f64 = 16.0;
 
 /// Everything that is on the device.
 #[derive(Default)]
 struct Products {
     lights: Vec<LightProducts>,
-    films: Vec<Option<Film>>,
+    films: Vec<Option<MovingFilm>>,
     radiance: Option<Target>,
     /// The picture in the light of one lamp, and its sum with those before.
     lamp: Option<Target>,
@@ -48,13 +43,6 @@ struct LightProducts {
     baking: Option<Table>,
     bands: Option<Bands>,
     environment: Option<Environment>,
-}
-
-/// A film on the device.
-struct Film {
-    field: Field,
-    /// What moves it, once it has moved by itself.
-    motion: Option<FreeMotion>,
 }
 
 /// A picture on the device.
@@ -235,12 +223,12 @@ impl Renderer {
         let sphere = CubedSphere::new(key.cells as usize).map_err(|error| GpuError::Refused(error.to_string()))?;
         let slot = &mut self.products.films[film];
         let mut field = match slot.take() {
-            Some(Film { field, .. }) if (field.sphere(), field.rules()) == (sphere, rules(key)) => field,
+            Some(MovingFilm { field, .. }) if (field.sphere(), field.rules()) == (sphere, rules(key)) => field,
             _ => Field::new(&self.gpu, sphere, rules(key))?,
         };
         let mut recorder = Recorder::new(&self.gpu);
         field.seed(&mut recorder, key.initial.profile())?;
-        *slot = Some(Film { field, motion: None });
+        *slot = Some(MovingFilm::new(field));
         Self::submit(&self.times, &mut self.counts, recorder);
         Ok(())
     }
@@ -319,104 +307,5 @@ impl Renderer {
         Self::submit(&self.times, &mut self.counts, recorder);
         self.products.picture = Some(picture);
         Ok(())
-    }
-}
-
-impl Film {
-    /// Moves the film by one of the history's steps.
-    fn advance(
-        &mut self,
-        recorder: &mut Recorder<'_>,
-        key: &FieldKey,
-        law: &mut LawInForce,
-        ticks: Range<u64>,
-    ) -> Result<(), GpuError> {
-        let length = u32::try_from(ticks.end - ticks.start).unwrap_or(u32::MAX);
-        match key.law(ticks.start) {
-            FlowLaw::Free(free) => self.advance_freely(recorder, key, &free, law, (ticks.start, length)),
-            _ => self.field.advance(recorder, &law.step(key, ticks.start, length.into()), length),
-        }
-    }
-
-    fn advance_freely(
-        &mut self,
-        recorder: &mut Recorder<'_>,
-        key: &FieldKey,
-        free: &FreeFlow,
-        law: &mut LawInForce,
-        (tick, ticks): (u64, u32),
-    ) -> Result<(), GpuError> {
-        let Self { field, motion } = self;
-        field.diffuse(recorder.gpu, free.diffusion, key.tick_s);
-        let motion = match motion {
-            Some(motion) => motion,
-            None => motion.insert(FreeMotion::new(recorder, field)?),
-        };
-        // Where even a tick is longer than the flow's steps may be, it is several; the film counts its ticks once.
-        let parts = (f64::from(ticks) * key.tick_s / free.longest_step_s()).ceil().clamp(1.0, MOST_PARTS_A_STEP);
-        let dt_ticks = f64::from(ticks) / parts;
-        for part in 0..parts as u32 {
-            let now = tick as f64 + f64::from(part) * dt_ticks;
-            let around = Surroundings {
-                forces: free.forces,
-                air: law.flow(key, tick),
-                mean_nm: field.mean(),
-                thinned_nm: key.thinned_nm(now + 0.5 * dt_ticks),
-                black_nm: BLACK_FILM_NM,
-            };
-            let counted = if part == 0 { ticks } else { 0 };
-            motion.advance(recorder, field, &around, (now * key.tick_s, dt_ticks * key.tick_s), counted)?;
-        }
-        Ok(())
-    }
-
-    /// What is left to do from the film's state to the moment of a key, if anything moves.
-    fn ahead(&self, key: &FieldKey) -> Option<Step> {
-        let (state, moment) = (key.state_tick(), key.moment);
-        let ticks = (moment.tick - state) as f64 + moment.fraction;
-        match key.law(state) {
-            _ if ticks <= 0.0 => None,
-            FlowLaw::Rest => None,
-            FlowLaw::Free(_) => self.motion.as_ref().map(|motion| motion.ahead(ticks * key.tick_s)),
-            _ => Some(LawInForce::default().step(key, state, ticks)),
-        }
-    }
-}
-
-/// Cells along a panel's edge from which on a film has a map half as fine: flows are smooth, remaps come before it errs by more than a map
-/// as fine as the film may, and composing it is most of what a step of the film costs.
-const FINE_CELLS: u32 = 128;
-
-/// How a scene's film is moved: always limited and conserved, for a film has a thickness and an amount of liquid.
-fn rules(key: &FieldKey) -> Rules {
-    Rules {
-        scheme: key.scheme,
-        limiter: true,
-        gathered: Gathered::Nothing,
-        conserved: true,
-        remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: key.remap_ticks },
-        map_coarsening: if key.cells < FINE_CELLS { 1 } else { 2 },
-        coarse_flow: true,
-    }
-}
-
-/// The law that drives a film, made into a flow once for as long as it holds.
-#[derive(Default)]
-struct LawInForce(Option<(FlowLaw, PrescribedFlow)>);
-
-impl LawInForce {
-    /// A step of so many ticks.
-    fn step(&mut self, key: &FieldKey, tick: u64, ticks: f64) -> Step {
-        let [from_s, to_s] = [tick as f64, tick as f64 + ticks].map(|tick| key.tick_s * tick);
-        Step::prescribed(self.flow(key, tick), from_s, to_s)
-    }
-
-    /// The flow at a tick.
-    fn flow(&mut self, key: &FieldKey, tick: u64) -> &PrescribedFlow {
-        let law = key.law(tick);
-        if self.0.as_ref().is_some_and(|(known, _)| *known != law) {
-            self.0 = None;
-        }
-        &self.0.get_or_insert_with(|| (law, law.prescribed())).1
     }
 }

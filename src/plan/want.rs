@@ -6,7 +6,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{
     BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment,
-    FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want, range_nm,
+    FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want, keys::evaporated_nm, range_nm,
 };
 use crate::{
     physics::{
@@ -206,15 +206,18 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         FilmKey::Field(_) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(bubble.film.thickness_nm),
         film => film,
     };
-    let (turn, thinned_nm) = turned_and_thinned(scene, shot.moment);
+    let ticks = shot.moment.tick as f64 + shot.moment.fraction;
     Some(BubbleKey {
         index,
         centre_m,
         radius_m,
         bounds,
         // A film of one thickness looks the same however it is turned.
-        to_film: if matches!(film, FilmKey::Uniform(_)) { DMat3::IDENTITY } else { DMat3::from_quat(turn.inverse()) },
-        thinned_nm,
+        to_film: match film {
+            FilmKey::Uniform(_) => DMat3::IDENTITY,
+            FilmKey::Field(_) => DMat3::from_quat(turned(scene, ticks).inverse()),
+        },
+        thinned_nm: evaporated_nm(&evaporation(scene), scene.motion.tick_s, ticks),
         samples: samples(radius_pixels),
         filtered: is_filtered(&film, radius_pixels),
         magnified: is_magnified(&film, radius_m, radius_pixels, centre_m.distance(camera.eye_m)),
@@ -240,18 +243,14 @@ fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
     is_finer && samples(radius_pixels) == 1
 }
 
-/// How far all films have turned as a whole, and what has evaporated from them, in nm.
-fn turned_and_thinned(scene: &Scene, moment: Moment) -> (DQuat, f64) {
-    let end = moment.tick as f64 + moment.fraction;
-    let ticks =
-        std::iter::once(0).chain(scene.events.iter().map(|event| event.tick)).filter(|tick| *tick as f64 <= end);
-    let starts: Vec<u64> = ticks.collect();
-    let ends = starts.iter().skip(1).map(|tick| *tick as f64).chain(std::iter::once(end));
-    starts.iter().zip(ends).fold((DQuat::IDENTITY, 0.0), |(turn, thinned_nm), (start, end)| {
+/// How far all films have turned as a whole at a time in ticks.
+fn turned(scene: &Scene, ticks: f64) -> DQuat {
+    let starts: Vec<u64> = changes(scene).collect();
+    let ends = starts.iter().skip(1).map(|tick| *tick as f64).chain(std::iter::once(f64::INFINITY));
+    starts.iter().zip(ends).fold(DQuat::IDENTITY, |turn, (start, end)| {
         let motion: Motion = scene.motion_at(*start);
-        let seconds = (end - *start as f64).max(0.0) * motion.tick_s;
-        let spin = DVec3::from(motion.spin_deg_s) * (std::f64::consts::PI / 180.0);
-        (DQuat::from_scaled_axis(spin * seconds) * turn, thinned_nm + motion.evaporation_nm_s * seconds)
+        let seconds = (ticks.min(end) - *start as f64).max(0.0) * motion.tick_s;
+        DQuat::from_scaled_axis(DVec3::from(motion.spin_deg_s) * (std::f64::consts::PI / 180.0) * seconds) * turn
     })
 }
 

@@ -23,7 +23,7 @@ pub struct ThicknessUniform {
     pub tracer_cells: u32,
     /// What has evaporated, nm.
     pub thinned_nm: f32,
-    /// What is left at least, nm.
+    /// Thickness at which evaporation ends, nm.
     pub black_nm: f32,
     pad: [u32; 3],
 }
@@ -56,7 +56,7 @@ pub struct Surroundings<'a> {
     pub mean_nm: f64,
     /// What has evaporated from the film, nm.
     pub thinned_nm: f64,
-    /// What is left of it at least, nm.
+    /// Thickness at which evaporation ends, nm.
     pub black_nm: f64,
 }
 

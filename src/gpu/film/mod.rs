@@ -12,10 +12,12 @@
 mod control;
 mod free;
 mod grid;
+mod moving;
 
 pub use control::{BalanceBlock, Control, ControlBlock, RemapArguments};
 pub use free::{FreeMotion, GustsUniform, Surroundings, ThicknessUniform};
 pub use grid::{FilmTexture, Grid};
+pub use moving::{LawInForce, MovingFilm, rules};
 
 use rayon::prelude::*;
 

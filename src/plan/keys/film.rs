@@ -119,6 +119,12 @@ impl FlowLaw {
         }
     }
 
+    /// How fast thickness spreads, rad²/s.
+    #[must_use]
+    pub fn diffusion(self) -> f64 {
+        if let Self::Free(free) = self { free.diffusion } else { 0.0 }
+    }
+
     /// Ticks in a step of the film, for a tick's length and the angle between cells: as many as keep the step accurate, and more where
     /// even those would move nothing by a thousandth of a cell.
     #[must_use]
@@ -190,10 +196,7 @@ impl FieldKey {
     /// What has evaporated since the beginning, in nm, at a time in ticks.
     #[must_use]
     pub fn thinned_nm(&self, ticks: f64) -> f64 {
-        let ends = self.evaporation.iter().skip(1).map(|(tick, _)| *tick as f64).chain(std::iter::once(f64::INFINITY));
-        let lost =
-            |((from, rate), end): (&(u64, f64), f64)| rate * self.tick_s * (ticks.min(end) - *from as f64).max(0.0);
-        self.evaporation.iter().zip(ends).map(lost).sum()
+        evaporated_nm(&self.evaporation, self.tick_s, ticks)
     }
 
     /// The last tick until the moment at which a step ends: where the film's state stands. What the moment is beyond it, the shown
@@ -251,6 +254,15 @@ impl FieldKey {
             || past(self) != past(other)
             || thinning(self) != thinning(other)
     }
+}
+
+/// What has evaporated since the beginning, in nm, at a time in ticks of a length in seconds, at rates in nm a second that hold from
+/// ticks on, in order.
+#[must_use]
+pub fn evaporated_nm(rates: &[(u64, f64)], tick_s: f64, ticks: f64) -> f64 {
+    let ends = rates.iter().skip(1).map(|(tick, _)| *tick as f64).chain(std::iter::once(f64::INFINITY));
+    let lost = |((from, rate), end): (&(u64, f64), f64)| rate * tick_s * (ticks.min(end) - *from as f64).max(0.0);
+    rates.iter().zip(ends).map(lost).sum()
 }
 
 /// Thickness of black film, in nm, at which evaporation ends: common black films are 10 to 30 nm thick.
