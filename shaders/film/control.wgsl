@@ -8,6 +8,8 @@ struct Control {
     healed: atomic<u32>,
     // Ticks that the last remap came after the one before it.
     ticks_remapped: u32,
+    // What evaporation has left in black film, at which it ends, as a mean over the sphere in nm.
+    spared_nm: f32,
 }
 
 // A correction of a film's values, h + offset + slope h, that restores its amount of liquid. Mirrors `BalanceBlock`.

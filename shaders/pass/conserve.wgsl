@@ -1,7 +1,7 @@
 // How far a film's amount of liquid is from what it must be, and the smallest correction that restores it. What is summed is the
 // area-weighted difference from the mean, pairwise: the parts cancel on the way up, so that nothing large is rounded.
 
-import package::film::control::{Balance, is_finite};
+import package::film::control::{Balance, Control, is_finite};
 import package::sphere::cubed::padded_index;
 
 const SPHERE: f32 = 12.566370614;
@@ -26,6 +26,7 @@ struct Conserve {
 @group(0) @binding(2) var<storage, read> field: array<f32>;
 @group(0) @binding(3) var<storage, read_write> partial_sums: array<f32, 256>;
 @group(0) @binding(4) var<storage, read_write> balance: Balance;
+@group(0) @binding(5) var<storage, read_write> control: Control;
 
 var<workgroup> sums: array<f32, 256>;
 
@@ -61,13 +62,27 @@ fn sum_parts(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
     }
 }
 
-@compute @workgroup_size(256)
-fn balance_sum(@builtin(local_invocation_index) local: u32) {
+// The sum of the parts; all invocations must call it.
+fn sum_of_parts(local: u32) -> f32 {
     var sum = 0.0;
     if (local < conserve.parts) {
         sum = partial_sums[local];
     }
-    let excess = workgroup_sum(sum, local);
+    return workgroup_sum(sum, local);
+}
+
+// Takes the field as it is for what must be conserved from now on.
+@compute @workgroup_size(256)
+fn count_spared(@builtin(local_invocation_index) local: u32) {
+    let excess = sum_of_parts(local);
+    if (local == 0u) {
+        control.spared_nm = excess / SPHERE;
+    }
+}
+
+@compute @workgroup_size(256)
+fn balance_sum(@builtin(local_invocation_index) local: u32) {
+    let excess = sum_of_parts(local) - control.spared_nm * SPHERE;
     if (local != 0u) {
         return;
     }

@@ -55,15 +55,40 @@ pub struct Sum<'a> {
     pub partial_sums: &'a wgpu::Buffer,
     /// The correction.
     pub balance: &'a wgpu::Buffer,
+    /// The film's control block.
+    pub control: &'a wgpu::Buffer,
 }
 
-/// Records the two passes, whose workgroups are given in turn.
+/// Records the two passes that find the correction; their workgroups are given in turn.
 pub fn conserve(
     recorder: &mut Recorder<'_>,
     name: &'static str,
     target: Target,
     sum: &Sum<'_>,
+    groups: [Groups<'_>; 2],
+) -> Result<(), GpuError> {
+    summed(recorder, name, target, sum, groups, ("balance_sum", &[(4, sum.balance)]))
+}
+
+/// Records the two passes that take a field as it is for what is conserved from now on: see [`conserve`].
+pub fn count_spared(
+    recorder: &mut Recorder<'_>,
+    name: &'static str,
+    target: Target,
+    sum: &Sum<'_>,
+    groups: [Groups<'_>; 2],
+) -> Result<(), GpuError> {
+    summed(recorder, name, target, sum, groups, ("count_spared", &[]))
+}
+
+/// Sums a field's departure from its target, and gives the sum to an entry point with buffers of its own besides.
+fn summed(
+    recorder: &mut Recorder<'_>,
+    name: &'static str,
+    target: Target,
+    sum: &Sum<'_>,
     [sum_groups, one_group]: [Groups<'_>; 2],
+    (entry, result): (&'static str, &[(u32, &wgpu::Buffer)]),
 ) -> Result<(), GpuError> {
     let mean = target.mean as f32;
     let [low, high] = target.bounds.unwrap_or_default();
@@ -81,14 +106,13 @@ pub fn conserve(
         },
     );
     let key = |entry| ComputeKey { pass: "conserve", entry, constants: vec![] };
-    let shared = [uniform.as_entire_binding(), sum.grid.areas.as_entire_binding()];
-    let [field, sums, balance] = [sum.field, sum.partial_sums, sum.balance].map(wgpu::Buffer::as_entire_binding);
-    let [uniform, areas] = shared;
-    recorder.compute_at(
-        name,
-        &key("sum_parts"),
-        &[(0, uniform.clone()), (1, areas), (2, field), (3, sums.clone())],
-        sum_groups,
-    )?;
-    recorder.compute_at(name, &key("balance_sum"), &[(0, uniform), (3, sums), (4, balance)], one_group)
+    let [field, sums, areas] = [(2, sum.field), (3, sum.partial_sums), (1, &sum.grid.areas)];
+    let parts = bound_all(&[(0, &uniform), areas, field, sums]);
+    recorder.compute_at(name, &key("sum_parts"), &parts, sum_groups)?;
+    let last = [&[(0, &uniform), sums, (5, sum.control)], result].concat();
+    recorder.compute_at(name, &key(entry), &bound_all(&last), one_group)
+}
+
+fn bound_all<'a>(buffers: &[(u32, &'a wgpu::Buffer)]) -> Vec<(u32, wgpu::BindingResource<'a>)> {
+    buffers.iter().map(|(place, buffer)| (*place, buffer.as_entire_binding())).collect()
 }

@@ -5,6 +5,7 @@
 pub mod add_light;
 pub mod bake_table;
 pub mod bands;
+pub mod blacken;
 pub mod compose_map;
 pub mod conserve;
 pub mod correct_error;

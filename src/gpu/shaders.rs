@@ -34,6 +34,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "pass/add_light",
     "pass/backdrop",
     "pass/bake_table",
+    "pass/blacken",
     "pass/bubble",
     "pass/compose_map",
     "pass/conserve",

@@ -7,6 +7,7 @@ use soapfilm::{
     gpu::{
         bake_table::{BakeUniform, TableAxes},
         bands::BandSample,
+        blacken::BlackenUniform,
         compose_map::ComposeUniform,
         conserve::ConserveUniform,
         decide_remap::DecideUniform,
@@ -120,6 +121,15 @@ fn mirrors() -> Vec<Mirror> {
         mirror!("Compose", ComposeUniform, cells = cells, step_cells = step_cells),
         mirror!("Sample", SampleUniform, cells = cells, map_cells = map_cells, tracer_cells = tracer_cells),
         mirror!(
+            "Blacken",
+            BlackenUniform,
+            cells = cells,
+            thinned_nm = thinned_nm,
+            black_nm = black_nm,
+            onset_nm = onset_nm,
+            rate = rate
+        ),
+        mirror!(
             "Conserve",
             ConserveUniform,
             cells = cells,
@@ -157,7 +167,8 @@ fn mirrors() -> Vec<Mirror> {
             remaps = remaps,
             distortion = distortion,
             healed = healed,
-            ticks_remapped = ticks_remapped
+            ticks_remapped = ticks_remapped,
+            spared_nm = spared_nm
         ),
         mirror!("Balance", BalanceBlock, offset = offset, slope = slope),
         mirror!(

@@ -8,7 +8,7 @@ use super::super::{Gpu, timing::Groups};
 
 /// See `shaders/film/control.wgsl`.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct ControlBlock {
     /// Ticks since the last remap.
     pub ticks_since_remap: u32,
@@ -20,6 +20,8 @@ pub struct ControlBlock {
     pub healed: u32,
     /// Ticks that the last remap came after the one before it.
     pub ticks_remapped: u32,
+    /// What evaporation has left in black film, at which it ends, as a mean over the sphere in nm.
+    pub spared_nm: f32,
 }
 
 /// See `shaders/film/control.wgsl`.
@@ -88,7 +90,7 @@ impl Control {
     }
 
     /// The sum over the tracer's cells, if a remap is due.
-    pub(super) fn sum_groups(&self) -> Groups<'_> {
+    pub(in crate::gpu) fn sum_groups(&self) -> Groups<'_> {
         Groups::From(&self.arguments, offset_of!(RemapArguments, sum_groups) as u64)
     }
 

@@ -23,8 +23,9 @@ use rayon::prelude::*;
 
 use super::{
     Gpu, GpuError,
+    blacken::{BlackFilm, BlackeningLaw},
     compose_map::{Composition, compose_map},
-    conserve::{Sum, Target, conserve, parts},
+    conserve::{Sum, Target, conserve, count_spared, parts},
     correct_error::correct_error,
     decide_remap::{RemapRule, decide_remap},
     diffuse::Diffusion,
@@ -102,6 +103,8 @@ pub struct Field {
     targets: [Target; 2],
     /// What spreads the thickness at remaps, if anything does.
     diffusion: Option<Diffusion>,
+    /// What makes thin film black at remaps, if any is thin enough.
+    black: Option<BlackFilm>,
 }
 
 /// What [`Field::plant`] spoils.
@@ -192,6 +195,7 @@ impl Field {
             control: Control::new(gpu),
             targets: [Target::default(); 2],
             diffusion: None,
+            black: None,
             rules,
             film,
             fine,
@@ -230,6 +234,15 @@ impl Field {
         }
     }
 
+    /// From now on the film collapses to black film by a law, or not at all. Schemes without a map do not.
+    pub fn collapse(&mut self, gpu: &Gpu, law: Option<BlackeningLaw>) {
+        match (law, &mut self.black) {
+            (None, black) => *black = None,
+            (Some(law), Some(black)) => black.law = law,
+            (Some(law), None) => self.black = Some(BlackFilm::new(gpu, self.tracer_grid(), law)),
+        }
+    }
+
     /// When the map is remapped.
     fn remap_rule(&self) -> RemapRule {
         let latest_ticks = self.diffusion.as_ref().map_or(u32::MAX, Diffusion::latest_ticks);
@@ -262,6 +275,7 @@ impl Field {
         self.targets = [&film, tracer]
             .map(|seeded| Target { mean: seeded.mean, bounds: self.rules.bounded().then_some(seeded.range) });
         self.control.reset(gpu);
+        self.black = None;
         self.has_moved = false;
         self.ticks_since_decision = 0;
         if self.rules.scheme.keeps_map() {
@@ -328,7 +342,27 @@ impl Field {
             diffusion.record(recorder, self.tracer_grid(), &self.control, &self.sampled, &self.tracer)?;
         }
         self.settle(recorder, [due.sum_groups(), due.one_group(), due.tracer_groups()])?;
+        if let Some(black) = &self.black {
+            self.blacken(recorder, black)?;
+        }
         reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())
+    }
+
+    /// Lets thin film collapse to black film: evaporation has ended where it is black, and what collapsing film loses goes to the film
+    /// around it.
+    fn blacken(&self, recorder: &mut Recorder<'_>, black: &BlackFilm) -> Result<(), GpuError> {
+        let (grid, due) = (self.tracer_grid(), &self.control);
+        black.stop_evaporation(recorder, grid, due, &self.tracer)?;
+        let sum = Sum {
+            grid,
+            field: &self.tracer,
+            partial_sums: &due.partial_sums,
+            balance: &due.tracer_balance,
+            control: &due.block,
+        };
+        count_spared(recorder, STEP, self.targets[1], &sum, [due.sum_groups(), due.one_group()])?;
+        black.collapse(recorder, grid, due, &self.tracer, &self.sampled)?;
+        self.settle(recorder, [due.sum_groups(), due.one_group(), due.tracer_groups()])
     }
 
     /// Makes what was sampled the tracer; the workgroups of the sum, of its end, and of a pass over the tracer are given.
@@ -339,6 +373,7 @@ impl Field {
             field: &self.sampled,
             partial_sums: &self.control.partial_sums,
             balance: &self.control.tracer_balance,
+            control: &self.control.block,
         };
         if self.rules.conserved {
             conserve(recorder, STEP, self.targets[1], &sum, [sum_groups, one_group])?;
@@ -401,6 +436,7 @@ impl Field {
             field: &self.shown,
             partial_sums: &self.control.partial_sums,
             balance: &self.control.shown_balance,
+            control: &self.control.block,
         };
         if self.rules.conserved {
             conserve(recorder, SHOW, self.targets[0], &sum, [[parts(&self.film), 1, 1].into(), [1; 3].into()])?;

@@ -3,11 +3,17 @@
 use std::ops::Range;
 
 use super::{
-    super::{GpuError, decide_remap::RemapRule, sample_tracer::Gathered, timing::Recorder, trace_step::Step},
+    super::{
+        GpuError, blacken::BlackeningLaw, decide_remap::RemapRule, sample_tracer::Gathered, timing::Recorder,
+        trace_step::Step,
+    },
     Field, FreeMotion, Rules, Surroundings,
 };
 use crate::{
-    physics::film::PrescribedFlow,
+    physics::film::{
+        PrescribedFlow,
+        properties::{BLACK_FILM_COLLAPSE, BLACK_FILM_ONSET},
+    },
     plan::{BLACK_FILM_NM, FieldKey, FlowLaw, FreeFlow},
 };
 
@@ -53,7 +59,9 @@ impl MovingFilm {
         (tick, ticks): (u64, u32),
     ) -> Result<(), GpuError> {
         let Self { field, motion } = self;
+        let end = tick as f64 + f64::from(ticks);
         field.diffuse(recorder.gpu, free.diffusion, key.tick_s);
+        field.collapse(recorder.gpu, key.has_black_film(end).then(|| blackening(key, end)));
         let motion = match motion {
             Some(motion) => motion,
             None => motion.insert(FreeMotion::new(recorder, field)?),
@@ -104,6 +112,16 @@ pub fn rules(key: &FieldKey) -> Rules {
         remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: key.remap_ticks },
         map_coarsening: if key.cells < FINE_CELLS { 1 } else { 2 },
         coarse_flow: true,
+    }
+}
+
+/// How the film collapses at a time in ticks.
+fn blackening(key: &FieldKey, ticks: f64) -> BlackeningLaw {
+    BlackeningLaw {
+        thinned_nm: key.thinned_nm(ticks),
+        black_nm: BLACK_FILM_NM,
+        onset_nm: 1e9 * BLACK_FILM_ONSET,
+        rate: BLACK_FILM_COLLAPSE * key.tick_s,
     }
 }
 

@@ -3,7 +3,7 @@
 use std::{fmt, ops::Range};
 
 use crate::physics::{
-    film::{InitialFilm, PrescribedFlow},
+    film::{InitialFilm, PrescribedFlow, properties::BLACK_FILM_ONSET},
     flow::FlowForces,
     sphere::CubedSphere,
     transport::Scheme,
@@ -197,6 +197,12 @@ impl FieldKey {
     #[must_use]
     pub fn thinned_nm(&self, ticks: f64) -> f64 {
         evaporated_nm(&self.evaporation, self.tick_s, ticks)
+    }
+
+    /// Whether any of the film may be thin enough to collapse to black film, at a time in ticks.
+    #[must_use]
+    pub fn has_black_film(&self, ticks: f64) -> bool {
+        self.initial.range_nm().0 - self.thinned_nm(ticks) < 1e9 * BLACK_FILM_ONSET
     }
 
     /// The last tick until the moment at which a step ends: where the film's state stands. What the moment is beyond it, the shown

@@ -1,0 +1,101 @@
+// Thin film collapses to black film, which a real film does within a fraction of a second once its surfaces attract each other: the
+// difference to black film decays at a constant rate. What a cell loses goes to the thicker cells around it, as the rim of a black spot
+// gathers it; the nearest cells of thick film may be too far, then the film as a whole gets it with the correction of its liquid.
+// The tracer holds the thickness and what has evaporated of it. One invocation a cell, halo included.
+
+import package::film::control::Control;
+import package::sphere::cubed::HALO;
+
+// Mirrors `BlackenUniform` in src/gpu/blacken.rs.
+struct Blacken {
+    // Cells along a panel's edge.
+    cells: u32,
+    // What has evaporated, nm.
+    thinned_nm: f32,
+    // Thickness of black film, and that below which film collapses, nm.
+    black_nm: f32,
+    onset_nm: f32,
+    // Rate of the collapse, 1/tick.
+    rate: f32,
+}
+
+@group(0) @binding(0) var<uniform> blacken: Blacken;
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read> tracer: array<f32>;
+@group(0) @binding(3) var<storage, read_write> result: array<f32>;
+@group(0) @binding(4) var<storage, read> shed_around: array<f32>;
+
+// Cells on each side that a cell's liquid goes to.
+const REACH: u32 = 3u;
+
+fn thickness_nm(place: u32) -> f32 {
+    return tracer[place] - blacken.thinned_nm;
+}
+
+// What a cell loses since the last remap.
+fn lost_nm(thickness_nm: f32) -> f32 {
+    if (thickness_nm >= blacken.onset_nm) {
+        return 0.0;
+    }
+    let decayed = 1.0 - exp(-blacken.rate * f32(control.ticks_remapped));
+    return max(thickness_nm - blacken.black_nm, 0.0) * decayed;
+}
+
+fn place_of(id: vec3u) -> u32 {
+    let side = blacken.cells + 2u * HALO;
+    return (id.z * side + id.y) * side + id.x;
+}
+
+fn is_halo(id: vec3u) -> bool {
+    return any(id.xy < vec2u(HALO)) || any(id.xy >= vec2u(blacken.cells + HALO));
+}
+
+@compute @workgroup_size(64)
+fn stop_evaporation(@builtin(global_invocation_id) id: vec3u) {
+    if (id.x < blacken.cells + 2u * HALO) {
+        let place = place_of(id);
+        result[place] = max(result[place], blacken.thinned_nm + min(result[place], blacken.black_nm));
+    }
+}
+
+// What each cell gives to each thicker one around it.
+@compute @workgroup_size(64)
+fn shed(@builtin(global_invocation_id) id: vec3u) {
+    if (is_halo(id)) {
+        return;
+    }
+    let place = place_of(id);
+    let lost = lost_nm(thickness_nm(place));
+    var share = 0.0;
+    if (lost > 0.0) {
+        let side = blacken.cells + 2u * HALO;
+        var thicker = 0u;
+        for (var row = 0u; row <= 2u * REACH; row++) {
+            for (var column = 0u; column <= 2u * REACH; column++) {
+                let at = place + row * side + column - REACH * (side + 1u);
+                thicker += select(0u, 1u, thickness_nm(at) >= blacken.onset_nm);
+            }
+        }
+        share = select(0.0, lost / f32(thicker), thicker > 0u);
+    }
+    result[place] = share;
+}
+
+@compute @workgroup_size(64)
+fn gather(@builtin(global_invocation_id) id: vec3u) {
+    if (is_halo(id)) {
+        return;
+    }
+    let place = place_of(id);
+    let nm = thickness_nm(place);
+    var gained = 0.0;
+    if (nm >= blacken.onset_nm) {
+        let side = blacken.cells + 2u * HALO;
+        for (var row = 0u; row <= 2u * REACH; row++) {
+            for (var column = 0u; column <= 2u * REACH; column++) {
+                gained += shed_around[place + row * side + column - REACH * (side + 1u)];
+            }
+        }
+    }
+    result[place] = tracer[place] - lost_nm(nm) + gained;
+}

@@ -1,0 +1,120 @@
+//! Lets thin film collapse to black film.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{
+    Gpu, GpuError,
+    film::{Control, Grid},
+    flow::halo_entries,
+    pipelines::ComputeKey,
+    timing::{Groups, Recorder},
+};
+
+/// See `shaders/pass/blacken.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct BlackenUniform {
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    /// What has evaporated, nm.
+    pub thinned_nm: f32,
+    /// Thickness of black film, nm.
+    pub black_nm: f32,
+    /// Thickness below which film collapses, nm.
+    pub onset_nm: f32,
+    /// Rate of the collapse, 1/tick.
+    pub rate: f32,
+    pad: [u32; 3],
+}
+
+/// How film collapses, now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlackeningLaw {
+    /// What has evaporated from the film, nm.
+    pub thinned_nm: f64,
+    /// Thickness of black film, at which evaporation ends, nm.
+    pub black_nm: f64,
+    /// Thickness below which film collapses, nm.
+    pub onset_nm: f64,
+    /// Rate at which the difference to black film decays, 1/tick.
+    pub rate: f64,
+}
+
+/// The collapse of a film, done at remaps.
+pub struct BlackFilm {
+    /// The law in force.
+    pub law: BlackeningLaw,
+    /// What each cell gives to each of those around it, nm.
+    shed: wgpu::Buffer,
+    halo: wgpu::Buffer,
+}
+
+impl BlackFilm {
+    /// On a film's tracer grid.
+    #[must_use]
+    pub fn new(gpu: &Gpu, grid: &Grid, law: BlackeningLaw) -> Self {
+        Self { law, shed: grid.field(gpu, "shed", 4), halo: gpu.storage("film halo", &halo_entries(grid.sphere)) }
+    }
+
+    fn uniform(&self, recorder: &Recorder<'_>, grid: &Grid) -> wgpu::Buffer {
+        let BlackeningLaw { thinned_nm, black_nm, onset_nm, rate } = self.law;
+        recorder.gpu.uniform(
+            "blacken",
+            &BlackenUniform {
+                cells: grid.cells,
+                thinned_nm: thinned_nm as f32,
+                black_nm: black_nm as f32,
+                onset_nm: onset_nm as f32,
+                rate: rate as f32,
+                pad: [0; 3],
+            },
+        )
+    }
+
+    /// If a remap is due, gives back to the tracer what did not evaporate from film that was black already.
+    pub fn stop_evaporation(
+        &self,
+        recorder: &mut Recorder<'_>,
+        grid: &Grid,
+        control: &Control,
+        tracer: &wgpu::Buffer,
+    ) -> Result<(), GpuError> {
+        let uniform = self.uniform(recorder, grid);
+        run(recorder, "stop_evaporation", &[(0, &uniform), (3, tracer)], control.tracer_groups())
+    }
+
+    /// If a remap is due, lets the tracer collapse for the ticks since the last one, into another buffer.
+    pub fn collapse(
+        &self,
+        recorder: &mut Recorder<'_>,
+        grid: &Grid,
+        control: &Control,
+        tracer: &wgpu::Buffer,
+        to: &wgpu::Buffer,
+    ) -> Result<(), GpuError> {
+        let uniform = self.uniform(recorder, grid);
+        let (uniform, block, tracer) = ((0, &uniform), (1, &control.block), (2, tracer));
+        let all = control.tracer_groups();
+        run(recorder, "shed", &[uniform, block, tracer, (3, &self.shed)], all)?;
+        self.fill_halo(recorder, control, &self.shed)?;
+        run(recorder, "gather", &[uniform, block, tracer, (3, to), (4, &self.shed)], all)?;
+        self.fill_halo(recorder, control, to)
+    }
+
+    fn fill_halo(&self, recorder: &mut Recorder<'_>, control: &Control, field: &wgpu::Buffer) -> Result<(), GpuError> {
+        let key = ComputeKey { pass: "flow_halo", entry: "halo_of_scalar", constants: vec![] };
+        let bound = [&self.halo, field].map(wgpu::Buffer::as_entire_binding);
+        recorder.compute("step_field", &key, &bound, control.one_group())
+    }
+}
+
+fn run(
+    recorder: &mut Recorder<'_>,
+    entry: &'static str,
+    buffers: &[(u32, &wgpu::Buffer)],
+    groups: Groups<'_>,
+) -> Result<(), GpuError> {
+    let key = ComputeKey { pass: "blacken", entry, constants: vec![] };
+    let bound: Vec<_> = buffers.iter().map(|(place, buffer)| (*place, buffer.as_entire_binding())).collect();
+    recorder.compute_at("step_field", &key, &bound, groups)
+}
