@@ -3,13 +3,14 @@
 
 import package::camera::view::{View, pixel_angle, view_plane};
 import package::film::control::{Balance, balanced};
+import package::film::hole::{Rim, angle_from, meridian_of, mixed, pierced, HOLE_MERIDIANS};
+import package::film::shown::film_at;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
 import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::band::Band;
 import package::optics::film_colour::{FILTERED, POLARISED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{BANDS, EVERYTHING, Hits, INNER, Walls, band_radiance, resolved};
-import package::sphere::cubed::{HALO, locate};
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
@@ -21,6 +22,8 @@ override MAGNIFIED: u32;
 override SAMPLES: u32;
 // 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
 override OUTLINE: u32;
+// 1: the bubble bursts, and its film has a hole.
+override BURST: u32;
 
 // Mirrors `BubbleUniform` in src/gpu/draw.rs.
 struct Bubble {
@@ -60,6 +63,8 @@ struct Bubble {
 @group(0) @binding(10) var<uniform> film_balance: Balance;
 @group(0) @binding(11) var<storage, read> film_map: array<vec4f>;
 @group(0) @binding(12) var<storage, read> film_tracer: array<f32>;
+@group(0) @binding(13) var<storage, read> hole_middle: vec4f;
+@group(0) @binding(14) var<storage, read> hole_rim: array<Rim>;
 
 const TAU: f32 = 6.2831853;
 // Sides of the polygons that rings are made of.
@@ -92,22 +97,6 @@ fn everywhere(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 
-fn film_texel(texel: vec2i, panel: u32) -> f32 {
-    return textureLoad(film, texel, panel, 0).r;
-}
-
-// The shown film, bilinear between cell centres.
-fn film_at(direction: vec3f) -> f32 {
-    let at = locate(direction, bubble.cells);
-    let base = floor(at.cell);
-    let t = at.cell - base;
-    // Weighted here: filtering hardware has only 8 bits for its weights, and need not filter this format at all.
-    let first = vec2i(base) + i32(HALO);
-    let low = mix(film_texel(first, at.panel), film_texel(first + vec2i(1, 0), at.panel), t.x);
-    let high = mix(film_texel(first + vec2i(0, 1), at.panel), film_texel(first + vec2i(1, 1), at.panel), t.x);
-    return mix(low, high, t.y);
-}
-
 fn map_value(unused: u32, place: u32) -> vec4f {
     return film_map[place];
 }
@@ -130,10 +119,22 @@ fn thickness_nm(point: vec3f) -> f32 {
         if (MAGNIFIED == 1u) {
             thickness_nm = film_through_map(direction);
         } else {
-            thickness_nm = film_at(direction);
+            thickness_nm = film_at(film, direction, bubble.cells);
         }
     }
-    return max(thickness_nm - bubble.thinned_nm, min(thickness_nm, bubble.black_nm));
+    thickness_nm = max(thickness_nm - bubble.thinned_nm, min(thickness_nm, bubble.black_nm));
+    if (BURST == 1u) {
+        return with_hole(bubble.to_film * point, thickness_nm);
+    }
+    return thickness_nm;
+}
+
+fn with_hole(direction: vec3f, thickness_nm: f32) -> f32 {
+    let middle = hole_middle.xyz;
+    let meridian = meridian_of(direction, middle);
+    let low = hole_rim[u32(meridian) % HOLE_MERIDIANS];
+    let high = hole_rim[(u32(meridian) + 1u) % HOLE_MERIDIANS];
+    return pierced(mixed(low, high, fract(meridian)), angle_from(direction, middle), thickness_nm);
 }
 
 // The thickness of the plain film that looks like the one at a point of the unit sphere.

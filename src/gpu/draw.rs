@@ -9,12 +9,13 @@ use super::{
     bands::{Bands, band_constants},
     environment::{Environment, texel_angle},
     film::{NoFilm, Shown},
+    open_hole::OpenHole,
     pipelines::RenderKey,
     rings::{Ring, SIDES, disc, rings},
     timing::Recorder,
 };
 use crate::{
-    physics::{optics::FilmMaterial, transport::Scheme},
+    physics::{film::HOLE_MERIDIANS, optics::FilmMaterial, transport::Scheme},
     plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmKey, Lighting},
 };
 
@@ -105,6 +106,8 @@ pub struct DrawInputs<'a> {
     pub bands: Option<&'a Bands>,
     /// What a film shows, by its index.
     pub film: &'a dyn Fn(usize) -> Option<Shown<'a>>,
+    /// The hole in a film that bursts, by the film's index.
+    pub hole: &'a dyn Fn(usize) -> Option<&'a OpenHole>,
 }
 
 /// Pixels that one submission draws at most, so that none runs long.
@@ -155,9 +158,10 @@ impl DrawPass {
         let unread = lighting.table.is_none().then(|| Table::unread(gpu, &lighting.bands.optics));
         let Some(table) = unread.as_ref().or(inputs.table) else { return Ok(pass) };
         let sampler = table_sampler(gpu);
-        let no_film = NoFilm::new(gpu);
+        let (no_film, no_hole) = (NoFilm::new(gpu), OpenHole::new(gpu));
         for bubble in &key.bubbles {
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
+            let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
             for ring in bubble_rings(key, bubble) {
                 let pipeline = gpu.pipelines.render(gpu, &ring_pipeline(key, lighting, bubble, &ring, bands))?;
                 let uniform = bubble_uniform(&lighting.bands.optics.film, bubble, &ring, &film);
@@ -172,6 +176,8 @@ impl DrawPass {
                     film.balance.as_entire_binding(),
                     film.map.as_entire_binding(),
                     film.tracer.as_entire_binding(),
+                    hole.middle.as_entire_binding(),
+                    hole.rim.as_entire_binding(),
                 ];
                 // The yardstick reads no film: its layout ends with the bubble itself.
                 let own = if key.yardstick { &own[..1] } else { &own[..] };
@@ -246,6 +252,8 @@ fn ring_pipeline(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey, ring: &
             ("SAMPLES", ring.samples),
             ("OUTLINE", u32::from(ring.outline)),
             ("FILTERED", u32::from(bubble.filtered)),
+            ("BURST", u32::from(bubble.hole.is_some())),
+            ("HOLE_MERIDIANS", HOLE_MERIDIANS as u32),
             ("INNER", ring.inner_reflections),
             // A film in a scene is moved as a flow map where it is looked up through one, and always limited.
             ("TAPS", Scheme::Map.taps()),

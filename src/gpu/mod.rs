@@ -18,6 +18,7 @@ pub mod film;
 pub mod flow;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod flow_case;
+pub mod open_hole;
 pub mod pipelines;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod probe_colour;

@@ -12,13 +12,14 @@ use super::{
     draw::{DrawInputs, DrawPass, pixels_shaded, radiance_format, strips},
     environment::Environment,
     film::{Field, LawInForce, MovingFilm, rules},
+    open_hole::OpenHole,
     readback::Readback,
     timing::{Counts, Recorder, TimeLog},
     tonemap::{PICTURE_FORMAT, tonemap},
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{DrawKey, FieldKey, FlowLaw, Have, Pass, Plan, TableKey, TonemapKey, Want, plan},
+    plan::{DrawKey, FieldKey, FlowLaw, Have, OpenHoleKey, Pass, Plan, TableKey, TonemapKey, Want, plan},
 };
 
 /// Cells stepped in one submission, so that none runs long: about 50 ms on a software rasteriser.
@@ -29,6 +30,7 @@ const CELLS_A_SUBMISSION: u64 = 1_600_000;
 struct Products {
     lights: Vec<LightProducts>,
     films: Vec<Option<MovingFilm>>,
+    holes: Vec<Option<OpenHole>>,
     radiance: Option<Target>,
     /// The picture in the light of one lamp, and its sum with those before.
     lamp: Option<Target>,
@@ -179,6 +181,7 @@ impl Renderer {
             Pass::SeedField { film, key } => self.seed(*film, key),
             Pass::StepField { film, key, ticks } => self.step(*film, key, ticks.clone()),
             Pass::ShowField { film, key } => self.show(*film, key),
+            Pass::OpenHole { film, key } => self.open_hole(*film, key),
             Pass::Draw(key) => self.draw(key),
             Pass::Tonemap(key) => self.tonemap(key),
         }
@@ -258,6 +261,19 @@ impl Renderer {
         Ok(())
     }
 
+    fn open_hole(&mut self, film: usize, key: &OpenHoleKey) -> Result<(), GpuError> {
+        let Products { films, holes, .. } = &mut self.products;
+        if holes.len() <= film {
+            holes.resize_with(film + 1, || None);
+        }
+        let hole = holes[film].get_or_insert_with(|| OpenHole::new(&self.gpu));
+        let shown = films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());
+        let mut recorder = Recorder::new(&self.gpu);
+        hole.open(&mut recorder, key, shown)?;
+        Self::submit(&self.times, &mut self.counts, recorder);
+        Ok(())
+    }
+
     /// The picture in the scene's own light, and that in each lamp's added to it.
     fn draw(&mut self, key: &DrawKey) -> Result<(), GpuError> {
         let format = radiance_format(key.full_precision);
@@ -284,11 +300,17 @@ impl Renderer {
         // Without an environment key nothing of it is read; a black one fills the binding.
         let environment =
             products.environment.get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant(DVec3::ZERO)));
-        let films = &self.products.films;
+        let (films, holes) = (&self.products.films, &self.products.holes);
+        let hole = |film: usize| holes.get(film).and_then(Option::as_ref);
         let film = |film: usize| films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());
         let (table, bands) = (products.table.as_ref(), products.bands.as_ref());
         let Some(lighting) = key.lights().nth(light) else { return Ok(()) };
-        let pass = DrawPass::new(&self.gpu, key, lighting, &DrawInputs { environment, table, bands, film: &film })?;
+        let pass = DrawPass::new(
+            &self.gpu,
+            key,
+            lighting,
+            &DrawInputs { environment, table, bands, film: &film, hole: &hole },
+        )?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);
             pass.record(&mut recorder, &target.view, rows);

@@ -5,13 +5,14 @@
 //! skipped: a scene that did not change plans nothing, a new exposure plans a tonemap, a film at rest is never stepped.
 
 pub mod keys;
+mod lives;
 mod want;
 
 use std::{fmt, ops::Range};
 
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw,
-    FlowSegment, FreeFlow, LightKey, Lighting, Moment, OpticsKey, TableKey, TonemapKey, range_nm,
+    FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, TableKey, TonemapKey, range_nm,
 };
 pub use want::{Lamp, Resources, Shot, WantError, want};
 
@@ -40,6 +41,8 @@ pub struct Have {
     pub lights: Vec<LightHave>,
     /// The field of each film, by the film's index.
     pub fields: Vec<Option<FieldHave>>,
+    /// The hole in each film that bursts, by the film's index.
+    pub holes: Vec<Option<OpenHoleKey>>,
     /// The linear picture.
     pub radiance: Option<DrawKey>,
     /// The finished picture.
@@ -117,6 +120,13 @@ pub enum Pass {
         /// The field at the moment to show.
         key: FieldKey,
     },
+    /// Finds the rim of the hole in a film that bursts.
+    OpenHole {
+        /// Index of the film.
+        film: usize,
+        /// The hole and its film.
+        key: OpenHoleKey,
+    },
     /// Draws backdrop and bubbles into the linear picture.
     Draw(DrawKey),
     /// Makes the finished picture from the linear one.
@@ -134,6 +144,7 @@ impl Pass {
             Self::SeedField { .. } => "seed_field",
             Self::StepField { .. } => "step_field",
             Self::ShowField { .. } => "show_field",
+            Self::OpenHole { .. } => "open_hole",
             Self::Draw(_) => "draw",
             Self::Tonemap(_) => "tonemap",
         }
@@ -193,6 +204,7 @@ impl fmt::Display for Plan {
                 Pass::SeedField { film, key } => format!("film {film}, 6x{0}x{0} cells", key.cells),
                 Pass::StepField { film, ticks, .. } => format!("film {film}, ticks {}..{}", ticks.start, ticks.end),
                 Pass::ShowField { film, key } => format!("film {film} at {}", key.moment),
+                Pass::OpenHole { film, key } => format!("film {film}, {:.4} s after it burst", key.hole.seconds),
                 Pass::Draw(key) => format!("{}x{}, bubbles: {}", key.size[0], key.size[1], key.bubbles.len()),
                 Pass::Tonemap(key) => format!("exposure {} EV", key.exposure_ev),
                 Pass::FitBands { key, .. } => {
@@ -235,6 +247,9 @@ pub fn plan(want: &Want, have: &Have) -> Plan {
     for index in 0..draw.bubbles.len() {
         if let FilmKey::Field(field) = &mut draw.bubbles[index].film {
             *field = planner.field(want.picture.draw.bubbles[index].index, field);
+        }
+        if let Some(hole) = draw.bubbles[index].open_hole() {
+            planner.hole(draw.bubbles[index].index, hole);
         }
     }
     planner.picture(&picture);
@@ -310,6 +325,17 @@ impl Planner {
         if let Some(reason) = changed(have.as_ref(), wanted, |_, _| "environment") {
             *have = Some(wanted.clone());
             self.push(Pass::UploadEnvironment { light, key: wanted.clone() }, reason);
+        }
+    }
+
+    fn hole(&mut self, film: usize, wanted: OpenHoleKey) {
+        if self.after.holes.len() <= film {
+            self.after.holes.resize(film + 1, None);
+        }
+        let have = &mut self.after.holes[film];
+        if let Some(reason) = changed(have.as_ref(), &wanted, |_, _| "the moment") {
+            *have = Some(wanted.clone());
+            self.push(Pass::OpenHole { film, key: wanted }, reason);
         }
     }
 

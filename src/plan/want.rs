@@ -6,13 +6,16 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{
     BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment,
-    FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want, keys::evaporated_nm, range_nm,
+    FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want,
+    keys::evaporated_nm,
+    lives::{Life, life, since},
+    range_nm,
 };
 use crate::{
     physics::{
         colour::{Gamut, Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
-        film::InitialFilm,
+        film::{InitialFilm, properties::evaporation_rate},
         flow::{AIR_DRAG, FlowForces},
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
         transport::Scheme,
@@ -202,11 +205,13 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     let bounds = bounds(camera, shot.size, centre_m, radius_m)?;
     let distance = centre_m.distance(camera.eye_m).max(radius_m);
     let radius_pixels = radius_m / distance / camera.pixel_height_m;
-    let film = match film(scene, bubble, shot.moment) {
+    let life = life(scene, index, shot.moment)?;
+    let film = match film(scene, bubble, &life) {
         FilmKey::Field(_) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(bubble.film.thickness_nm),
         film => film,
     };
-    let ticks = shot.moment.tick as f64 + shot.moment.fraction;
+    let ticks = life.moment.tick as f64 + life.moment.fraction;
+    let rates = since(life.born, &evaporation(scene, radius_m));
     Some(BubbleKey {
         index,
         centre_m,
@@ -215,13 +220,14 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         // A film of one thickness looks the same however it is turned.
         to_film: match film {
             FilmKey::Uniform(_) => DMat3::IDENTITY,
-            FilmKey::Field(_) => DMat3::from_quat(turned(scene, ticks).inverse()),
+            FilmKey::Field(_) => DMat3::from_quat(turned(scene, life.born as f64 + ticks).inverse()),
         },
-        thinned_nm: evaporated_nm(&evaporation(scene), scene.motion.tick_s, ticks),
+        thinned_nm: evaporated_nm(&rates, scene.motion.tick_s, ticks),
         samples: samples(radius_pixels),
         filtered: is_filtered(&film, radius_pixels),
         magnified: is_magnified(&film, radius_m, radius_pixels, centre_m.distance(camera.eye_m)),
         film,
+        hole: life.hole,
     })
 }
 
@@ -274,24 +280,38 @@ fn samples(radius_pixels: f64) -> u32 {
     }
 }
 
-fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
+/// A bubble's film as it was blown, after so many others.
+pub(super) fn initial_film(bubble: &Bubble, generation: u32) -> InitialFilm {
     let film = &bubble.film;
-    let thickness_nm = film.thickness_nm;
-    let initial = match film.state {
-        FilmStateName::Uniform => return FilmKey::Uniform(thickness_nm),
-        FilmStateName::Rest if film.stratification == 0.0 => return FilmKey::Uniform(thickness_nm),
-        FilmStateName::Rest => InitialFilm::Rest { thickness_nm, stratification: film.stratification },
-        FilmStateName::Blown => InitialFilm::Blown { thickness_nm, stratification: 0.0, seed: fold_seed(film.seed) },
-    };
-    let mut flows = flows(scene, bubble.radius_mm * 1e-3);
-    let moment = last_moved(&flows, moment);
+    let (thickness_nm, stratification) = (film.thickness_nm, film.stratification);
+    match film.state {
+        FilmStateName::Uniform => InitialFilm::Uniform { thickness_nm },
+        FilmStateName::Rest if stratification == 0.0 => InitialFilm::Uniform { thickness_nm },
+        FilmStateName::Rest => InitialFilm::Rest { thickness_nm, stratification },
+        FilmStateName::Blown => {
+            let seed = fold_seed(film.seed.wrapping_add(generation.into()));
+            InitialFilm::Blown { thickness_nm, stratification: 0.0, seed }
+        }
+    }
+}
+
+fn film(scene: &Scene, bubble: &Bubble, life: &Life) -> FilmKey {
+    let initial = initial_film(bubble, life.generation);
+    if let InitialFilm::Uniform { thickness_nm } = initial {
+        return FilmKey::Uniform(thickness_nm);
+    }
+    let radius_m = bubble.radius_mm * 1e-3;
+    let flows: Vec<_> = flows(scene, radius_m).iter().map(|segment| (segment.from_tick, segment.law)).collect();
+    let flows = since(life.born, &flows).into_iter();
+    let mut flows: Vec<_> = flows.map(|(from_tick, law)| FlowSegment { from_tick, law }).collect();
+    let moment = last_moved(&flows, life.moment);
     // Laws that come into force later leave the film as it is: a key holds what its product depends on.
     flows.retain(|segment| segment.from_tick < moment.end_tick());
     let is_free = flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_)));
-    let mut evaporation = if is_free { evaporation(scene) } else { Vec::new() };
+    let mut evaporation = if is_free { since(life.born, &evaporation(scene, radius_m)) } else { Vec::new() };
     evaporation.retain(|(tick, _)| *tick < moment.end_tick());
     FilmKey::Field(FieldKey {
-        cells: film.cells,
+        cells: bubble.film.cells,
         initial,
         tick_s: scene.motion.tick_s,
         scheme: scheme(&scene.motion),
@@ -303,7 +323,7 @@ fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
 }
 
 /// A scene's seed as the generators take it: seeds below 2³² are themselves.
-fn fold_seed(seed: u64) -> u32 {
+pub(super) fn fold_seed(seed: u64) -> u32 {
     (seed ^ (seed >> 32)) as u32
 }
 
@@ -312,10 +332,13 @@ fn changes(scene: &Scene) -> impl Iterator<Item = u64> {
     std::iter::once(0).chain(scene.events.iter().map(|event| event.tick))
 }
 
-/// What evaporates from the films, from which tick on, each entry where it differs from the one before.
-fn evaporation(scene: &Scene) -> Vec<(u64, f64)> {
-    let mut rates: Vec<(u64, f64)> =
-        changes(scene).map(|tick| (tick, scene.motion_at(tick).evaporation_nm_s)).collect();
+/// What evaporates from the film of a bubble, in nm/s, from which tick on, each entry where it differs from the one before.
+pub(super) fn evaporation(scene: &Scene, radius_m: f64) -> Vec<(u64, f64)> {
+    let rate = |tick| {
+        let motion = scene.motion_at(tick);
+        motion.evaporation_nm_s + 1e9 * evaporation_rate(motion.humidity, radius_m, motion.air_speed_m_s)
+    };
+    let mut rates: Vec<(u64, f64)> = changes(scene).map(|tick| (tick, rate(tick))).collect();
     rates.dedup_by_key(|(_, rate)| *rate);
     rates
 }

@@ -30,6 +30,17 @@ pub struct Motion {
     pub spin_deg_s: [f64; 3],
     /// What evaporates from the whole film, nm of thickness a second, down to 10 nm of black film; 0 ..= 1000. Default: 0.
     pub evaporation_nm_s: f64,
+    /// Relative humidity of the air; what evaporates in drier air, by the radius and the air's speed, comes to `evaporation_nm_s`; 0 ..= 1.
+    /// Default: 1.
+    pub humidity: f64,
+    /// Speed of the air that carries vapour away, m/s; 0 ..= 10. Default: 0.1.
+    pub air_speed_m_s: f64,
+    /// How long black film lasts on average before a bubble bursts of itself, s; 0 ..= 1000000. Default: 10.
+    pub black_film_life_s: f64,
+    /// How many times slower than in life a bubble bursts; 1 ..= 10000. Default: 1.
+    pub burst_slowdown: f64,
+    /// From the end of a bubble until a new one is blown, s; 0 ..= 1000000. Default: 2.
+    pub renew_s: f64,
     /// How the liquid is moved. Default: `map`.
     pub scheme: TransportScheme,
     /// Most ticks between two remaps of the flow map, which is remapped before where it is too distorted; 1 ..= 1000. Default: 120.
@@ -52,6 +63,11 @@ impl Default for Motion {
             diffusion_mm2_s: 0.5,
             spin_deg_s: [0.0; 3],
             evaporation_nm_s: 0.0,
+            humidity: 1.0,
+            air_speed_m_s: 0.1,
+            black_film_life_s: 10.0,
+            burst_slowdown: 1.0,
+            renew_s: 2.0,
             scheme: TransportScheme::Map,
             remap_ticks: 120,
             speed: 1.0,
@@ -65,6 +81,11 @@ impl Motion {
         check::in_range("strength", self.strength, 0.0..=10.0)?;
         check::all_in_range("spin_deg_s", self.spin_deg_s, -3600.0..=3600.0)?;
         check::in_range("evaporation_nm_s", self.evaporation_nm_s, 0.0..=1000.0)?;
+        check::in_range("humidity", self.humidity, 0.0..=1.0)?;
+        check::in_range("air_speed_m_s", self.air_speed_m_s, 0.0..=10.0)?;
+        check::in_range("black_film_life_s", self.black_film_life_s, 0.0..=1e6)?;
+        check::in_range("burst_slowdown", self.burst_slowdown, 1.0..=1e4)?;
+        check::in_range("renew_s", self.renew_s, 0.0..=1e6)?;
         check::all_in_range("gravity_m_s2", self.gravity_m_s2, -1000.0..=1000.0)?;
         check::in_range("drag_1_s", self.drag_1_s, 0.0..=1000.0)?;
         check::in_range("air_drag", self.air_drag, 0.0..=10.0)?;

@@ -6,13 +6,14 @@ use glam::DVec3;
 
 use crate::{
     physics::{
+        film::Hole,
         picture::{FilmSphere, PictureCamera, PictureScene},
         sphere::{CubedSphere, GridError, PaddedField},
         transport::FlowMap,
     },
     plan::{
-        BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey, Lighting,
-        Moment,
+        BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, HoleKey, LightKey,
+        Lighting, Moment,
     },
 };
 
@@ -114,11 +115,31 @@ fn sphere<'a>(key: &BubbleKey, films: &'a MovedFilms) -> Result<FilmSphere<'a>, 
         }
     };
     let (to_film, thinned_nm) = (key.to_film, key.thinned_nm);
-    let thickness_nm = Box::new(move |direction: DVec3| {
-        let thickness_nm = field(to_film * direction);
+    let film_nm = move |direction: DVec3| {
+        let thickness_nm = field(direction);
         (thickness_nm - thinned_nm).max(thickness_nm.min(BLACK_FILM_NM))
-    });
+    };
+    let thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match key.hole {
+        None => Box::new(move |direction| film_nm(to_film * direction)),
+        Some(HoleKey { at, seconds }) => {
+            let middle = match at {
+                Some(at) => at,
+                None => thinnest(&key.film, &film_nm)?,
+            };
+            let hole = Hole::open(&film_nm, middle, seconds, key.radius_m);
+            Box::new(move |direction| hole.pierced(to_film * direction, film_nm(to_film * direction)))
+        }
+    };
     Ok(FilmSphere { centre_m: key.centre_m, radius_m: key.radius_m, thickness_nm })
+}
+
+/// Direction of the thinnest cell of a film; the top of one that is as thin everywhere.
+fn thinnest(film: &FilmKey, thickness_nm: impl Fn(DVec3) -> f64) -> Result<DVec3, GridError> {
+    let FilmKey::Field(field) = film else { return Ok(DVec3::Z) };
+    let grid = CubedSphere::new(field.cells as usize)?;
+    let cells = (0..grid.cells()).map(|cell| grid.cell_direction(cell));
+    let thinnest = cells.map(|x| (thickness_nm(x), x)).min_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(thinnest.map_or(DVec3::Z, |(_, direction)| direction))
 }
 
 /// A film at its moment: the scheme of the GPU in f64 by the same steps, remapped when as many ticks have passed as there are at most.

@@ -1,5 +1,6 @@
 //! Films in closed form: what they are made of, what they are at first, and flows that need no solver.
 
+mod burst;
 mod flow;
 mod marble;
 mod presets;
@@ -7,7 +8,9 @@ pub mod properties;
 mod random;
 mod states;
 
+pub use burst::{HOLE_MERIDIANS, HOLE_PARTS, Hole, Rim, burst_s, rim_delay};
 pub use flow::{
     FlowError, FrozenFlow, FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Vortex, Wave,
 };
+pub use random::Random;
 pub use states::{InitialFilm, Profile};

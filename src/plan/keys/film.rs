@@ -2,6 +2,8 @@
 
 use std::{fmt, ops::Range};
 
+use glam::DVec3;
+
 use crate::physics::{
     film::{InitialFilm, PrescribedFlow, properties::BLACK_FILM_ONSET},
     flow::FlowForces,
@@ -269,6 +271,43 @@ pub fn evaporated_nm(rates: &[(u64, f64)], tick_s: f64, ticks: f64) -> f64 {
     let ends = rates.iter().skip(1).map(|(tick, _)| *tick as f64).chain(std::iter::once(f64::INFINITY));
     let lost = |((from, rate), end): (&(u64, f64), f64)| rate * tick_s * (ticks.min(end) - *from as f64).max(0.0);
     rates.iter().zip(ends).map(lost).sum()
+}
+
+/// The time in ticks at which so much has evaporated, in nm, at such rates: see [`evaporated_nm`]. Nothing if it never does.
+#[must_use]
+pub fn thins_at_tick(rates: &[(u64, f64)], tick_s: f64, nm: f64) -> Option<f64> {
+    let ends = rates.iter().skip(1).map(|(tick, _)| *tick as f64).chain(std::iter::once(f64::INFINITY));
+    let mut left = nm;
+    for ((from, rate), end) in rates.iter().zip(ends) {
+        let lost = rate * tick_s * (end - *from as f64);
+        if *rate > 0.0 && lost >= left {
+            return Some(*from as f64 + left / (rate * tick_s));
+        }
+        left -= if *rate > 0.0 { lost } else { 0.0 };
+    }
+    None
+}
+
+/// A hole in a film that bursts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HoleKey {
+    /// Direction of its middle in the film; nothing where the film is thinnest.
+    pub at: Option<DVec3>,
+    /// For how long it has opened, s.
+    pub seconds: f64,
+}
+
+/// A hole, and the film that it opens in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpenHoleKey {
+    /// The film, at the moment of the burst.
+    pub film: FilmKey,
+    /// What has evaporated from it, nm.
+    pub thinned_nm: f64,
+    /// Radius of the bubble, m.
+    pub radius_m: f64,
+    /// The hole.
+    pub hole: HoleKey,
 }
 
 /// Thickness of black film, in nm, at which evaporation ends: common black films are 10 to 30 nm thick.

@@ -4,6 +4,9 @@ mod film;
 mod optics;
 mod picture;
 
-pub use film::{BLACK_FILM_NM, FieldKey, FilmKey, FlowLaw, FlowSegment, FreeFlow, Moment, evaporated_nm};
+pub use film::{
+    BLACK_FILM_NM, FieldKey, FilmKey, FlowLaw, FlowSegment, FreeFlow, HoleKey, Moment, OpenHoleKey, evaporated_nm,
+    thins_at_tick,
+};
 pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
 pub use picture::{BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey};

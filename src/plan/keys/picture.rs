@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{BandsKey, FilmKey, TableKey};
+use super::{BandsKey, FilmKey, HoleKey, OpenHoleKey, TableKey};
 use crate::physics::{colour::Gamut, environment::CubeMap};
 
 /// The light around the bubbles.
@@ -48,6 +48,17 @@ pub struct BubbleKey {
     pub filtered: bool,
     /// The film.
     pub film: FilmKey,
+    /// The hole in it, while it bursts.
+    pub hole: Option<HoleKey>,
+}
+
+impl BubbleKey {
+    /// The hole and what it opens in, while the bubble bursts.
+    #[must_use]
+    pub fn open_hole(&self) -> Option<OpenHoleKey> {
+        let Self { thinned_nm, radius_m, .. } = *self;
+        self.hole.map(|hole| OpenHoleKey { film: self.film.clone(), thinned_nm, radius_m, hole })
+    }
 }
 
 /// Where the picture is taken from.
