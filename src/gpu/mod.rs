@@ -7,6 +7,7 @@ pub mod bake_table;
 pub mod bands;
 pub mod compose_map;
 pub mod conserve;
+pub mod copies;
 pub mod correct_error;
 pub mod decide_remap;
 pub mod device;
