@@ -8,6 +8,7 @@ pub mod bands;
 pub mod blacken;
 pub mod compose_map;
 pub mod conserve;
+pub mod copies;
 pub mod correct_error;
 pub mod decide_remap;
 pub mod device;

@@ -179,6 +179,10 @@ impl Renderer {
                 Ok(())
             }
             Pass::SeedField { film, key } => self.seed(*film, key),
+            Pass::RestoreField { film, slot, .. } => {
+                self.copy_state(*film, |film, recorder| film.restore(recorder, *slot))
+            }
+            Pass::SaveField { film, slot, .. } => self.copy_state(*film, |film, recorder| film.save(recorder, *slot)),
             Pass::StepField { film, key, ticks } => self.step(*film, key, ticks.clone()),
             Pass::ShowField { film, key } => self.show(*film, key),
             Pass::OpenHole { film, key } => self.open_hole(*film, key),
@@ -225,13 +229,26 @@ impl Renderer {
         }
         let sphere = CubedSphere::new(key.cells as usize).map_err(|error| GpuError::Refused(error.to_string()))?;
         let slot = &mut self.products.films[film];
-        let mut field = match slot.take() {
-            Some(MovingFilm { field, .. }) if (field.sphere(), field.rules()) == (sphere, rules(key)) => field,
-            _ => Field::new(&self.gpu, sphere, rules(key))?,
+        let fits = |film: &MovingFilm| (film.field.sphere(), film.field.rules()) == (sphere, rules(key));
+        let film = match slot.take().filter(fits) {
+            Some(film) => slot.insert(film),
+            None => slot.insert(MovingFilm::new(Field::new(&self.gpu, sphere, rules(key))?)),
         };
         let mut recorder = Recorder::new(&self.gpu);
-        field.seed(&mut recorder, key.initial.profile())?;
-        *slot = Some(MovingFilm::new(field));
+        film.seed(&mut recorder, &key.initial)?;
+        Self::submit(&self.times, &mut self.counts, recorder);
+        Ok(())
+    }
+
+    /// Copies a film's state to or from a checkpoint.
+    fn copy_state(
+        &mut self,
+        film: usize,
+        copy: impl FnOnce(&mut MovingFilm, &mut Recorder<'_>),
+    ) -> Result<(), GpuError> {
+        let Some(Some(film)) = self.products.films.get_mut(film) else { return Ok(()) };
+        let mut recorder = Recorder::new(&self.gpu);
+        copy(film, &mut recorder);
         Self::submit(&self.times, &mut self.counts, recorder);
         Ok(())
     }

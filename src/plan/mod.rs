@@ -4,12 +4,15 @@
 //! differs from the one that is there; there are no dirty flags. [`plan`] is pure, has no GPU types, and is the only place where work is
 //! skipped: a scene that did not change plans nothing, a new exposure plans a tonemap, a film at rest is never stepped.
 
+mod checkpoints;
+mod fields;
 pub mod keys;
 mod lives;
 mod want;
 
 use std::{fmt, ops::Range};
 
+pub use checkpoints::Checkpoints;
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw,
     FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, TableKey, TonemapKey, range_nm,
@@ -21,7 +24,8 @@ pub use want::{Lamp, Resources, Shot, WantError, want};
 pub enum Pace {
     /// All of it: a file is being made.
     Whole,
-    /// A frame's worth, the rest later: a window is waiting. A new table starts coarse, and a film catches up in portions.
+    /// A frame's worth, the rest later: a window is waiting. A new table starts coarse, and a film catches up in portions; since people in
+    /// windows go back in time, it leaves checkpoints.
     Frame,
 }
 
@@ -62,13 +66,15 @@ pub struct LightHave {
     pub environment: Option<EnvironmentKey>,
 }
 
-/// A film's field: its state at a tick, and the moment that its shown thickness belongs to.
+/// A film's field: its state at a tick, the moment that its shown thickness belongs to, and earlier states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldHave {
     /// Seed, law and the tick of the state.
     pub state: FieldKey,
     /// Moment shown, if any was.
     pub shown: Option<Moment>,
+    /// States to go back to.
+    pub checkpoints: Checkpoints,
 }
 
 /// One pass, with all that it reads.
@@ -102,6 +108,24 @@ pub enum Pass {
         /// Index of the film.
         film: usize,
         /// The field at tick 0.
+        key: FieldKey,
+    },
+    /// Makes a checkpoint a film's state again.
+    RestoreField {
+        /// Index of the film.
+        film: usize,
+        /// Slot of the checkpoint.
+        slot: usize,
+        /// The field at the checkpoint's tick.
+        key: FieldKey,
+    },
+    /// Keeps a copy of a film's state.
+    SaveField {
+        /// Index of the film.
+        film: usize,
+        /// Slot that the copy goes to; what it holds is lost.
+        slot: usize,
+        /// The field at the state's tick.
         key: FieldKey,
     },
     /// Moves a film through whole ticks.
@@ -142,6 +166,8 @@ impl Pass {
             Self::BakeTable { .. } => "bake_table",
             Self::FitBands { .. } => "fit_bands",
             Self::SeedField { .. } => "seed_field",
+            Self::RestoreField { .. } => "restore_field",
+            Self::SaveField { .. } => "save_field",
             Self::StepField { .. } => "step_field",
             Self::ShowField { .. } => "show_field",
             Self::OpenHole { .. } => "open_hole",
@@ -202,6 +228,8 @@ impl fmt::Display for Plan {
                     format!("rows {}..{} of {}, {} columns", rows.start, rows.end, key.rows, key.columns)
                 }
                 Pass::SeedField { film, key } => format!("film {film}, 6x{0}x{0} cells", key.cells),
+                Pass::RestoreField { film, key, .. } => format!("film {film} back to {}", key.moment),
+                Pass::SaveField { film, key, .. } => format!("film {film} at {}", key.moment),
                 Pass::StepField { film, ticks, .. } => format!("film {film}, ticks {}..{}", ticks.start, ticks.end),
                 Pass::ShowField { film, key } => format!("film {film} at {}", key.moment),
                 Pass::OpenHole { film, key } => format!("film {film}, {:.4} s after it burst", key.hole.seconds),
@@ -224,9 +252,6 @@ const ROWS_A_FRAME: u32 = 256;
 const ROWS_A_DISPATCH: u32 = 512;
 /// How much coarser than the wanted table the first one is that a waiting window gets.
 const COARSE: u32 = 16;
-/// Cells stepped a frame while a window waits for a film to catch up.
-const CELLS_A_FRAME: u64 = 800_000;
-
 /// The passes that lead from what is there to what is wanted.
 #[must_use]
 pub fn plan(want: &Want, have: &Have) -> Plan {
@@ -337,47 +362,6 @@ impl Planner {
             *have = Some(wanted.clone());
             self.push(Pass::OpenHole { film, key: wanted }, reason);
         }
-    }
-
-    /// Plans a film's field and returns the key of what will be shown.
-    fn field(&mut self, film: usize, wanted: &FieldKey) -> FieldKey {
-        if self.after.fields.len() <= film {
-            self.after.fields.resize(film + 1, None);
-        }
-        let before = self.after.fields[film].take();
-        let mut have = before.clone().filter(|have| wanted.continues(&have.state)).unwrap_or_else(|| {
-            let reason = if before.is_none() { Reason::Missing } else { Reason::Changed("the film's history") };
-            let start = wanted.at(Moment::default());
-            self.push(Pass::SeedField { film, key: start.clone() }, reason);
-            FieldHave { state: start, shown: None }
-        });
-        let end = self.step(film, wanted, &have.state);
-        let moment = if end == wanted.state_tick() { wanted.moment } else { Moment::tick(end) };
-        let shown = wanted.at(moment);
-        if have.shown != Some(moment) || before.is_none_or(|before| before.state.law_differs_until(&shown)) {
-            let reason = if have.shown.is_none() { Reason::Missing } else { Reason::Changed("the moment") };
-            self.push(Pass::ShowField { film, key: shown.clone() }, reason);
-            have.shown = Some(moment);
-        }
-        have.state = wanted.at(Moment::tick(end));
-        self.after.fields[film] = Some(have);
-        shown
-    }
-
-    /// Plans a film's steps and returns the tick at which they end.
-    fn step(&mut self, film: usize, wanted: &FieldKey, state: &FieldKey) -> u64 {
-        let first = state.moment.tick;
-        let most = match self.pace {
-            Pace::Frame => (CELLS_A_FRAME / wanted.cell_count()).max(1) as usize,
-            Pace::Whole => usize::MAX,
-        };
-        let end = wanted.steps_from(first).take(most).last().map_or(first, |step| step.end);
-        self.complete &= end == wanted.state_tick();
-        if first < end {
-            let reason = Reason::Changed("the moment");
-            self.push(Pass::StepField { film, key: wanted.at(Moment::tick(end)), ticks: first..end }, reason);
-        }
-        end
     }
 
     fn picture(&mut self, wanted: &TonemapKey) {

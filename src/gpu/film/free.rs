@@ -62,16 +62,21 @@ pub struct Surroundings<'a> {
 
 /// The flow of a film that moves by itself.
 pub struct FreeMotion {
-    solver: FlowSolver,
+    pub(super) solver: FlowSolver,
 }
 
 impl FreeMotion {
     /// A flow at rest, for a film.
     pub fn new(recorder: &mut Recorder<'_>, field: &Field) -> Result<Self, GpuError> {
-        let mut solver = FlowSolver::new(recorder.gpu, field.flow_grid().cells);
-        let still = vec![0.0; solver.sphere().cells()];
-        solver.seed(recorder, &still)?;
-        Ok(Self { solver })
+        let mut motion = Self::empty(recorder.gpu, field);
+        let still = vec![0.0; motion.solver.sphere().cells()];
+        motion.solver.seed(recorder, &still)?;
+        Ok(motion)
+    }
+
+    /// A flow whose state is yet to come.
+    pub(super) fn empty(gpu: &Gpu, field: &Field) -> Self {
+        Self { solver: FlowSolver::new(gpu, field.flow_grid().cells) }
     }
 
     /// Moves a film by one step from a time in seconds, that lasts some ticks.

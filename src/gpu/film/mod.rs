@@ -9,6 +9,7 @@
 //! Fields are stored panel by panel with halos. Passes compute halo cells like any others, for a place beyond a panel's edge is a place on the
 //! sphere; nothing is ever copied across edges.
 
+mod checkpoint;
 mod control;
 mod free;
 mod grid;
@@ -71,7 +72,7 @@ impl Rules {
     }
 }
 
-/// A film's field.
+/// A film's field. What its steps change is listed once, for checkpoints: in `checkpoint.rs`.
 pub struct Field {
     rules: Rules,
     film: Grid,
@@ -278,6 +279,7 @@ impl Field {
         self.black = None;
         self.has_moved = false;
         self.ticks_since_decision = 0;
+        self.diffusion = None;
         if self.rules.scheme.keeps_map() {
             let grid = self.map_grid();
             reset_map(recorder, "seed_field", grid, &self.map[0], grid.padded_groups().into())?;

@@ -8,10 +8,11 @@ use super::{
         trace_step::Step,
     },
     Field, FreeMotion, Rules, Surroundings,
+    checkpoint::Checkpoint,
 };
 use crate::{
     physics::film::{
-        PrescribedFlow,
+        InitialFilm, PrescribedFlow,
         properties::{BLACK_FILM_COLLAPSE, BLACK_FILM_ONSET},
     },
     plan::{BLACK_FILM_NM, FieldKey, FlowLaw, FreeFlow},
@@ -25,14 +26,22 @@ pub struct MovingFilm {
     /// Its thickness.
     pub field: Field,
     /// What moves it, once it has moved by itself.
-    motion: Option<FreeMotion>,
+    pub(super) motion: Option<FreeMotion>,
+    /// States to go back to, by slot.
+    pub(super) checkpoints: Vec<Checkpoint>,
 }
 
 impl MovingFilm {
     /// A film that has not moved yet.
     #[must_use]
     pub fn new(field: Field) -> Self {
-        Self { field, motion: None }
+        Self { field, motion: None, checkpoints: Vec::new() }
+    }
+
+    /// Sets the film to its beginning. Checkpoints stay.
+    pub fn seed(&mut self, recorder: &mut Recorder<'_>, initial: &InitialFilm) -> Result<(), GpuError> {
+        self.motion = None;
+        self.field.seed(recorder, initial.profile())
     }
 
     /// Moves the film by one of the history's steps.
@@ -58,7 +67,7 @@ impl MovingFilm {
         law: &mut LawInForce,
         (tick, ticks): (u64, u32),
     ) -> Result<(), GpuError> {
-        let Self { field, motion } = self;
+        let Self { field, motion, .. } = self;
         let end = tick as f64 + f64::from(ticks);
         field.diffuse(recorder.gpu, free.diffusion, key.tick_s);
         field.collapse(recorder.gpu, key.has_black_film(end).then(|| blackening(key, end)));

@@ -1,10 +1,12 @@
 //! The film's own motion on the device: vorticity and stream function under buoyancy, drag and viscosity. See its f64 twin,
 //! [`physics::flow`](crate::physics::flow), for the equations and the order of a step.
 
+mod checkpoint;
 mod multigrid;
 
 use bytemuck::{Pod, Zeroable};
 
+pub use checkpoint::FlowCheckpoint;
 pub(super) use multigrid::halo_entries;
 pub use multigrid::{CoarseLevel, CoarseUniform, SolveUniform};
 use multigrid::{Multigrid, System};
@@ -103,7 +105,8 @@ impl FlowGrid {
     }
 }
 
-/// Vorticity, stream function and velocity of a film, in padded storage. All of its methods but [`Self::new`] only record.
+/// Vorticity, stream function and velocity of a film, in padded storage. What its steps change is listed once, for checkpoints: in
+/// `checkpoint.rs`. All of its methods but [`Self::new`] only record.
 pub struct FlowSolver {
     grid: FlowGrid,
     multigrid: Multigrid,

@@ -251,16 +251,27 @@ impl FieldKey {
             && self.step_at(past.moment.tick).start == past.moment.tick
     }
 
+    /// Whether one film's past is the other's, as far as the earlier of their moments.
+    #[must_use]
+    pub fn shares_past(&self, other: &Self) -> bool {
+        let [earlier, later] = if self.moment.tick <= other.moment.tick { [self, other] } else { [other, self] };
+        !later.law_differs_until(earlier)
+    }
+
+    /// Whether both began alike and are moved in the same way: then they differ in their moments and in what drove them alone.
+    #[must_use]
+    pub fn is_same_film(&self, other: &Self) -> bool {
+        (self.cells, self.initial, self.tick_s, self.scheme, self.remap_ticks)
+            == (other.cells, other.initial, other.tick_s, other.scheme, other.remap_ticks)
+    }
+
     /// Whether anything that shaped the other film up to its moment is different in this one.
     #[must_use]
     pub fn law_differs_until(&self, other: &Self) -> bool {
         let end = other.moment.end_tick();
         let past = |key: &Self| key.flows.iter().filter(|segment| segment.from_tick < end).copied().collect::<Vec<_>>();
         let thinning = |key: &Self| key.evaporation.iter().filter(|(tick, _)| *tick < end).copied().collect::<Vec<_>>();
-        (self.cells, self.initial, self.tick_s, self.scheme, self.remap_ticks)
-            != (other.cells, other.initial, other.tick_s, other.scheme, other.remap_ticks)
-            || past(self) != past(other)
-            || thinning(self) != thinning(other)
+        !self.is_same_film(other) || past(self) != past(other) || thinning(self) != thinning(other)
     }
 }
 

@@ -1,0 +1,74 @@
+//! A film's state kept aside, so that the film can go on from there again with the same bits.
+
+use super::{
+    super::{copies::Copies, flow::FlowCheckpoint, timing::Recorder},
+    Field, FreeMotion, MovingFilm,
+};
+
+/// A film's state between two steps.
+pub struct Checkpoint {
+    field: FieldCheckpoint,
+    motion: Option<FlowCheckpoint>,
+}
+
+/// The state of a field.
+struct FieldCheckpoint {
+    buffers: Copies,
+    has_moved: bool,
+    ticks_since_decision: u32,
+    /// Law of diffusion.
+    diffusion: Option<(f64, f64)>,
+}
+
+impl MovingFilm {
+    /// Keeps the state in a slot, the next new one at most.
+    pub fn save(&mut self, recorder: &mut Recorder<'_>, slot: usize) {
+        let checkpoint = Checkpoint {
+            field: self.field.save(recorder),
+            motion: self.motion.as_ref().map(|motion| motion.solver.save(recorder)),
+        };
+        match self.checkpoints.get_mut(slot) {
+            Some(old) => *old = checkpoint,
+            None => self.checkpoints.push(checkpoint),
+        }
+    }
+
+    /// Makes the state of a slot the film's again; nothing for an empty slot.
+    pub fn restore(&mut self, recorder: &mut Recorder<'_>, slot: usize) {
+        let Self { field, motion, checkpoints } = self;
+        let Some(checkpoint) = checkpoints.get(slot) else { return };
+        field.restore(recorder, &checkpoint.field);
+        // A film that had not moved by itself then starts to with no motion.
+        let Some(flow) = &checkpoint.motion else {
+            *motion = None;
+            return;
+        };
+        motion.get_or_insert_with(|| FreeMotion::empty(recorder.gpu, field)).solver.restore(recorder, flow);
+    }
+}
+
+impl Field {
+    /// All on the device that steps change and later ones read.
+    fn state(&self) -> Vec<&wgpu::Buffer> {
+        self.kept_map().into_iter().chain([&self.tracer, &self.control.block]).collect()
+    }
+
+    fn save(&self, recorder: &mut Recorder<'_>) -> FieldCheckpoint {
+        FieldCheckpoint {
+            buffers: Copies::of(recorder, &self.state()),
+            has_moved: self.has_moved,
+            ticks_since_decision: self.ticks_since_decision,
+            diffusion: self.diffusion.as_ref().map(|diffusion| diffusion.law()),
+        }
+    }
+
+    fn restore(&mut self, recorder: &mut Recorder<'_>, checkpoint: &FieldCheckpoint) {
+        let FieldCheckpoint { buffers, has_moved, ticks_since_decision, diffusion } = checkpoint;
+        buffers.restore(recorder, &self.state());
+        (self.has_moved, self.ticks_since_decision) = (*has_moved, *ticks_since_decision);
+        match *diffusion {
+            Some((rad2_s, tick_s)) => self.diffuse(recorder.gpu, rad2_s, tick_s),
+            None => self.diffusion = None,
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! A flow's state kept aside, so that it can go on from there again with the same bits.
+
+use super::{
+    super::{copies::Copies, timing::Recorder},
+    FlowSolver,
+};
+
+/// A flow's state between two steps.
+pub struct FlowCheckpoint {
+    buffers: Copies,
+    has_history: bool,
+}
+
+impl FlowSolver {
+    /// All on the device that steps change and later ones read.
+    fn state(&self) -> [&wgpu::Buffer; 6] {
+        [&self.zeta, &self.psi, &self.psi_before, &self.velocity, &self.velocity_ahead, &self.measures]
+    }
+
+    /// Keeps the state aside.
+    #[must_use]
+    pub fn save(&self, recorder: &mut Recorder<'_>) -> FlowCheckpoint {
+        FlowCheckpoint { buffers: Copies::of(recorder, &self.state()), has_history: self.has_history }
+    }
+
+    /// Makes a state that was kept of a flow on the same grid this one's.
+    pub fn restore(&mut self, recorder: &mut Recorder<'_>, checkpoint: &FlowCheckpoint) {
+        checkpoint.buffers.restore(recorder, &self.state());
+        self.has_history = checkpoint.has_history;
+    }
+}
