@@ -11,7 +11,7 @@ use std::{fmt, ops::Range};
 
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw,
-    FlowSegment, FreeFlow, LightKey, Lighting, Moment, OpticsKey, TableKey, TonemapKey, range_nm,
+    FlowSegment, FreeFlow, LightKey, Lighting, Moment, OpticsKey, PushKey, TableKey, TonemapKey, range_nm,
 };
 pub use want::{Lamp, Resources, Shot, WantError, want};
 

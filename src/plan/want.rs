@@ -6,18 +6,21 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{
     BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment,
-    FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want, keys::evaporated_nm, range_nm,
+    FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, PushKey, TableKey, TonemapKey, Want, keys::evaporated_nm, range_nm,
 };
 use crate::{
     physics::{
+        bubble::CentrePath,
         colour::{Gamut, Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
-        film::InitialFilm,
+        film::{InitialFilm, Push, properties::air_drag},
         flow::{AIR_DRAG, FlowForces},
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
         transport::Scheme,
     },
-    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Motion, Scene, TransportScheme},
+    scene::{
+        Backdrop, Blow, Bubble, Change, Film, FilmIndexName, FilmStateName, Flow, Motion, Scene, Stir, TransportScheme,
+    },
 };
 
 /// What a scene names and somebody has loaded.
@@ -197,16 +200,16 @@ const SMALLEST_FIELD_PIXELS: f64 = 0.75;
 
 /// A bubble as the picture sees it, if any pixel can.
 fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
-    let centre_m = DVec3::from(bubble.center_m);
+    let ticks = shot.moment.tick as f64 + shot.moment.fraction;
+    let centre_m = centre_path(scene, index, bubble).at(ticks * scene.motion.tick_s).place_m;
     let radius_m = bubble.radius_mm * 1e-3;
     let bounds = bounds(camera, shot.size, centre_m, radius_m)?;
     let distance = centre_m.distance(camera.eye_m).max(radius_m);
     let radius_pixels = radius_m / distance / camera.pixel_height_m;
-    let film = match film(scene, bubble, shot.moment) {
+    let film = match film(scene, index, bubble, shot.moment) {
         FilmKey::Field(_) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(bubble.film.thickness_nm),
         film => film,
     };
-    let ticks = shot.moment.tick as f64 + shot.moment.fraction;
     Some(BubbleKey {
         index,
         centre_m,
@@ -274,7 +277,7 @@ fn samples(radius_pixels: f64) -> u32 {
     }
 }
 
-fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
+fn film(scene: &Scene, index: usize, bubble: &Bubble, moment: Moment) -> FilmKey {
     let film = &bubble.film;
     let thickness_nm = film.thickness_nm;
     let initial = match film.state {
@@ -290,6 +293,10 @@ fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
     let is_free = flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_)));
     let mut evaporation = if is_free { evaporation(scene) } else { Vec::new() };
     evaporation.retain(|(tick, _)| *tick < moment.end_tick());
+    let mut pushes = if is_free { pushes(scene, index, bubble) } else { Vec::new() };
+    pushes.retain(|push| push.ticks.start < moment.end_tick());
+    let end_s = moment.end_tick() as f64 * scene.motion.tick_s;
+    let path = if is_free { path_in_radii(scene, index, bubble).until(end_s) } else { CentrePath::default() };
     FilmKey::Field(FieldKey {
         cells: film.cells,
         initial,
@@ -298,8 +305,71 @@ fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
         remap_ticks: scene.motion.remap_ticks,
         evaporation,
         flows,
+        pushes,
+        path,
         moment,
     })
+}
+
+/// Where the centre of a bubble goes, in metres.
+#[must_use]
+pub fn centre_path(scene: &Scene, index: usize, bubble: &Bubble) -> CentrePath {
+    CentrePath::new(bubble.center_m.into(), jumps(scene, index))
+}
+
+/// The same from where it began, in radii.
+fn path_in_radii(scene: &Scene, index: usize, bubble: &Bubble) -> CentrePath {
+    let in_radii = |place_m: DVec3| (place_m - DVec3::from(bubble.center_m)) / (bubble.radius_mm * 1e-3);
+    CentrePath::new(DVec3::ZERO, jumps(scene, index).map(|(time_s, place_m)| (time_s, in_radii(place_m))))
+}
+
+/// Where a bubble is dragged, from when on, in seconds.
+fn jumps(scene: &Scene, index: usize) -> impl Iterator<Item = (f64, DVec3)> {
+    scene.events.iter().filter_map(move |event| match &event.change {
+        Change::Drag(drag) if drag.bubble == index => {
+            Some((event.tick as f64 * scene.motion.tick_s, DVec3::from(drag.to_m)))
+        }
+        _ => None,
+    })
+}
+
+/// What pushes the film of a bubble.
+fn pushes(scene: &Scene, index: usize, bubble: &Bubble) -> Vec<PushKey> {
+    let of_bubble = scene.events.iter().filter(|event| event.change.bubble() == Some(index));
+    let pushes = of_bubble.filter_map(|event| {
+        let (push, ticks) = match &event.change {
+            Change::Stir(stir) => (stir_push(stir, bubble, scene.motion.tick_s), stir.ticks),
+            Change::Blow(blow) => (blow_push(blow, bubble), blow.ticks),
+            _ => return None,
+        };
+        Some(PushKey { push, ticks: event.tick..event.tick.saturating_add(ticks) })
+    });
+    pushes.collect()
+}
+
+/// The rate of a stir times its duration: with half of a push taken up by the film's tension, what it leaves undone of the velocity in the
+/// middle is e to the minus half of this.
+const STIR: f64 = 4.0;
+
+fn stir_push(stir: &Stir, bubble: &Bubble, tick_s: f64) -> Push {
+    Push {
+        centre: DVec3::from(stir.at).normalize(),
+        sharpness: Push::sharpness_of(stir.radius_deg.to_radians()),
+        velocity: DVec3::from(stir.velocity_m_s) / (bubble.radius_mm * 1e-3),
+        rate: STIR / (stir.ticks as f64 * tick_s),
+    }
+}
+
+/// A jet's boundary layer, on one side of the film, as long as the jet is wide; on film of the bubble's mean thickness.
+fn blow_push(blow: &Blow, bubble: &Bubble) -> Push {
+    let radius_m = bubble.radius_mm * 1e-3;
+    let half_angle = blow.radius_deg.to_radians();
+    Push {
+        centre: DVec3::from(blow.at).normalize(),
+        sharpness: Push::sharpness_of(half_angle),
+        velocity: blow.speed_m_s / radius_m * DVec3::from(blow.toward).normalize(),
+        rate: 0.5 * air_drag(1e-9 * bubble.film.thickness_nm, blow.speed_m_s, half_angle * radius_m),
+    }
 }
 
 /// A scene's seed as the generators take it: seeds below 2³² are themselves.
@@ -309,7 +379,8 @@ fn fold_seed(seed: u64) -> u32 {
 
 /// Ticks at which the motion may change, the first included.
 fn changes(scene: &Scene) -> impl Iterator<Item = u64> {
-    std::iter::once(0).chain(scene.events.iter().map(|event| event.tick))
+    let changing = scene.events.iter().filter(|event| matches!(event.change, Change::Motion(_)));
+    std::iter::once(0).chain(changing.map(|event| event.tick))
 }
 
 /// What evaporates from the films, from which tick on, each entry where it differs from the one before.

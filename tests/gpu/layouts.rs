@@ -12,7 +12,7 @@ use soapfilm::{
         decide_remap::DecideUniform,
         diffuse::DiffuseUniform,
         draw::{BubbleUniform, LightUniform, ViewUniform},
-        film::{BalanceBlock, ControlBlock, GustsUniform, RemapArguments, ThicknessUniform},
+        film::{BalanceBlock, ControlBlock, GustsUniform, PushesUniform, RemapArguments, ThicknessUniform},
         flow::{CoarseLevel, CoarseUniform, CombineUniform, FlowMeasures, FlowUniform, SolveUniform},
         probe_colour::ProbePoint,
         sample_tracer::SampleUniform,
@@ -20,7 +20,7 @@ use soapfilm::{
         trace_step::{SolvedUniform, StepUniform, WindMoment},
     },
     physics::{
-        film::{FrozenVortex, FrozenWave},
+        film::{FrozenPush, FrozenVortex, FrozenWave},
         sphere::HaloEntry,
     },
 };
@@ -255,6 +255,8 @@ fn mirrors() -> Vec<Mirror> {
             waves = waves,
             vortices = vortices
         ),
+        mirror!("Pushes", PushesUniform, cells = cells, count = count, pushes = pushes),
+        mirror!("Push", FrozenPush, centre_sharpness = centre, velocity_rate = velocity),
         mirror!("WindMoment", WindMoment, shift_sin = shift_sin, shift_cos = shift_cos, reversal = reversal),
         mirror!("Wave", FrozenWave, k_phase = k, gain = amplitude),
         mirror!("Vortex", FrozenVortex, centre_sharpness = center, gain = strength),

@@ -4,6 +4,6 @@ mod film;
 mod optics;
 mod picture;
 
-pub use film::{BLACK_FILM_NM, FieldKey, FilmKey, FlowLaw, FlowSegment, FreeFlow, Moment, evaporated_nm};
+pub use film::{BLACK_FILM_NM, FieldKey, FilmKey, FlowLaw, FlowSegment, FreeFlow, Moment, PushKey, evaporated_nm};
 pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
 pub use picture::{BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey};
