@@ -3,7 +3,7 @@
 
 import package::camera::view::{View, pixel_angle, view_plane};
 import package::film::control::{Balance, balanced};
-import package::film::hole::{Rim, angle_from, meridian_of, mixed, pierced, HOLE_MERIDIANS};
+import package::film::hole::{HOLE_MERIDIANS, Rim, TAU, angle_from, meridian_of, mixed, pierced};
 import package::film::shown::film_at;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
 import package::optics::airy::{cos_refracted, surface_reflectance};
@@ -66,7 +66,6 @@ struct Bubble {
 @group(0) @binding(13) var<storage, read> hole_middle: vec4f;
 @group(0) @binding(14) var<storage, read> hole_rim: array<Rim>;
 
-const TAU: f32 = 6.2831853;
 // Sides of the polygons that rings are made of.
 override SIDES: u32;
 

@@ -30,7 +30,17 @@ fn begin(scene: &mut Scene, change: &MotionChange) {
 /// What happens at an event, in a line for people.
 #[must_use]
 pub fn describe(event: &Event, tick_s: f64) -> String {
-    let Change::Motion(change) = &event.change;
+    let what = match &event.change {
+        Change::Motion(change) => describe_motion(change),
+        Change::Stir(_) => "stirred".to_owned(),
+        Change::Blow(_) => "blown at".to_owned(),
+        Change::Drag(_) => "dragged".to_owned(),
+        Change::Prick(_) => "pricked".to_owned(),
+    };
+    format!("{:.2} s: {what}", event.tick as f64 * tick_s)
+}
+
+fn describe_motion(change: &MotionChange) -> String {
     let parts = [
         change.flow.map(|flow| flow_name(flow).to_owned()),
         change.strength.map(|strength| format!("strength {strength}")),
@@ -41,8 +51,7 @@ pub fn describe(event: &Event, tick_s: f64) -> String {
         change.drag_1_s.map(|rate| format!("drag {rate} 1/s")),
         change.air_drag.map(|factor| format!("air drag {factor}")),
     ];
-    let parts = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
-    format!("{:.2} s: {parts}", event.tick as f64 * tick_s)
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
 /// A flow's name, as scene files have it.

@@ -167,6 +167,13 @@ impl Renderer {
         Ok(Some((film.field.sphere(), Readback::of_buffer(&self.gpu, &values, values.size()))))
     }
 
+    /// Starts to bring back the rim of the hole in a film that bursts: a [`RimValue`](super::open_hole::RimValue) for each meridian.
+    #[must_use]
+    pub fn read_hole(&self, film: usize) -> Option<Readback> {
+        let hole = self.products.holes.get(film)?.as_ref()?;
+        Some(Readback::of_buffer(&self.gpu, &hole.rim, hole.rim.size()))
+    }
+
     fn run(&mut self, pass: &Pass) -> Result<(), GpuError> {
         match pass {
             Pass::UploadEnvironment { light, key } => {

@@ -50,6 +50,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "pass/flow_gusts",
     "pass/flow_halo",
     "pass/flow_measure",
+    "pass/flow_push",
     "pass/flow_residual",
     "pass/flow_sweep",
     "pass/flow_thickness",

@@ -3,6 +3,7 @@
 //! Each formula stands here once more than in the shaders, on purpose: this copy is the truth, WGSL is the fast copy, and tests tie
 //! the two together.
 
+pub mod bubble;
 pub mod colour;
 pub mod environment;
 pub mod film;

@@ -15,7 +15,8 @@ use std::{fmt, ops::Range};
 pub use checkpoints::Checkpoints;
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw,
-    FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, TableKey, TonemapKey, range_nm,
+    FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, TableKey, TonemapKey,
+    range_nm,
 };
 pub use want::{Lamp, Resources, Shot, WantError, want};
 

@@ -6,21 +6,27 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{
     BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment,
-    FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, TableKey, TonemapKey, Want,
+    FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, PushKey, TableKey, TonemapKey, Want,
     keys::evaporated_nm,
     lives::{Life, life, since},
     range_nm,
 };
 use crate::{
     physics::{
+        bubble::CentrePath,
         colour::{Gamut, Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
-        film::{InitialFilm, properties::evaporation_rate},
+        film::{
+            InitialFilm, Push,
+            properties::{air_drag, evaporation_rate},
+        },
         flow::{AIR_DRAG, FlowForces},
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
         transport::Scheme,
     },
-    scene::{Backdrop, Bubble, Film, FilmIndexName, FilmStateName, Flow, Motion, Scene, TransportScheme},
+    scene::{
+        Backdrop, Blow, Bubble, Change, Film, FilmIndexName, FilmStateName, Flow, Motion, Scene, Stir, TransportScheme,
+    },
 };
 
 /// What a scene names and somebody has loaded.
@@ -200,13 +206,14 @@ const SMALLEST_FIELD_PIXELS: f64 = 0.75;
 
 /// A bubble as the picture sees it, if any pixel can.
 fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
-    let centre_m = DVec3::from(bubble.center_m);
+    let ticks = shot.moment.tick as f64 + shot.moment.fraction;
+    let centre_m = centre_path(scene, index, bubble).at(ticks * scene.motion.tick_s).place_m;
     let radius_m = bubble.radius_mm * 1e-3;
     let bounds = bounds(camera, shot.size, centre_m, radius_m)?;
     let distance = centre_m.distance(camera.eye_m).max(radius_m);
     let radius_pixels = radius_m / distance / camera.pixel_height_m;
     let life = life(scene, index, shot.moment)?;
-    let film = match film(scene, bubble, &life) {
+    let film = match film(scene, index, bubble, &life) {
         FilmKey::Field(_) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(bubble.film.thickness_nm),
         film => film,
     };
@@ -295,7 +302,7 @@ pub(super) fn initial_film(bubble: &Bubble, generation: u32) -> InitialFilm {
     }
 }
 
-fn film(scene: &Scene, bubble: &Bubble, life: &Life) -> FilmKey {
+fn film(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) -> FilmKey {
     let initial = initial_film(bubble, life.generation);
     if let InitialFilm::Uniform { thickness_nm } = initial {
         return FilmKey::Uniform(thickness_nm);
@@ -310,6 +317,11 @@ fn film(scene: &Scene, bubble: &Bubble, life: &Life) -> FilmKey {
     let is_free = flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_)));
     let mut evaporation = if is_free { since(life.born, &evaporation(scene, radius_m)) } else { Vec::new() };
     evaporation.retain(|(tick, _)| *tick < moment.end_tick());
+    let mut pushes = if is_free { pushes(scene, index, bubble, life.born) } else { Vec::new() };
+    pushes.retain(|push| push.ticks.start < moment.end_tick());
+    let end_s = moment.end_tick() as f64 * scene.motion.tick_s;
+    let path =
+        if is_free { path_in_radii(scene, index, bubble, life.born).until(end_s) } else { CentrePath::default() };
     FilmKey::Field(FieldKey {
         cells: bubble.film.cells,
         initial,
@@ -318,8 +330,75 @@ fn film(scene: &Scene, bubble: &Bubble, life: &Life) -> FilmKey {
         remap_ticks: scene.motion.remap_ticks,
         evaporation,
         flows,
+        pushes,
+        path,
         moment,
     })
+}
+
+/// Where the centre of a bubble goes, in metres.
+#[must_use]
+pub fn centre_path(scene: &Scene, index: usize, bubble: &Bubble) -> CentrePath {
+    CentrePath::new(bubble.center_m.into(), jumps(scene, index))
+}
+
+/// The same from where it is at a tick, at which it rests, in radii and from then on.
+fn path_in_radii(scene: &Scene, index: usize, bubble: &Bubble, born: u64) -> CentrePath {
+    let born_s = born as f64 * scene.motion.tick_s;
+    let in_radii = |place_m: DVec3| (place_m - DVec3::from(bubble.center_m)) / (bubble.radius_mm * 1e-3);
+    let jumps = jumps(scene, index).filter(|(time_s, _)| *time_s >= born_s);
+    let start = in_radii(centre_path(scene, index, bubble).at(born_s).place_m);
+    CentrePath::new(start, jumps.map(|(time_s, place_m)| (time_s - born_s, in_radii(place_m))))
+}
+
+/// Where a bubble is dragged, from when on, in seconds.
+fn jumps(scene: &Scene, index: usize) -> impl Iterator<Item = (f64, DVec3)> {
+    scene.events.iter().filter_map(move |event| match &event.change {
+        Change::Drag(drag) if drag.bubble == index => {
+            Some((event.tick as f64 * scene.motion.tick_s, DVec3::from(drag.to_m)))
+        }
+        _ => None,
+    })
+}
+
+/// What pushes the film of a bubble that was blown at a tick, from which its ticks count.
+fn pushes(scene: &Scene, index: usize, bubble: &Bubble, born: u64) -> Vec<PushKey> {
+    let of_bubble = scene.events.iter().filter(|event| event.change.bubble() == Some(index));
+    let pushes = of_bubble.filter_map(|event| {
+        let (push, ticks) = match &event.change {
+            Change::Stir(stir) => (stir_push(stir, bubble, scene.motion.tick_s), stir.ticks),
+            Change::Blow(blow) => (blow_push(blow, bubble), blow.ticks),
+            _ => return None,
+        };
+        let end = event.tick.saturating_add(ticks);
+        (end > born).then(|| PushKey { push, ticks: event.tick.saturating_sub(born)..end - born })
+    });
+    pushes.collect()
+}
+
+/// The rate of a stir times its duration: with half of a push taken up by the film's tension, what it leaves undone of the velocity in the
+/// middle is e to the minus half of this.
+const STIR: f64 = 4.0;
+
+fn stir_push(stir: &Stir, bubble: &Bubble, tick_s: f64) -> Push {
+    Push {
+        centre: DVec3::from(stir.at).normalize(),
+        sharpness: Push::sharpness_of(stir.radius_deg.to_radians()),
+        velocity: DVec3::from(stir.velocity_m_s) / (bubble.radius_mm * 1e-3),
+        rate: STIR / (stir.ticks as f64 * tick_s),
+    }
+}
+
+/// A jet's boundary layer, on one side of the film, as long as the jet is wide; on film of the bubble's mean thickness.
+fn blow_push(blow: &Blow, bubble: &Bubble) -> Push {
+    let radius_m = bubble.radius_mm * 1e-3;
+    let half_angle = blow.radius_deg.to_radians();
+    Push {
+        centre: DVec3::from(blow.at).normalize(),
+        sharpness: Push::sharpness_of(half_angle),
+        velocity: blow.speed_m_s / radius_m * DVec3::from(blow.toward).normalize(),
+        rate: 0.5 * air_drag(1e-9 * bubble.film.thickness_nm, blow.speed_m_s, half_angle * radius_m),
+    }
 }
 
 /// A scene's seed as the generators take it: seeds below 2³² are themselves.
@@ -329,7 +408,8 @@ pub(super) fn fold_seed(seed: u64) -> u32 {
 
 /// Ticks at which the motion may change, the first included.
 fn changes(scene: &Scene) -> impl Iterator<Item = u64> {
-    std::iter::once(0).chain(scene.events.iter().map(|event| event.tick))
+    let changing = scene.events.iter().filter(|event| matches!(event.change, Change::Motion(_)));
+    std::iter::once(0).chain(changing.map(|event| event.tick))
 }
 
 /// What evaporates from the film of a bubble, in nm/s, from which tick on, each entry where it differs from the one before.

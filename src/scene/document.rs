@@ -2,7 +2,7 @@
 
 use super::check::{KeyPath, Step};
 use super::error::{Located, Problem};
-use super::{Bubble, Change, Event, Flow, Light, LightPatch, MotionChange, Scene, VERSION, View};
+use super::{Bubble, Change, Event, Light, LightPatch, Scene, VERSION, View};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
@@ -41,16 +41,6 @@ fn check_version(document: &DeTable, text: &str) -> Result<(), Located> {
 
 /// Every key a scene can have, as the TOML of a scene where nothing is absent. A key forgotten here fails the round trip of random scenes.
 pub(super) fn every_key() -> Table {
-    let everything = MotionChange {
-        flow: Some(Flow::Rest),
-        strength: Some(1.0),
-        seed: Some(1),
-        spin_deg_s: Some([0.0; 3]),
-        evaporation_nm_s: Some(0.0),
-        gravity_m_s2: Some([0.0; 3]),
-        drag_1_s: Some(0.0),
-        air_drag: Some(0.0),
-    };
     let scene = Scene {
         bubbles: vec![Bubble::default()],
         light: Light {
@@ -59,7 +49,7 @@ pub(super) fn every_key() -> Table {
             ..Light::default()
         },
         view: View { polariser_deg: Some(0.0), ..View::default() },
-        events: vec![Event { tick: 0, change: Change::Motion(everything) }],
+        events: Change::every_key().map(|change| Event { tick: 0, change }).into(),
         ..Scene::default()
     };
     // Structs with named fields always make a table.
@@ -91,14 +81,20 @@ fn find_strays(table: &DeTable, known: &Table, path: &KeyPath, strays: &mut Vec<
 }
 
 fn find_strays_in_items(items: &[Spanned<DeValue>], known: &[Value], path: &KeyPath, strays: &mut Vec<Located>) {
-    let Some(Value::Table(known)) = known.first() else {
-        return;
-    };
     for (index, item) in items.iter().enumerate() {
-        if let DeValue::Table(table) = item.get_ref() {
+        let DeValue::Table(table) = item.get_ref() else { continue };
+        if let Some(known) = known_item(table, known) {
             find_strays(table, known, &path.item(index), strays);
         }
     }
+}
+
+/// The known item of a list that an item must be like: the one of its kind, where items have kinds. Nothing if there is no such kind, which
+/// is another error.
+fn known_item<'a>(table: &DeTable, known: &'a [Value]) -> Option<&'a Table> {
+    let kind = table.get("kind").and_then(|kind| kind.get_ref().as_str());
+    let mut known = known.iter().filter_map(Value::as_table);
+    known.find(|item| item.get("kind").is_none_or(|known| known.as_str() == kind))
 }
 
 fn shape_error(offset: usize, path: &KeyPath, header: String) -> Located {

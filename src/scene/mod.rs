@@ -11,6 +11,7 @@ mod camera;
 mod check;
 mod document;
 mod error;
+mod event;
 mod light;
 mod motion;
 mod preset;
@@ -20,8 +21,9 @@ mod tests;
 pub use bubble::{Bubble, Film, FilmIndexName, FilmStateName};
 pub use camera::Camera;
 pub use error::{Problem, SceneError};
+pub use event::{Blow, Change, Drag, Event, MotionChange, Prick, Stir};
 pub use light::{Backdrop, Environment, Light, LightPatch, MAX_PATCHES, Quality, View};
-pub use motion::{Change, Event, Flow, Motion, MotionChange, TransportScheme};
+pub use motion::{Flow, Motion, TransportScheme};
 pub use preset::{preset, preset_names, preset_toml};
 
 use check::{Checked, Fault};
@@ -106,6 +108,7 @@ impl Scene {
         let past = self.events.iter().take_while(|event| event.tick <= tick);
         past.fold(self.motion.clone(), |motion, event| match &event.change {
             Change::Motion(change) => change.applied_to(motion),
+            _ => motion,
         })
     }
 
@@ -117,7 +120,7 @@ impl Scene {
         self.light.check().map_err(|fault| fault.inside("light"))?;
         self.view.check().map_err(|fault| fault.inside("view"))?;
         self.motion.check().map_err(|fault| fault.inside("motion"))?;
-        check::each("event", &self.events, Event::check)?;
+        check::each("event", &self.events, |event| event.check(self.bubbles.len()))?;
         self.check_order()
     }
 

@@ -115,6 +115,7 @@ impl Sorting {
                 viscosity: self.viscosity_m2_s / RADIUS_M.powi(2),
             },
             air: &PrescribedFlow::default(),
+            pushes: &[],
             mean_nm: field.mean(),
             thinned_nm: 0.0,
             black_nm: 1.0,

@@ -13,15 +13,16 @@ use soapfilm::{
         decide_remap::DecideUniform,
         diffuse::DiffuseUniform,
         draw::{BubbleUniform, LightUniform, ViewUniform},
-        film::{BalanceBlock, ControlBlock, GustsUniform, RemapArguments, ThicknessUniform},
+        film::{BalanceBlock, ControlBlock, GustsUniform, PushesUniform, RemapArguments, ThicknessUniform},
         flow::{CoarseLevel, CoarseUniform, CombineUniform, FlowMeasures, FlowUniform, SolveUniform},
+        open_hole::{OpenHoleUniform, RimValue},
         probe_colour::ProbePoint,
         sample_tracer::SampleUniform,
         tonemap::TonemapUniform,
         trace_step::{SolvedUniform, StepUniform, WindMoment},
     },
     physics::{
-        film::{FrozenVortex, FrozenWave},
+        film::{FrozenPush, FrozenVortex, FrozenWave},
         sphere::HaloEntry,
     },
 };
@@ -120,6 +121,27 @@ fn mirrors() -> Vec<Mirror> {
         ),
         mirror!("Compose", ComposeUniform, cells = cells, step_cells = step_cells),
         mirror!("Sample", SampleUniform, cells = cells, map_cells = map_cells, tracer_cells = tracer_cells),
+        mirror!(
+            "OpenHole",
+            OpenHoleUniform,
+            middle = middle,
+            seconds = seconds,
+            delay = delay,
+            radius_nm = radius_nm,
+            cells = cells,
+            thickness_nm = thickness_nm,
+            thinned_nm = thinned_nm,
+            black_nm = black_nm,
+            seeks = seeks
+        ),
+        mirror!(
+            "Rim",
+            RimValue,
+            outer_rad = outer_rad,
+            inner_rad = inner_rad,
+            thickness_nm = thickness_nm,
+            padding = padding
+        ),
         mirror!(
             "Blacken",
             BlackenUniform,
@@ -266,6 +288,8 @@ fn mirrors() -> Vec<Mirror> {
             waves = waves,
             vortices = vortices
         ),
+        mirror!("Pushes", PushesUniform, cells = cells, count = count, pushes = pushes),
+        mirror!("Push", FrozenPush, centre_sharpness = centre, velocity_rate = velocity),
         mirror!("WindMoment", WindMoment, shift_sin = shift_sin, shift_cos = shift_cos, reversal = reversal),
         mirror!("Wave", FrozenWave, k_phase = k, gain = amplitude),
         mirror!("Vortex", FrozenVortex, centre_sharpness = center, gain = strength),

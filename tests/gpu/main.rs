@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod bursting;
 mod far;
 mod flow;
 mod history;

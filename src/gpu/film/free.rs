@@ -7,7 +7,7 @@ use super::{
     Field,
 };
 use crate::physics::{
-    film::{FrozenFlow, FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow},
+    film::{FrozenFlow, FrozenPush, FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Push},
     flow::{FlowForces, MIN_AIR_SPEED},
 };
 
@@ -46,12 +46,30 @@ pub struct GustsUniform {
     pub vortices: [FrozenVortex; MAX_VORTICES],
 }
 
+/// Pushes that one pass takes.
+const MAX_PUSHES: usize = 32;
+
+/// See `shaders/pass/flow_push.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct PushesUniform {
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    /// Pushes in use.
+    pub count: u32,
+    pad: [u32; 2],
+    /// Pushes; those in use come first.
+    pub pushes: [FrozenPush; MAX_PUSHES],
+}
+
 /// What a free film is subject to during a step.
 pub struct Surroundings<'a> {
     /// Gravity, drag and viscosity.
     pub forces: FlowForces,
     /// The air's own motion.
     pub air: &'a PrescribedFlow,
+    /// What pushes the film in this step.
+    pub pushes: &'a [Push],
     /// Mean thickness, which says how well the air drags the film along, nm.
     pub mean_nm: f64,
     /// What has evaporated from the film, nm.
@@ -90,6 +108,7 @@ impl FreeMotion {
     ) -> Result<(), GpuError> {
         self.feel(recorder, field, around)?;
         self.blow(recorder, field, around, from_s)?;
+        self.push(recorder, field, around.pushes)?;
         self.solver.step(recorder, dt_s, &around.forces)?;
         field.advance(recorder, &self.ahead(dt_s), ticks)
     }
@@ -143,6 +162,24 @@ impl FreeMotion {
         let bound = [&uniform, &flow.tangents, self.solver.forcing()].map(wgpu::Buffer::as_entire_binding);
         let key = ComputeKey { pass: "flow_gusts", entry: "flow_gusts", constants: vec![] };
         recorder.compute("step_flow", &key, &bound, flow.cell_groups().into())
+    }
+
+    /// Adds what pushes the film to what the air does.
+    fn push(&self, recorder: &mut Recorder<'_>, field: &Field, pushes: &[Push]) -> Result<(), GpuError> {
+        let flow = field.flow_grid();
+        for some in pushes.chunks(MAX_PUSHES) {
+            let mut uniform = PushesUniform { cells: flow.cells, count: some.len() as u32, ..PushesUniform::zeroed() };
+            for (slot, push) in uniform.pushes.iter_mut().zip(some) {
+                *slot = push.frozen();
+            }
+            let uniform = recorder.gpu.uniform("pushes", &uniform);
+            let Self { solver } = self;
+            let bound = [&uniform, &flow.tangents, solver.velocity(), solver.zeta(), solver.forcing()];
+            let key = ComputeKey { pass: "flow_push", entry: "flow_push", constants: vec![] };
+            let bound = bound.map(wgpu::Buffer::as_entire_binding);
+            recorder.compute("step_flow", &key, &bound, flow.cell_groups().into())?;
+        }
+        Ok(())
     }
 }
 

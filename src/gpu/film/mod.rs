@@ -16,7 +16,7 @@ mod grid;
 mod moving;
 
 pub use control::{BalanceBlock, Control, ControlBlock, RemapArguments};
-pub use free::{FreeMotion, GustsUniform, Surroundings, ThicknessUniform};
+pub use free::{FreeMotion, GustsUniform, PushesUniform, Surroundings, ThicknessUniform};
 pub use grid::{FilmTexture, Grid};
 pub use moving::{LawInForce, MovingFilm, rules};
 

@@ -76,13 +76,15 @@ impl MovingFilm {
             None => motion.insert(FreeMotion::new(recorder, field)?),
         };
         // Where even a tick is longer than the flow's steps may be, it is several; the film counts its ticks once.
-        let parts = (f64::from(ticks) * key.tick_s / free.longest_step_s()).ceil().clamp(1.0, MOST_PARTS_A_STEP);
+        let felt = free.accelerated(key.acceleration_during(tick as f64, tick as f64 + f64::from(ticks)));
+        let parts = (f64::from(ticks) * key.tick_s / felt.longest_step_s()).ceil().clamp(1.0, MOST_PARTS_A_STEP);
         let dt_ticks = f64::from(ticks) / parts;
         for part in 0..parts as u32 {
             let now = tick as f64 + f64::from(part) * dt_ticks;
             let around = Surroundings {
-                forces: free.forces,
+                forces: free.accelerated(key.acceleration_during(now, now + dt_ticks)).forces,
                 air: law.flow(key, tick),
+                pushes: &key.pushes_during(now, now + dt_ticks),
                 mean_nm: field.mean(),
                 thinned_nm: key.thinned_nm(now + 0.5 * dt_ticks),
                 black_nm: BLACK_FILM_NM,

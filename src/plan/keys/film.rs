@@ -5,7 +5,8 @@ use std::{fmt, ops::Range};
 use glam::DVec3;
 
 use crate::physics::{
-    film::{InitialFilm, PrescribedFlow, properties::BLACK_FILM_ONSET},
+    bubble::CentrePath,
+    film::{InitialFilm, PrescribedFlow, Push, properties::BLACK_FILM_ONSET},
     flow::FlowForces,
     sphere::CubedSphere,
     transport::Scheme,
@@ -99,6 +100,13 @@ pub struct FreeFlow {
 }
 
 impl FreeFlow {
+    /// The same in a bubble that is accelerated, by so many radii a second squared: gravity is less by that.
+    #[must_use]
+    pub fn accelerated(self, acceleration: DVec3) -> Self {
+        let gravity = self.forces.gravity - acceleration;
+        Self { forces: FlowForces { gravity, ..self.forces }, ..self }
+    }
+
     /// The longest step of the flow in seconds: a quarter of a radian of the fastest wave of buoyancy in film whose ln h changes by 1 a
     /// radian, at which film with 60 times as steep changes is still stable.
     #[must_use]
@@ -155,6 +163,23 @@ pub struct FlowSegment {
     pub law: FlowLaw,
 }
 
+/// A push on a film, and when it acts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PushKey {
+    /// The push.
+    pub push: Push,
+    /// The ticks during which it acts.
+    pub ticks: Range<u64>,
+}
+
+impl PushKey {
+    /// What the push is for a step between two times in ticks of a length in seconds, if it acts in it.
+    fn in_step(&self, tick_s: f64, from_ticks: f64, to_ticks: f64) -> Option<Push> {
+        let acting = to_ticks.min(self.ticks.end as f64) - from_ticks.max(self.ticks.start as f64);
+        (acting > 0.0).then(|| self.push.in_step(acting * tick_s, (to_ticks - from_ticks) * tick_s))
+    }
+}
+
 /// A film whose thickness varies: how it began, what drove it, and the moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldKey {
@@ -172,6 +197,10 @@ pub struct FieldKey {
     pub evaporation: Vec<(u64, f64)>,
     /// Laws in the order of their ticks, as far as the moment has seen them; the first holds from tick 0.
     pub flows: Vec<FlowSegment>,
+    /// What pushes it, in the order of first ticks; empty for films that nothing can push.
+    pub pushes: Vec<PushKey>,
+    /// Where the bubble goes, in radii, which a film that moves by itself feels.
+    pub path: CentrePath,
     /// The moment.
     pub moment: Moment,
 }
@@ -205,6 +234,18 @@ impl FieldKey {
     #[must_use]
     pub fn has_black_film(&self, ticks: f64) -> bool {
         self.initial.range_nm().0 - self.thinned_nm(ticks) < 1e9 * BLACK_FILM_ONSET
+    }
+
+    /// What pushes the film in a step between two times in ticks.
+    #[must_use]
+    pub fn pushes_during(&self, from_ticks: f64, to_ticks: f64) -> Vec<Push> {
+        self.pushes.iter().filter_map(|push| push.in_step(self.tick_s, from_ticks, to_ticks)).collect()
+    }
+
+    /// The bubble's mean acceleration between two times in ticks, over its radius: 1/s².
+    #[must_use]
+    pub fn acceleration_during(&self, from_ticks: f64, to_ticks: f64) -> DVec3 {
+        self.path.mean_acceleration(from_ticks * self.tick_s, to_ticks * self.tick_s)
     }
 
     /// The last tick until the moment at which a step ends: where the film's state stands. What the moment is beyond it, the shown
@@ -270,8 +311,13 @@ impl FieldKey {
     pub fn law_differs_until(&self, other: &Self) -> bool {
         let end = other.moment.end_tick();
         let past = |key: &Self| key.flows.iter().filter(|segment| segment.from_tick < end).copied().collect::<Vec<_>>();
+        let pushes = |key: &Self| key.pushes.iter().filter(|push| push.ticks.start < end).cloned().collect::<Vec<_>>();
         let thinning = |key: &Self| key.evaporation.iter().filter(|(tick, _)| *tick < end).copied().collect::<Vec<_>>();
-        !self.is_same_film(other) || past(self) != past(other) || thinning(self) != thinning(other)
+        !self.is_same_film(other)
+            || past(self) != past(other)
+            || thinning(self) != thinning(other)
+            || pushes(self) != pushes(other)
+            || self.path.until(end as f64 * self.tick_s) != other.path.until(end as f64 * self.tick_s)
     }
 }
 

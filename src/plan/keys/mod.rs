@@ -5,8 +5,8 @@ mod optics;
 mod picture;
 
 pub use film::{
-    BLACK_FILM_NM, FieldKey, FilmKey, FlowLaw, FlowSegment, FreeFlow, HoleKey, Moment, OpenHoleKey, evaporated_nm,
-    thins_at_tick,
+    BLACK_FILM_NM, FieldKey, FilmKey, FlowLaw, FlowSegment, FreeFlow, HoleKey, Moment, OpenHoleKey, PushKey,
+    evaporated_nm, thins_at_tick,
 };
 pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
 pub use picture::{BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey};

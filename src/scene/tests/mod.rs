@@ -15,7 +15,8 @@ fn documented() -> Vec<[&'static str; 4]> {
     let mut rows = Vec::new();
     for line in include_str!("../../../assets/scenes/README.md").lines() {
         if let Some(header) = line.strip_prefix("## ") {
-            section = header.trim_matches(['`', '[', ']']);
+            // Keys of a kind of event stand below the last thing named: `kind = "stir"`.
+            section = header.trim_matches('`').rsplit('`').next().unwrap_or_default().trim_matches(['[', ']']);
         }
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
         if let ["", key, default, range, _, ""] = cells[..]
@@ -27,17 +28,29 @@ fn documented() -> Vec<[&'static str; 4]> {
     rows
 }
 
-/// The table of a scene's TOML that a section names; the first item of a list.
+/// The table of a scene's TOML that a section names; the first item of a list, the event of a kind.
 fn section<'a>(scene: &'a toml::Table, path: &str) -> &'a toml::Table {
+    if let Some(kind) = kind(path) {
+        let events = scene["event"].as_array().expect("a list").iter();
+        let mut tables = events.map(|event| event.as_table().expect("a list of tables"));
+        return tables.find(|event| event["kind"].as_str() == Some(kind)).expect("an event of each kind");
+    }
     path.split('.').filter(|name| !name.is_empty()).fold(scene, |table, name| match &table[name] {
         toml::Value::Array(items) => items[0].as_table().expect("a list of tables"),
         value => value.as_table().expect("a table"),
     })
 }
 
+/// The kind of event that a section is about.
+fn kind(section: &str) -> Option<&str> {
+    section.strip_prefix("kind = \"")?.strip_suffix('"')
+}
+
 /// A text that sets one key of one section.
 fn setting(section: &str, key: &str, value: &str) -> String {
     match section {
+        _ if kind(section) == Some("motion") => setting("event", key, value),
+        _ if kind(section).is_some() => with_version(&format!("[[event]]\n{section}\n{key} = {value}\n")),
         "" => format!("{key} = {value}\n"),
         "bubble" => with_version(&format!("[[bubble]]\n{key} = {value}\n")),
         "bubble.film" => with_version(&format!("[[bubble]]\n[bubble.film]\n{key} = {value}\n")),
@@ -51,9 +64,16 @@ fn setting(section: &str, key: &str, value: &str) -> String {
 fn documented_keys_are_the_coded_keys() {
     let every_key = document::every_key();
     let rows = documented();
-    for path in ["", "bubble", "bubble.film", "camera", "light", "light.patch", "view", "motion", "event"] {
+    let kinds = Change::every_key().map(|change| toml::Table::try_from(change).unwrap()["kind"].to_string());
+    let kinds = kinds.map(|kind| format!("kind = {kind}"));
+    let tables = ["", "bubble", "bubble.film", "camera", "light", "light.patch", "view", "motion", "event"];
+    for path in tables.into_iter().chain(kinds.iter().map(String::as_str)) {
         let coded = section(&every_key, path).iter();
-        let mut coded: Vec<&str> = coded.filter(|(_, value)| !is_section(value)).map(|(key, _)| key.as_str()).collect();
+        // What all events have stands in a table of its own.
+        let of_all = |key: &str| key == "kind" || key == "tick";
+        let belongs = |key: &str| !path.contains("event") && kind(path).is_none() || of_all(key) == (path == "event");
+        let keys = coded.filter(|(_, value)| !is_section(value)).map(|(key, _)| key.as_str());
+        let mut coded: Vec<&str> = keys.filter(|key| belongs(key)).collect();
         let mut listed: Vec<&str> = rows.iter().filter(|row| row[0] == path).map(|row| row[1]).collect();
         coded.sort_unstable();
         listed.sort_unstable();
@@ -69,7 +89,15 @@ fn is_section(value: &toml::Value) -> bool {
 fn documented_defaults_are_the_coded_defaults() {
     let scene = Scene {
         light: Light { patches: vec![LightPatch::default()], ..Light::default() },
-        events: vec![Event { tick: 0, change: Change::Motion(MotionChange::default()) }],
+        events: [
+            Change::Motion(MotionChange::default()),
+            Change::Stir(Stir::default()),
+            Change::Blow(Blow::default()),
+            Change::Drag(Drag::default()),
+            Change::Prick(Prick::default()),
+        ]
+        .map(|change| Event { tick: 0, change })
+        .into(),
         ..Scene::default()
     };
     let coded = toml::Table::try_from(scene).unwrap();
@@ -87,7 +115,7 @@ fn written(key: &str, default: &str, value: f64) -> String {
     // TOML writes `nan` where Rust writes `NaN`.
     let number = format!("{value:?}").to_lowercase();
     match key {
-        "cells" | "remap_ticks" | "version" => format!("{}", value.round()).to_lowercase(),
+        "cells" | "remap_ticks" | "ticks" | "version" => format!("{}", value.round()).to_lowercase(),
         _ if default.starts_with('[') || ["constant", "radiance", "spin_deg_s", "gravity_m_s2"].contains(&key) => {
             format!("[0, {number}, 0]")
         }

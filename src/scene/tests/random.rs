@@ -101,23 +101,31 @@ fn flow() -> impl Strategy<Value = Flow> {
 
 fn motion() -> impl Strategy<Value = Motion> {
     let spins = (spin(), 0.0..1000.0, scheme());
+    let ends = (0.0..1.0, 0.0..10.0, 0.0..1e6, 1.0..1e4, 0.0..1e6);
     let forces = (gravity(), 0.0..1000.0, 0.0..10.0, 0.0..1e6, 0.0..1000.0);
-    (1e-4..0.1, flow(), 0.0..10.0, any::<u64>(), spins, forces, 1u32..=1000, 0.01..100.0).prop_map(
-        |(tick_s, flow, strength, seed, (spin_deg_s, evaporation_nm_s, scheme), forces, remap_ticks, speed)| Motion {
-            tick_s,
-            flow,
-            strength,
-            seed,
-            gravity_m_s2: forces.0,
-            drag_1_s: forces.1,
-            air_drag: forces.2,
-            viscosity_mm2_s: forces.3,
-            diffusion_mm2_s: forces.4,
-            spin_deg_s,
-            evaporation_nm_s,
-            scheme,
-            remap_ticks,
-            speed,
+    (1e-4..0.1, flow(), 0.0..10.0, any::<u64>(), spins, forces, ends, 1u32..=1000, 0.01..100.0).prop_map(
+        |(tick_s, flow, strength, seed, (spin_deg_s, evaporation_nm_s, scheme), forces, ends, remap_ticks, speed)| {
+            Motion {
+                tick_s,
+                flow,
+                strength,
+                seed,
+                gravity_m_s2: forces.0,
+                drag_1_s: forces.1,
+                air_drag: forces.2,
+                viscosity_mm2_s: forces.3,
+                diffusion_mm2_s: forces.4,
+                spin_deg_s,
+                evaporation_nm_s,
+                humidity: ends.0,
+                air_speed_m_s: ends.1,
+                black_film_life_s: ends.2,
+                burst_slowdown: ends.3,
+                renew_s: ends.4,
+                scheme,
+                remap_ticks,
+                speed,
+            }
         },
     )
 }
@@ -136,12 +144,17 @@ fn scheme() -> impl Strategy<Value = TransportScheme> {
 }
 
 fn event() -> impl Strategy<Value = Event> {
+    let change = prop_oneof![motion_change(), stir(), blow(), drag(), prick()];
+    (any::<u64>(), change).prop_map(|(tick, change)| Event { tick, change })
+}
+
+fn motion_change() -> impl Strategy<Value = Change> {
     let maybe = |range: std::ops::Range<f64>| prop::option::of(range);
     let spins = (prop::option::of(spin()), maybe(0.0..1000.0));
     let forces = (prop::option::of(gravity()), maybe(0.0..1000.0), maybe(0.0..10.0));
-    (any::<u64>(), prop::option::of(flow()), maybe(0.0..10.0), any::<u64>(), spins, forces).prop_map(
-        |(tick, flow, strength, seed, (spin_deg_s, evaporation_nm_s), (gravity_m_s2, drag_1_s, air_drag))| {
-            let change = MotionChange {
+    (prop::option::of(flow()), maybe(0.0..10.0), any::<u64>(), spins, forces).prop_map(
+        |(flow, strength, seed, (spin_deg_s, evaporation_nm_s), (gravity_m_s2, drag_1_s, air_drag))| {
+            Change::Motion(MotionChange {
                 flow,
                 strength,
                 seed: Some(seed),
@@ -150,16 +163,44 @@ fn event() -> impl Strategy<Value = Event> {
                 gravity_m_s2,
                 drag_1_s,
                 air_drag,
-            };
-            Event { tick, change: Change::Motion(change) }
+            })
         },
     )
+}
+
+fn direction() -> impl Strategy<Value = [f64; 3]> {
+    [0.1..1.0, -1.0..1.0, -1.0..1.0]
+}
+
+fn stir() -> impl Strategy<Value = Change> {
+    (direction(), [-10.0..10.0, -10.0..10.0, -10.0..10.0], 3.0..90.0, 1u64..=100_000).prop_map(
+        |(at, velocity_m_s, radius_deg, ticks)| Change::Stir(Stir { bubble: 0, at, velocity_m_s, radius_deg, ticks }),
+    )
+}
+
+fn blow() -> impl Strategy<Value = Change> {
+    (direction(), direction(), 0.0..30.0, 3.0..90.0, 1u64..=100_000).prop_map(
+        |(at, toward, speed_m_s, radius_deg, ticks)| {
+            Change::Blow(Blow { bubble: 0, at, toward, speed_m_s, radius_deg, ticks })
+        },
+    )
+}
+
+fn drag() -> impl Strategy<Value = Change> {
+    prop::array::uniform3(-1e3..1e3).prop_map(|to_m| Change::Drag(Drag { bubble: 0, to_m }))
+}
+
+fn prick() -> impl Strategy<Value = Change> {
+    direction().prop_map(|at| Change::Prick(Prick { bubble: 0, at }))
 }
 
 fn scene() -> impl Strategy<Value = Scene> {
     let lists = (prop::collection::vec(bubble(), 0..4), prop::collection::vec(event(), 0..4));
     (lists, camera(), light(), view(), motion()).prop_map(|((bubbles, mut events), camera, light, view, motion)| {
         events.sort_by_key(|event| event.tick);
+        if bubbles.is_empty() {
+            events.retain(|event| event.change.bubble().is_none());
+        }
         Scene { version: VERSION, bubbles, camera, light, view, motion, events }
     })
 }

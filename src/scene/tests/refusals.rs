@@ -47,6 +47,14 @@ fn unknown_keys_name_the_nearest_known_one() {
             "4: unknown key `radius` in [[bubble]] number 2; did you mean `radius_mm`?",
         ),
         ("[[bubble]]\nqqq = 3", "3: unknown key `qqq` in [[bubble]]; known here: `center_m`, `film`, `radius_mm`"),
+        (
+            "[[event]]\nkind = \"stir\"\nvelocity = 2",
+            "4: unknown key `velocity` in [[event]]; did you mean `velocity_m_s`?",
+        ),
+        (
+            "[[event]]\nkind = \"drag\"\nflow = \"free\"",
+            "4: unknown key `flow` in [[event]]; known here: `bubble`, `kind`, `tick`, `to_m`",
+        ),
         ("[[event]]\nkind = \"motion\"\nspeed = 2", "4: unknown key `speed` in [[event]]; did you mean `seed`?"),
         (
             "[light]\nx.y = 1\n[camera]\nfov = 3",
@@ -113,7 +121,10 @@ fn values_have_their_type() {
             "[[event]]\nkind = \"motion\"\ntick = 0.5",
             "4: `tick` in [[event]] is wrong: invalid type: floating point `0.5`, expected a whole number from 0 on",
         ),
-        ("[[event]]\nkind = \"dance\"", "3: `kind` in [[event]] is wrong: unknown word `dance`, expected `motion`"),
+        (
+            "[[event]]\nkind = \"dance\"",
+            "3: `kind` in [[event]] is wrong: unknown word `dance`, expected one of `motion`, `stir`, `blow`, `drag`",
+        ),
         ("[[event]]\ntick = 3", "2: [[event]] is wrong: missing field `kind`"),
     ]);
 }
@@ -148,6 +159,14 @@ fn events_change_something_in_order() {
         (
             "[[event]]\nkind = \"motion\"",
             "3: `kind` in [[event]] is \"motion\" but nothing changes; set `flow` or another key of [motion]",
+        ),
+        (
+            "[[event]]\nkind = \"stir\"\nbubble = 1",
+            "4: `bubble` in [[event]] is 1; the scene has bubbles from 0 to below 1",
+        ),
+        (
+            "[[event]]\nkind = \"blow\"\ntoward = [0, 0, 0]",
+            "4: `toward` in [[event]] has no direction; make one of its numbers at least 0.001",
         ),
         (
             "[[event]]\ntick = 9\nkind = \"motion\"\nseed = 2\n[[event]]\ntick = 8\nkind = \"motion\"\nseed = 3",

@@ -1,0 +1,50 @@
+// What pushes a film from outside, added to what stirs it: a source of vorticity for each push. One invocation a cell. The f64 truth is
+// `Push::source` in src/physics/film/push.rs.
+
+import package::sphere::cubed::{HALO, padded_index, panel_direction};
+
+const MAX_PUSHES: u32 = 32u;
+
+struct Push {
+    centre_sharpness: vec4f,
+    // Velocity towards which the film is drawn, rad/s, and how fast it is, 1/s.
+    velocity_rate: vec4f,
+}
+
+// Mirrors `PushesUniform` in src/gpu/film/free.rs.
+struct Pushes {
+    // Cells along a panel's edge.
+    cells: u32,
+    // Pushes in use; those come first.
+    count: u32,
+    pushes: array<Push, 32>,
+}
+
+@group(0) @binding(0) var<uniform> pushes: Pushes;
+// tan(alpha) of each cell coordinate, halo included.
+@group(0) @binding(1) var<storage, read> tangents: array<f32>;
+// Velocity and vorticity of the film.
+@group(0) @binding(2) var<storage, read> velocity: array<vec4f>;
+@group(0) @binding(3) var<storage, read> zeta: array<f32>;
+@group(0) @binding(4) var<storage, read_write> forcing: array<f32>;
+
+fn push_source(push: Push, x: vec3f, u: vec3f, vorticity: f32) -> f32 {
+    let centre = push.centre_sharpness.xyz;
+    let sharpness = push.centre_sharpness.w;
+    let strength = push.velocity_rate.w * exp(sharpness * (dot(centre, x) - 1.0));
+    return strength * (sharpness * dot(x, cross(centre, push.velocity_rate.xyz - u)) - vorticity);
+}
+
+@compute @workgroup_size(64)
+fn flow_push(@builtin(global_invocation_id) id: vec3u) {
+    if (id.x >= pushes.cells) {
+        return;
+    }
+    let x = normalize(panel_direction(id.z, vec2f(tangents[id.x + HALO], tangents[id.y + HALO])));
+    let at = padded_index(id.z, i32(id.x), i32(id.y), pushes.cells);
+    var source = 0.0;
+    for (var k = 0u; k < min(pushes.count, MAX_PUSHES); k++) {
+        source += push_source(pushes.pushes[k], x, velocity[at].xyz, zeta[at]);
+    }
+    forcing[at] += source;
+}

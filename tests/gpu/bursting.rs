@@ -1,0 +1,155 @@
+//! Films that become black, and that burst.
+
+use soapfilm::{
+    gpu::{Renderer, open_hole::RimValue},
+    input::LoadedScene,
+    physics::{
+        film::Hole,
+        sphere::{CubedSphere, HaloTable, PaddedField},
+    },
+    plan::{BLACK_FILM_NM, OpenHoleKey, Pass, Want},
+    scene::{Change, Event, FilmStateName, Prick},
+};
+
+use crate::support::{load, radiance, renderer, still};
+
+const SIZE: [u32; 2] = [64, 36];
+const CELLS: u32 = 64;
+
+/// A film that is sorted and thin above.
+fn thin(mean_nm: f64) -> LoadedScene {
+    let mut loaded = load("default");
+    let film = &mut loaded.scene.bubbles[0].film;
+    (film.state, film.thickness_nm, film.cells) = (FilmStateName::Rest, mean_nm, CELLS);
+    loaded.scene.motion.black_film_life_s = 1e6;
+    loaded
+}
+
+/// The thickness that a film shows, and its mean.
+fn shown(renderer: &mut Renderer, want: &Want) -> (CubedSphere, Vec<f64>, f64) {
+    renderer.bring(want).unwrap();
+    let thinned_nm = want.picture.draw.bubbles[0].thinned_nm;
+    let (grid, thickness_nm) = renderer.read_film(0).unwrap().unwrap();
+    let values: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.wait(&renderer.gpu).unwrap());
+    let left = |nm: f32| (f64::from(nm) - thinned_nm).max(f64::from(nm).min(BLACK_FILM_NM));
+    let values: Vec<f64> = values.into_iter().map(left).collect();
+    let total: f64 = grid.areas().iter().zip(&values).map(|(area, nm)| area * nm).sum();
+    (grid, values, total / (4.0 * std::f64::consts::PI))
+}
+
+/// Part of the sphere that is black.
+fn black_part(grid: CubedSphere, values: &[f64]) -> f64 {
+    let areas = grid.areas();
+    let black = areas.iter().zip(values).filter(|(_, nm)| **nm < 20.0);
+    black.map(|(area, _)| area).sum::<f64>() / areas.iter().sum::<f64>()
+}
+
+#[test]
+fn what_collapses_to_black_film_is_not_lost() {
+    let Some(mut renderer) = renderer() else { return };
+    // 28 nm at the top, 114 nm at the bottom: the upper third is thin enough to collapse, and nothing evaporates.
+    let loaded = thin(60.0);
+    let (grid, before, mean_before) = shown(&mut renderer, &still(&loaded, SIZE, 0.0));
+    assert_eq!(black_part(grid, &before), 0.0);
+    let (_, after, mean_after) = shown(&mut renderer, &still(&loaded, SIZE, 3.0));
+    let black = black_part(grid, &after);
+    assert!((0.2..0.6).contains(&black), "{black}");
+    assert!(after.iter().all(|nm| *nm > 0.9 * BLACK_FILM_NM && nm.is_finite()), "nothing falls below black film");
+    // Corrections are f32: a few parts in ten million.
+    assert!((mean_after / mean_before - 1.0).abs() < 1e-6, "{mean_before} {mean_after}");
+}
+
+#[test]
+fn black_film_grows_as_the_film_evaporates_and_then_evaporates_no_more() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = thin(150.0);
+    loaded.scene.motion.evaporation_nm_s = 40.0;
+    let mut black = vec![0.0];
+    for time_s in [1.0, 2.0, 3.0, 4.0, 9.0] {
+        let (grid, values, mean) = shown(&mut renderer, &still(&loaded, SIZE, time_s));
+        black.push(black_part(grid, &values));
+        assert!(mean >= 150.0 - 40.0 * time_s - 1e-3, "no more than what evaporates is lost: {mean} at {time_s} s");
+    }
+    assert!(black.windows(2).all(|pair| pair[1] >= pair[0]), "{black:?}");
+    let (_, values, _) = shown(&mut renderer, &still(&loaded, SIZE, 12.0));
+    let nm = values.iter().fold((f64::MAX, 0.0_f64), |(low, high), nm| (low.min(*nm), high.max(*nm)));
+    assert!(nm.0 > 9.0 && nm.1 < 11.0, "black everywhere, and there it stays: {nm:?}");
+}
+
+fn pricked(at: [f64; 3]) -> LoadedScene {
+    let mut loaded = thin(600.0);
+    loaded.scene.events = vec![Event { tick: 20, change: Change::Prick(Prick { bubble: 0, at }) }];
+    loaded.scene.motion.burst_slowdown = 100.0;
+    loaded
+}
+
+/// Rim of the hole of a wanted picture, on the device and in f64.
+fn rims(renderer: &mut Renderer, want: &Want) -> (Vec<RimValue>, Hole) {
+    let (grid, values, _) = shown(renderer, want);
+    let bubble = &want.picture.draw.bubbles[0];
+    let OpenHoleKey { radius_m, hole, .. } = bubble.open_hole().unwrap();
+    let field = PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| values[cell]);
+    let buffer = renderer.read_hole(0).unwrap();
+    let found = bytemuck::pod_collect_to_vec(&buffer.wait(&renderer.gpu).unwrap());
+    (found, Hole::open(|x| field.bilinear(x), hole.at.unwrap(), hole.seconds, radius_m))
+}
+
+#[test]
+fn a_hole_opens_as_its_f64_twin_does() {
+    let Some(mut renderer) = renderer() else { return };
+    let loaded = pricked([0.5, -0.3, 0.6]);
+    for time_s in [0.4, 0.9, 1.6] {
+        let want = still(&loaded, SIZE, time_s);
+        let (found, truth) = rims(&mut renderer, &want);
+        for (found, truth) in found.iter().zip(&truth.rim) {
+            // Sums of 512 parts in f32, and bilinear lookups that differ by rounding.
+            assert!((f64::from(found.outer_rad) - truth.outer_rad).abs() < 1e-4, "{found:?} {truth:?}");
+            assert!((f64::from(found.inner_rad) - truth.inner_rad).abs() < 1e-4, "{found:?} {truth:?}");
+            assert!((f64::from(found.thickness_nm) / truth.thickness_nm.max(1.0) - 1.0).abs() < 1e-2);
+        }
+    }
+}
+
+#[test]
+fn a_burst_film_moves_no_more_and_then_is_gone() {
+    let Some(mut renderer) = renderer() else { return };
+    let loaded = pricked([1.0, 0.2, 0.0]);
+    let first = still(&loaded, SIZE, 0.5);
+    renderer.bring(&first).unwrap();
+    let later = renderer.bring(&still(&loaded, SIZE, 0.8)).unwrap();
+    let names: Vec<&str> = later.steps.iter().map(|(pass, _)| pass.name()).collect();
+    assert_eq!(names, ["open_hole", "draw", "tonemap"]);
+    let want = still(&loaded, SIZE, 3.5);
+    assert!(want.picture.draw.bubbles.is_empty());
+    let gone = radiance(&mut renderer, &want);
+    assert!(gone.iter().all(|pixel| pixel.distance(gone[0]) < 1e-6), "nothing but the backdrop");
+    let next = renderer.bring(&still(&loaded, SIZE, 7.0)).unwrap();
+    assert!(next.steps.iter().any(|(pass, _)| matches!(pass, Pass::SeedField { .. })), "a new bubble");
+}
+
+#[test]
+fn nothing_is_where_the_hole_is() {
+    let Some(mut renderer) = renderer() else { return };
+    // From the front, half open: the middle of the picture looks through the hole at the inside of the back wall alone.
+    let mut loaded = pricked([0.94, 0.34, 0.1]);
+    loaded.scene.bubbles[0].film.state = FilmStateName::Uniform;
+    loaded.scene.light.constant = Some([1.0; 3]);
+    let middle = SIZE[0] as usize * SIZE[1] as usize / 2 + SIZE[0] as usize / 2;
+    let mut seen = |time_s| radiance(&mut renderer, &still(&loaded, SIZE, time_s))[middle].y;
+    let (whole, open, all_open) = (seen(0.1), seen(1.0), seen(2.2));
+    assert!(open < 0.8 * whole && open > 1.2 * all_open, "two walls, one, and none: {whole} {open} {all_open}");
+}
+
+#[test]
+fn holes_need_no_film_on_the_device() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = pricked([1.0, 0.0, 0.0]);
+    loaded.scene.bubbles[0].film.state = FilmStateName::Uniform;
+    let plan = renderer.bring(&still(&loaded, SIZE, 1.0)).unwrap();
+    assert!(!plan.steps.iter().any(|(pass, _)| matches!(pass, Pass::StepField { .. } | Pass::SeedField { .. })));
+    let rim: Vec<RimValue> = bytemuck::pod_collect_to_vec(&renderer.read_hole(0).unwrap().wait(&renderer.gpu).unwrap());
+    // All around as far as the speed of Taylor and Culick takes it.
+    let expected = soapfilm::physics::film::properties::taylor_culick_speed(0.025, 600e-9);
+    let expected = expected * (1.0 - 20.0 / 60.0) / 100.0 / 0.05;
+    assert!(rim.iter().all(|rim| (f64::from(rim.outer_rad) / expected - 1.0).abs() < 1e-4), "{:?} {expected}", rim[0]);
+}
