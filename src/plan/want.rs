@@ -283,23 +283,25 @@ fn film(scene: &Scene, bubble: &Bubble, moment: Moment) -> FilmKey {
         FilmStateName::Rest => InitialFilm::Rest { thickness_nm, stratification: film.stratification },
         FilmStateName::Blown => InitialFilm::Blown { thickness_nm, stratification: 0.0, seed: fold_seed(film.seed) },
     };
-    let mut flows = flows(scene, bubble.radius_mm * 1e-3);
-    let moment = last_moved(&flows, moment);
-    // Laws that come into force later leave the film as it is: a key holds what its product depends on.
-    flows.retain(|segment| segment.from_tick < moment.end_tick());
-    let is_free = flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_)));
-    let mut evaporation = if is_free { evaporation(scene) } else { Vec::new() };
-    evaporation.retain(|(tick, _)| *tick < moment.end_tick());
-    FilmKey::Field(FieldKey {
+    let mut key = FieldKey {
         cells: film.cells,
         initial,
         tick_s: scene.motion.tick_s,
         scheme: scheme(&scene.motion),
         remap_ticks: scene.motion.remap_ticks,
-        evaporation,
-        flows,
+        evaporation: Vec::new(),
+        flows: flows(scene, bubble.radius_mm * 1e-3),
         moment,
-    })
+    };
+    key.moment = key.last_moved();
+    // Laws that come into force later leave the film as it is: a key holds what its product depends on.
+    let end = key.moment.end_tick();
+    key.flows.retain(|segment| segment.from_tick < end);
+    if key.flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_))) {
+        key.evaporation = evaporation(scene);
+        key.evaporation.retain(|(tick, _)| *tick < end);
+    }
+    FilmKey::Field(key)
 }
 
 /// A scene's seed as the generators take it: seeds below 2³² are themselves.
@@ -353,15 +355,6 @@ fn free_flow(motion: &Motion, radius_m: f64) -> FreeFlow {
         diffusion: 1e-6 * motion.diffusion_mm2_s / radius_m.powi(2),
         draught: motion.strength,
         seed: fold_seed(motion.seed),
-    }
-}
-
-/// The last moment until `moment` at which the film moved: while it rests, time changes nothing.
-fn last_moved(flows: &[FlowSegment], moment: Moment) -> Moment {
-    let begun = flows.iter().rposition(|segment| segment.from_tick <= moment.tick);
-    match begun.map(|k| flows[k]) {
-        Some(segment) if segment.law == FlowLaw::Rest => Moment::tick(segment.from_tick),
-        _ => moment,
     }
 }
 
