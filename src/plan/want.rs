@@ -310,30 +310,30 @@ fn film(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) -> FilmKey {
     let radius_m = bubble.radius_mm * 1e-3;
     let flows: Vec<_> = flows(scene, radius_m).iter().map(|segment| (segment.from_tick, segment.law)).collect();
     let flows = since(life.born, &flows).into_iter();
-    let mut flows: Vec<_> = flows.map(|(from_tick, law)| FlowSegment { from_tick, law }).collect();
-    let moment = last_moved(&flows, life.moment);
-    // Laws that come into force later leave the film as it is: a key holds what its product depends on.
-    flows.retain(|segment| segment.from_tick < moment.end_tick());
-    let is_free = flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_)));
-    let mut evaporation = if is_free { since(life.born, &evaporation(scene, radius_m)) } else { Vec::new() };
-    evaporation.retain(|(tick, _)| *tick < moment.end_tick());
-    let mut pushes = if is_free { pushes(scene, index, bubble, life.born) } else { Vec::new() };
-    pushes.retain(|push| push.ticks.start < moment.end_tick());
-    let end_s = moment.end_tick() as f64 * scene.motion.tick_s;
-    let path =
-        if is_free { path_in_radii(scene, index, bubble, life.born).until(end_s) } else { CentrePath::default() };
-    FilmKey::Field(FieldKey {
+    let mut key = FieldKey {
         cells: bubble.film.cells,
         initial,
         tick_s: scene.motion.tick_s,
         scheme: scheme(&scene.motion),
         remap_ticks: scene.motion.remap_ticks,
-        evaporation,
-        flows,
-        pushes,
-        path,
-        moment,
-    })
+        evaporation: Vec::new(),
+        flows: flows.map(|(from_tick, law)| FlowSegment { from_tick, law }).collect(),
+        pushes: Vec::new(),
+        path: CentrePath::default(),
+        moment: life.moment,
+    };
+    key.moment = key.last_moved();
+    // Laws that come into force later leave the film as it is: a key holds what its product depends on.
+    let end = key.moment.end_tick();
+    key.flows.retain(|segment| segment.from_tick < end);
+    if key.flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_))) {
+        key.evaporation = since(life.born, &evaporation(scene, radius_m));
+        key.evaporation.retain(|(tick, _)| *tick < end);
+        key.pushes = pushes(scene, index, bubble, life.born);
+        key.pushes.retain(|push| push.ticks.start < end);
+        key.path = path_in_radii(scene, index, bubble, life.born).until(end as f64 * key.tick_s);
+    }
+    FilmKey::Field(key)
 }
 
 /// Where the centre of a bubble goes, in metres.
@@ -456,15 +456,6 @@ fn free_flow(motion: &Motion, radius_m: f64) -> FreeFlow {
         diffusion: 1e-6 * motion.diffusion_mm2_s / radius_m.powi(2),
         draught: motion.strength,
         seed: fold_seed(motion.seed),
-    }
-}
-
-/// The last moment until `moment` at which the film moved: while it rests, time changes nothing.
-fn last_moved(flows: &[FlowSegment], moment: Moment) -> Moment {
-    let begun = flows.iter().rposition(|segment| segment.from_tick <= moment.tick);
-    match begun.map(|k| flows[k]) {
-        Some(segment) if segment.law == FlowLaw::Rest => Moment::tick(segment.from_tick),
-        _ => moment,
     }
 }
 

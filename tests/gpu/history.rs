@@ -7,7 +7,7 @@ use soapfilm::{
     scene::{Change, Event, Flow, MotionChange, Scene},
 };
 
-use crate::support::{load, radiance, renderer, still};
+use crate::support::{Random, load, radiance, renderer, still};
 
 const SIZE: [u32; 2] = [64, 36];
 const CELLS: u32 = 32;
@@ -158,6 +158,44 @@ fn a_film_that_hardly_moves_is_hardly_stepped() {
     assert_eq!(first.cells_stepped, 0, "a third of a second moves nothing by a thousandth of a cell");
     let steps = second.cells_stepped / (6 * u64::from(CELLS * CELLS));
     assert!((1..200).contains(&steps), "{steps} steps for 10 minutes");
+    let Some([_, second]) = cost(&loaded, 20.0, 30.5) else { return };
+    assert_eq!(second.submissions, 0, "nor is it shown or drawn anew: {second:?}");
+}
+
+/// Pictures of random moments, back and forth, as a finger on the time line asks for them.
+#[test]
+fn scrubbing_to_random_moments_gives_the_bits_of_a_run_from_scratch() {
+    let Some(mut scrubbed) = renderer() else { return };
+    let (mut random, loaded) = (Random(11), eventful());
+    let read = |renderer: &mut Renderer, ticks: f64| {
+        while !renderer.bring(&frame(&loaded, ticks)).unwrap().complete {}
+        let (_, film) = renderer.read_film(0).unwrap().unwrap();
+        (film.wait(&renderer.gpu).unwrap(), renderer.counts.cells_stepped)
+    };
+    read(&mut scrubbed, 400.0);
+    let mut stepped = [0; 2];
+    for _ in 0..8 {
+        let ticks = (4000.0 * random.next()).round() / 10.0;
+        let before = scrubbed.counts.cells_stepped;
+        let (found, cells) = read(&mut scrubbed, ticks);
+        let (expected, from_scratch) = read(&mut renderer().unwrap(), ticks);
+        assert!(found == expected, "tick {ticks}");
+        stepped = [stepped[0] + cells - before, stepped[1] + from_scratch];
+    }
+    eprintln!("measured: cells stepped with checkpoints and from scratch {stepped:?}");
+    assert!(4 * stepped[0] < stepped[1], "{stepped:?}");
+}
+
+/// What spreads the thickness of a free film must not outlive its history.
+#[test]
+fn a_film_forgets_the_laws_of_another_history() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut stirred = small();
+    stirred.scene.motion.flow = Flow::Stirred;
+    let expected = arrive(&mut renderer, &stirred);
+    let mut again = crate::support::renderer().unwrap();
+    arrive(&mut again, &small());
+    assert!(arrive(&mut again, &stirred) == expected);
 }
 
 /// The state's tick is the last end of a step, the same in one go and frame by frame.
@@ -167,7 +205,7 @@ fn states_end_where_steps_do() {
     let loaded = eventful();
     let mut state = |want: &Want| {
         while !renderer.bring(want).unwrap().complete {}
-        renderer.have().fields[0].clone().map(|FieldHave { state, shown }| (state.moment, shown)).unwrap()
+        renderer.have().fields[0].clone().map(|FieldHave { state, shown, .. }| (state.moment, shown)).unwrap()
     };
     let jumped = state(&still(&loaded, SIZE, seconds(END_TICKS)));
     for ticks in [0.0, 77.7, 12.0] {

@@ -149,8 +149,18 @@ impl FlowLaw {
         // At strength 1 the fastest vortices turn by a quarter of a radian in 0.1 s, where a Runge-Kutta step errs by 1e-5 of that; the
         // swings of 2 s and more are followed by its three moments.
         let accurate_s = (0.1 / strength).min(0.2);
-        let still_s = 1e-3 * cell_angle / self.prescribed().max_speed_bound();
-        (accurate_s.max(still_s) / tick_s).max(1.0) as u64
+        (accurate_s.max(self.still_s(cell_angle)) / tick_s).max(1.0) as u64
+    }
+
+    /// Seconds in which the film moves by less than a thousandth of a cell, for the angle between cells: none for a free film, of whose
+    /// speed only the device knows.
+    #[must_use]
+    pub fn still_s(self, cell_angle: f64) -> f64 {
+        match self {
+            Self::Rest => f64::INFINITY,
+            Self::Free(_) => 0.0,
+            _ => 1e-3 * cell_angle / self.prescribed().max_speed_bound(),
+        }
     }
 }
 
@@ -253,6 +263,15 @@ impl FieldKey {
     #[must_use]
     pub fn state_tick(&self) -> u64 {
         self.step_at(self.moment.tick).start
+    }
+
+    /// The last moment until this one at which the film is seen to have moved: while it rests, or has moved by less than a thousandth of a
+    /// cell since its state, time changes nothing.
+    #[must_use]
+    pub fn last_moved(&self) -> Moment {
+        let state = self.state_tick();
+        let ahead_s = ((self.moment.tick - state) as f64 + self.moment.fraction) * self.tick_s;
+        if ahead_s < self.law(state).still_s(self.cell_angle()) { Moment::tick(state) } else { self.moment }
     }
 
     /// Ticks of the whole steps from the end of one until the moment, in order.

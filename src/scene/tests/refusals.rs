@@ -123,7 +123,7 @@ fn values_have_their_type() {
         ),
         (
             "[[event]]\nkind = \"dance\"",
-            "3: `kind` in [[event]] is wrong: unknown word `dance`, expected one of `motion`, `stir`, `blow`, `drag`",
+            "3: `kind` in [[event]] is wrong: unknown word `dance`, expected one of `motion`, `stir`, `blow`, `drag`, `prick`",
         ),
         ("[[event]]\ntick = 3", "2: [[event]] is wrong: missing field `kind`"),
     ]);
