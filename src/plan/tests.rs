@@ -14,7 +14,7 @@ use crate::{
         colour::{Gamut, Illuminant},
         environment::CubeMap,
     },
-    scene::{Bubble, Change, Event, FilmStateName, Flow, MotionChange, Scene, preset},
+    scene::{Blow, Bubble, Change, Drag, Event, FilmStateName, Flow, MotionChange, Scene, Stir, preset},
 };
 
 fn resources() -> Resources {
@@ -202,6 +202,47 @@ fn another_past_seeds_anew_and_another_future_does_not() {
     assert!(between((&stirred_scene(), 20), (&sloshing_at_3, 20)).contains(&"seed_field"));
     assert_eq!(between((&stirred_scene(), 20), (&sloshing_at_30, 20)), [] as [&str; 0]);
     assert_eq!(between((&stirred_scene(), 20), (&sloshing_at_30, 40)), ["step_field", "show_field", "draw", "tonemap"]);
+}
+
+/// A free film, cheap to plan, and an event that pushes it.
+fn pushed_at(tick: u64, change: Change) -> Scene {
+    let mut scene = stirred_scene();
+    scene.motion.flow = Flow::Free;
+    Scene { events: vec![Event { tick, change }], ..scene }
+}
+
+#[test]
+fn a_push_is_felt_from_its_first_tick_by_its_film_alone() {
+    let free = Scene { events: Vec::new(), ..pushed_at(0, Change::Stir(Stir::default())) };
+    for change in [Change::Stir(Stir::default()), Change::Blow(Blow::default())] {
+        let pushed = pushed_at(20, change.clone());
+        assert_eq!(between((&free, 20), (&pushed, 20)), [] as [&str; 0], "what comes later leaves a key alone");
+        assert_eq!(between((&free, 20), (&pushed, 24)), ["step_field", "show_field", "draw", "tonemap"]);
+        assert!(between((&free, 24), (&pushed, 24)).contains(&"seed_field"), "another past is another film");
+        let rest = |scene: &Scene| {
+            let mut scene = scene.clone();
+            scene.motion.flow = Flow::Rest;
+            scene
+        };
+        assert_eq!(between((&rest(&free), 24), (&rest(&pushed), 24)), [] as [&str; 0], "a film at rest feels nothing");
+    }
+}
+
+#[test]
+fn a_dragged_bubble_is_seen_where_it_is_and_its_film_feels_it() {
+    let drag = |to_m| pushed_at(20, Change::Drag(Drag { bubble: 0, to_m }));
+    let bubble = |scene: &Scene, tick| wanted(scene, tick, Pace::Whole).picture.draw.bubbles[0].clone();
+    let (scene, start) = (drag([0.0, 0.01, 0.0]), DVec3::ZERO);
+    assert_eq!(bubble(&scene, 20).centre_m, start);
+    assert!((1e-4..0.01).contains(&bubble(&scene, 24).centre_m.y));
+    assert!(bubble(&scene, 200).centre_m.distance(DVec3::new(0.0, 0.01, 0.0)) < 1e-9);
+    let FilmKey::Field(film) = bubble(&scene, 24).film else { panic!("the film has a field") };
+    // At first the whole way over the square of the time constant, 0.1 s, in radii.
+    let radius_m = scene.bubbles[0].radius_mm * 1e-3;
+    let first = film.acceleration_during(20.0, 20.0 + 1e-6);
+    assert!((first.y * radius_m - 1.0).abs() < 1e-3 && first.x == 0.0, "{first}");
+    assert_eq!(film.acceleration_during(10.0, 20.0), DVec3::ZERO);
+    assert!(between((&drag([0.0; 3]), 30), (&scene, 30)).contains(&"seed_field"));
 }
 
 /// The ticks of the steps that lead to a film's state.
@@ -407,8 +448,13 @@ fn the_plan_says_what_and_why() {
 /// Scenes that differ in everything that a plan looks at.
 fn scenes() -> impl Strategy<Value = Scene> {
     let state = prop_oneof![Just(FilmStateName::Uniform), Just(FilmStateName::Rest), Just(FilmStateName::Blown)];
-    let flow = || prop_oneof![Just(Flow::Rest), Just(Flow::Draught), Just(Flow::Stirred)];
-    let events = proptest::collection::vec((0..60_u64, flow()).prop_map(|(tick, flow)| event(tick, flow)), 0..3);
+    let flow = || prop_oneof![Just(Flow::Rest), Just(Flow::Draught), Just(Flow::Stirred), Just(Flow::Free)];
+    let change = prop_oneof![
+        flow().prop_map(|flow| event(0, flow).change),
+        (1..9_u64).prop_map(|ticks| Change::Stir(Stir { ticks, ..Stir::default() })),
+        (-0.01..0.01).prop_map(|x| Change::Drag(Drag { to_m: [x, 0.0, 0.0], ..Drag::default() })),
+    ];
+    let events = proptest::collection::vec((0..60_u64, change).prop_map(|(tick, change)| Event { tick, change }), 0..3);
     let thickness_nm = prop_oneof![Just(300.0), Just(900.0), Just(2500.0)];
     let azimuth_deg = prop_oneof![Just(0.0), Just(90.0)];
     let exposure_ev = prop_oneof![Just(0.0), Just(1.0)];

@@ -287,6 +287,12 @@ fn samples(radius_pixels: f64) -> u32 {
     }
 }
 
+/// What the film of a bubble of a scene is at a moment; nothing if there is no such bubble then.
+#[must_use]
+pub fn film_key(scene: &Scene, index: usize, moment: Moment) -> Option<FilmKey> {
+    life(scene, index, moment).map(|life| film(scene, index, &scene.bubbles[index], &life))
+}
+
 /// A bubble's film as it was blown, after so many others.
 pub(super) fn initial_film(bubble: &Bubble, generation: u32) -> InitialFilm {
     let film = &bubble.film;
@@ -376,9 +382,9 @@ fn pushes(scene: &Scene, index: usize, bubble: &Bubble, born: u64) -> Vec<PushKe
     pushes.collect()
 }
 
-/// The rate of a stir times its duration: with half of a push taken up by the film's tension, what it leaves undone of the velocity in the
-/// middle is e to the minus half of this.
-const STIR: f64 = 4.0;
+/// The rate of a stir times its duration: half of a push is taken up by the film's tension and some is carried away, so that a film at rest
+/// gets four fifths of the velocity in the middle.
+const STIR: f64 = 6.0;
 
 fn stir_push(stir: &Stir, bubble: &Bubble, tick_s: f64) -> Push {
     Push {

@@ -2,6 +2,7 @@
 //! to a limit.
 
 mod flow;
+pub mod interaction;
 mod optics;
 mod picture;
 mod random;

@@ -80,6 +80,7 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     winds(run)?;
     spoilt(run)?;
     refused(run)?;
+    super::interaction::run(run)?;
     if run.long { long(run) } else { Ok(()) }
 }
 
@@ -240,7 +241,7 @@ fn stress(run: &mut Run<'_>, stress: &Stress<'_>) -> Result<(), GpuError> {
 
 /// How far values left the range of those before, as a part of it (or of their size, if they had none), and the change of their mass over
 /// the mass of their absolute values.
-fn departures(sphere: CubedSphere, before: &[f64], after: &[f64]) -> (f64, f64) {
+pub(super) fn departures(sphere: CubedSphere, before: &[f64], after: &[f64]) -> (f64, f64) {
     let low = before.iter().copied().fold(f64::MAX, f64::min);
     let high = before.iter().copied().fold(f64::MIN, f64::max);
     let size = low.abs().max(high.abs());

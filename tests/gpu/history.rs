@@ -4,7 +4,7 @@ use soapfilm::{
     gpu::{Renderer, timing::Counts},
     input::LoadedScene,
     plan::{FieldHave, Moment, Pace, Want},
-    scene::{Change, Event, Flow, MotionChange, Scene},
+    scene::{Blow, Change, Drag, Event, Flow, MotionChange, Scene, Stir},
 };
 
 use crate::support::{Random, load, radiance, renderer, still};
@@ -31,7 +31,15 @@ fn eventful() -> LoadedScene {
     let turn =
         MotionChange { spin_deg_s: Some([0.0, 20.0, 50.0]), evaporation_nm_s: Some(30.0), ..MotionChange::default() };
     let stir = MotionChange { flow: Some(Flow::Stirred), seed: Some(9), ..MotionChange::default() };
-    loaded.scene.events = vec![event(31, slosh), event(47, turn), event(80, stir)];
+    // Within a step, across several, and while another law holds.
+    let pushed = [
+        (3, Change::Stir(Stir { ticks: 9, ..Stir::default() })),
+        (9, Change::Drag(Drag { to_m: [0.0, 5e-3, 0.0], ..Drag::default() })),
+        (10, Change::Blow(Blow { ticks: 2, ..Blow::default() })),
+        (25, Change::Stir(Stir { at: [0.0, 0.0, 1.0], ticks: 90, ..Stir::default() })),
+    ];
+    loaded.scene.events = pushed.map(|(tick, change)| Event { tick, change }).into();
+    loaded.scene.events.extend([event(31, slosh), event(47, turn), event(80, stir)]);
     loaded
 }
 

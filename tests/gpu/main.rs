@@ -7,6 +7,7 @@ mod bursting;
 mod far;
 mod flow;
 mod history;
+mod interaction;
 mod lamps;
 mod layers;
 mod layouts;

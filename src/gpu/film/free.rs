@@ -97,6 +97,12 @@ impl FreeMotion {
         Self { solver: FlowSolver::new(gpu, field.flow_grid().cells) }
     }
 
+    /// The flow.
+    #[must_use]
+    pub fn flow(&self) -> &FlowSolver {
+        &self.solver
+    }
+
     /// Moves a film by one step from a time in seconds, that lasts some ticks.
     pub fn advance(
         &mut self,

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::{
     super::{
-        GpuError, blacken::BlackeningLaw, decide_remap::RemapRule, sample_tracer::Gathered, timing::Recorder,
-        trace_step::Step,
+        GpuError, blacken::BlackeningLaw, decide_remap::RemapRule, flow::FlowSolver, sample_tracer::Gathered,
+        timing::Recorder, trace_step::Step,
     },
     Field, FreeMotion, Rules, Surroundings,
     checkpoint::Checkpoint,
@@ -93,6 +93,12 @@ impl MovingFilm {
             motion.advance(recorder, field, &around, (now * key.tick_s, dt_ticks * key.tick_s), counted)?;
         }
         Ok(())
+    }
+
+    /// The flow that moves it by itself, once it has.
+    #[must_use]
+    pub fn flow(&self) -> Option<&FlowSolver> {
+        self.motion.as_ref().map(FreeMotion::flow)
     }
 
     /// What is left to do from the film's state to the moment of a key, if anything moves.

@@ -1,0 +1,229 @@
+//! What people do to a bubble: stirs, jets of air, drags. A film that is pushed moves as it should, and comes back to rest from anything.
+
+use glam::DVec3;
+
+use super::{Run, random::Random};
+use crate::{
+    gpu::{
+        Gpu, GpuError,
+        film::{Field, LawInForce, MovingFilm, rules},
+        flow::FlowSolver,
+        readback::Readback,
+        timing::Recorder,
+        transport_case::values,
+    },
+    physics::{
+        film::{Push, gained},
+        flow::fit_oscillation,
+        sphere::CubedSphere,
+    },
+    plan::{FieldKey, FilmKey, Moment, film_key},
+    scene::{Blow, Change, Drag, Event, FilmStateName, MotionChange, Scene, Stir},
+};
+
+/// The first film of a scene, played on the device tick by tick as pictures have it.
+pub struct Played<'a> {
+    gpu: &'a Gpu,
+    scene: &'a Scene,
+    film: MovingFilm,
+    tick: u64,
+}
+
+impl<'a> Played<'a> {
+    /// The film as it begins. Fails if it is uniform.
+    pub fn new(gpu: &'a Gpu, scene: &'a Scene) -> Result<Self, GpuError> {
+        let key = key(scene, 0)?;
+        let sphere = CubedSphere::new(key.cells as usize).map_err(|error| GpuError::Refused(error.to_string()))?;
+        let mut field = Field::new(gpu, sphere, rules(&key))?;
+        let mut recorder = Recorder::new(gpu);
+        field.seed(&mut recorder, key.initial.profile())?;
+        recorder.submit(&Default::default());
+        Ok(Self { gpu, scene, film: MovingFilm::new(field), tick: 0 })
+    }
+
+    /// Takes the steps that end until a tick.
+    pub fn play_to(&mut self, tick: u64) -> Result<(), GpuError> {
+        /// Steps in one submission, so that none runs long.
+        const STEPS: usize = 8;
+        let key = key(self.scene, tick)?;
+        let mut law = LawInForce::default();
+        let mut steps = key.steps_from(self.tick).peekable();
+        while steps.peek().is_some() {
+            let mut recorder = Recorder::new(self.gpu);
+            for step in steps.by_ref().take(STEPS) {
+                self.tick = step.end;
+                self.film.advance(&mut recorder, &key, &mut law, step)?;
+            }
+            recorder.submit(&Default::default());
+            self.gpu.wait()?;
+        }
+        Ok(())
+    }
+
+    /// The flow, once it has moved.
+    pub fn flow(&self) -> Result<&FlowSolver, GpuError> {
+        self.film.flow().ok_or_else(|| GpuError::Refused("this film has not moved by itself".to_owned()))
+    }
+
+    /// Vorticity in 1/s, in the order of the flow's grid.
+    pub fn zeta(&self) -> Result<Vec<f64>, GpuError> {
+        let flow = self.flow()?;
+        let bytes = Readback::of_buffer(self.gpu, flow.zeta(), flow.zeta().size()).wait(self.gpu)?;
+        let padded: Vec<f32> = bytemuck::pod_collect_to_vec(&bytes);
+        Ok(flow.inner(&padded).into_iter().map(f64::from).collect())
+    }
+
+    /// Speed in rad/s at each cell of the flow's grid, and the velocity.
+    pub fn velocity(&self) -> Result<Vec<DVec3>, GpuError> {
+        let flow = self.flow()?;
+        let bytes = Readback::of_buffer(self.gpu, flow.velocity(), flow.velocity().size()).wait(self.gpu)?;
+        let padded: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+        let parts: [Vec<f32>; 3] = [0, 1, 2].map(|k| flow.inner(&padded.iter().map(|v| v[k]).collect::<Vec<_>>()));
+        let [x, y, z] = parts;
+        Ok((0..x.len()).map(|cell| DVec3::new(x[cell].into(), y[cell].into(), z[cell].into())).collect())
+    }
+
+    /// Thickness in nm, in the order of the film's grid.
+    pub fn thickness(&mut self) -> Result<Vec<f64>, GpuError> {
+        values(self.gpu, &mut self.film.field)
+    }
+
+    fn fastest(&self) -> Result<f64, GpuError> {
+        Ok(largest(self.velocity()?.iter().map(|u| u.length())))
+    }
+}
+
+fn key(scene: &Scene, tick: u64) -> Result<FieldKey, GpuError> {
+    match film_key(scene, 0, Moment::tick(tick)) {
+        Some(FilmKey::Field(key)) => Ok(key),
+        _ => Err(GpuError::Refused("a film of one thickness does not move".to_owned())),
+    }
+}
+
+/// The largest of some numbers; no number if one is none.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most: f64, value| if value.is_nan() { f64::NAN } else { most.max(value) })
+}
+
+/// What pushes do, and what films do after them.
+pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
+    pushed(run)?;
+    sloshing(run)?;
+    for (name, reach_m) in [("", 0.5), (", dragged by kilometres", 1000.0)] {
+        anything(run, name, reach_m)?;
+    }
+    Ok(())
+}
+
+/// A film without weight in air at rest.
+#[must_use]
+pub fn weightless(cells: u32) -> Scene {
+    let mut scene = Scene::default();
+    scene.bubbles[0].film.cells = cells;
+    scene.motion.gravity_m_s2 = [0.0; 3];
+    (scene.motion.strength, scene.motion.drag_1_s, scene.motion.viscosity_mm2_s) = (0.0, 0.0, 0.0);
+    scene
+}
+
+/// After its first step, the middle of a stir moves as the closed form says.
+fn pushed(run: &mut Run<'_>) -> Result<(), GpuError> {
+    for radius_deg in [8.0, 15.0, 40.0] {
+        let stir = Stir { at: [0.5, 0.4, 0.3], velocity_m_s: [-0.04, 0.05, 0.0], radius_deg, ..Stir::default() };
+        let event = Event { tick: 0, change: Change::Stir(stir.clone()) };
+        let scene = Scene { events: vec![event], ..weightless(64) };
+        let mut played = Played::new(run.gpu, &scene)?;
+        played.play_to(2)?;
+        let (grid, centre) = (played.flow()?.sphere(), DVec3::from(stir.at).normalize());
+        let nearest = (0..grid.cells())
+            .min_by(|a, b| {
+                let angle = |cell: usize| grid.cell_direction(cell).distance_squared(centre);
+                angle(*a).total_cmp(&angle(*b))
+            })
+            .unwrap_or(0);
+        let at = |tick| key(&scene, tick).map(|key| key.pushes_during(0.0, tick as f64));
+        let push = at(2)?.first().copied().unwrap_or_else(|| unreachable!("a push acts"));
+        let dt_s = 2.0 * scene.motion.tick_s;
+        let expected = gained(Push::sharpness_of(radius_deg.to_radians())) * push.rate * dt_s * push.velocity;
+        let error = played.velocity()?[nearest].distance(expected) / expected.length();
+        // The nearest cell is up to half a cell away from the middle.
+        run.at_most(format!("a stir of {radius_deg}°: error of the speed in its middle"), error, 0.03);
+    }
+    Ok(())
+}
+
+/// Dragged to the side and back, a sorted film swings with the period of its (1,1) mode, and settles.
+fn sloshing(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let (drag_1_s, a) = (1.0, 0.6);
+    let mut scene = Scene::default();
+    scene.bubbles[0].film.cells = 64;
+    (scene.bubbles[0].film.state, scene.bubbles[0].film.stratification) = (FilmStateName::Rest, a);
+    (scene.motion.strength, scene.motion.drag_1_s) = (0.0, drag_1_s);
+    scene.motion.diffusion_mm2_s = 0.0;
+    let drag = |tick, x| Event { tick, change: Change::Drag(Drag { to_m: [x, 0.0, 0.0], ..Drag::default() }) };
+    scene.events = vec![drag(2, 3e-3), drag(14, 0.0)];
+    let mut played = Played::new(run.gpu, &scene)?;
+    // By then the bubble is back to within e⁻¹⁴.
+    const CALM: u64 = 100;
+    let mut swings = Vec::new();
+    for tick in (CALM..CALM + 120).step_by(2) {
+        played.play_to(tick)?;
+        let (grid, zeta) = (played.flow()?.sphere(), played.zeta()?);
+        let swing = |(cell, area): (usize, f64)| area * zeta[cell] * grid.cell_direction(cell).y;
+        swings.push(grid.areas().into_iter().enumerate().map(swing).sum::<f64>());
+    }
+    let found = fit_oscillation(&swings, 2.0 * scene.motion.tick_s);
+    let (frequency, growth) = found.map_or((f64::NAN, f64::NAN), |found| (found.frequency, found.growth));
+    let undamped = (9.81 * a / 0.05f64 / 2.0).sqrt();
+    let expected = (undamped.powi(2) - 0.25 * drag_1_s.powi(2)).sqrt();
+    // The steps of a thirtieth of a second make it fast by (σ dt)²/24 = 3e-3.
+    run.at_most("a drag there and back: error of the film's swing", (frequency / expected - 1.0).abs(), 0.01);
+    run.at_most("a drag there and back: error of its decay", (growth / (-0.5 * drag_1_s) - 1.0).abs(), 0.05);
+    Ok(())
+}
+
+/// Thousands of interactions as wild as scenes allow, then peace.
+fn anything(run: &mut Run<'_>, name: &str, reach_m: f64) -> Result<(), GpuError> {
+    const EVENTS: u64 = 3000;
+    const PEACE: u64 = 1800;
+    let mut random = Random::new(7);
+    let mut scene = Scene::default();
+    scene.bubbles[0].film.cells = 16;
+    scene.motion.strength = 0.0;
+    scene.events = (0..EVENTS).map(|tick| Event { tick, change: anything_at_all(&mut random, reach_m) }).collect();
+    let calm = MotionChange { gravity_m_s2: Some([0.0, 0.0, -9.81]), ..MotionChange::default() };
+    scene.events.push(Event { tick: EVENTS, change: Change::Motion(calm) });
+    let mut played = Played::new(run.gpu, &scene)?;
+    let before = played.thickness()?;
+    let mut fastest: f64 = 0.0;
+    for tick in (100..=EVENTS).step_by(100) {
+        played.play_to(tick)?;
+        fastest = largest([fastest, played.fastest()?].into_iter());
+    }
+    played.play_to(EVENTS + PEACE)?;
+    let (last, after) = (played.fastest()?, played.thickness()?);
+    let (excess, drift) = super::stability::departures(played.film.field.sphere(), &before, &after);
+    let name = format!("{EVENTS} random interactions{name}");
+    let unfinished = after.iter().filter(|value| !value.is_finite()).count();
+    run.at_most(format!("{name}: values not finite"), unfinished as f64, 0.0);
+    run.at_most(format!("{name}: beyond the range, part of it"), excess, 1e-6);
+    run.at_most(format!("{name}: drift of mass"), drift, 1e-7);
+    // The fastest air has 30 m/s, on a radius of 5 cm.
+    run.at_most(format!("{name}: fastest flow, rad/s"), fastest, 30.0 / 0.05);
+    run.at_most(format!("{name}: flow that is left after half a minute, rad/s"), last, 1e-3);
+    Ok(())
+}
+
+/// An event of any kind, with any values in range, that lasts up to a quarter of a second.
+fn anything_at_all(random: &mut Random, reach_m: f64) -> Change {
+    let mut vector = |size: f64| [0; 3].map(|_| size * (2.0 * random.next() - 1.0));
+    let (at, toward, velocity_m_s, to_m, gravity) =
+        (vector(1.0), vector(1.0), vector(10.0), vector(reach_m), vector(20.0));
+    let radius_deg = 3.0 + 87.0 * random.next();
+    let ticks = 1 + (15.0 * random.next()) as u64;
+    match (4.0 * random.next()) as u32 {
+        0 => Change::Stir(Stir { bubble: 0, at, velocity_m_s, radius_deg, ticks }),
+        1 => Change::Blow(Blow { bubble: 0, at, toward, speed_m_s: 30.0 * random.next(), radius_deg, ticks }),
+        2 => Change::Drag(Drag { bubble: 0, to_m }),
+        _ => Change::Motion(MotionChange { gravity_m_s2: Some(gravity), ..MotionChange::default() }),
+    }
+}
