@@ -30,11 +30,16 @@ struct Hits {
     steps: mat4x3f,
 }
 
+// Hits beyond the eleventh inner reflection, where light that grazes the film still has a part left.
+const FURTHER: u32 = 12u;
+
 // All hits of a ray. The first four steps are E0 - B, E1 - B, E2 - E1 and E3 - E2; where INNER is 3 or 7 the later hits are not read.
 struct Walls {
     first: Hits,
     second: Hits,
     third: Hits,
+    // Steps of light at further hits, where the film is taken to be as thick as at the last one: at grazing they lie close together.
+    further: array<vec3f, 12>,
 }
 
 // Factors on the first four steps, from the reflectances at the first four hits.
@@ -106,7 +111,14 @@ fn band_radiance(band: Band, cos_theta: f32, walls: Walls, polarisation: vec2f) 
     }
     if (INNER > 7u) {
         let r = wall_reflectances(band, cos_theta, walls.third);
-        light += walls.third.steps * (later_factors(s.w, r.s) + later_factors(p.w, r.p));
+        s = later_factors(s.w, r.s);
+        p = later_factors(p.w, r.p);
+        light += walls.third.steps * (s + p);
+        var left = vec2f(s.w, p.w);
+        for (var k = 0u; k < FURTHER; k++) {
+            left *= vec2f(r.s.w, r.p.w);
+            light += walls.further[k] * (left.x + left.y);
+        }
     }
     return band.response * light;
 }

@@ -10,7 +10,7 @@ import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::band::Band;
 import package::optics::film_colour::{FILTERED, POLARISED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{BANDS, EVERYTHING, Hits, INNER, Walls, band_radiance, resolved};
+import package::optics::walls::{BANDS, EVERYTHING, FURTHER, Hits, INNER, Walls, band_radiance, resolved};
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
@@ -277,6 +277,11 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
         let third = four_hits(path, last);
         walls.third = third.hits;
         last = third.last;
+        for (var k = 0u; k < FURTHER; k++) {
+            let next = followed(path, last);
+            walls.further[k] = next.light - last.light;
+            last = next;
+        }
     }
     // One reflection more, by the mean reflectance over all thicknesses, of s light, which outlasts p: no lookup of a film.
     let r2 = surface_reflectance(axes.index, path.cos_theta).x;
@@ -286,7 +291,7 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     } else if (INNER == 7u) {
         walls.second.steps[3] += more;
     } else {
-        walls.third.steps[3] += more;
+        walls.further[FURTHER - 1u] += more;
     }
     var seen = vec3f(0.0);
     let products = resolved(walls, bands[0].coherent_nm);

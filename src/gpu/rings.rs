@@ -14,7 +14,7 @@ pub const SIDES: u32 = 96;
 pub struct Ring {
     /// Inner and outer edge: angle from the direction of the bubble's centre, in radians. None: the whole picture.
     pub edges_rad: Option<[f64; 2]>,
-    /// Inner reflections that are followed: 3, 7 or 11.
+    /// Inner reflections whose films are looked up: 3, 7 or 11. After eleven, light is followed on: see `shaders/optics/walls.wgsl`.
     pub inner_reflections: u32,
     /// Samples along each side of a pixel.
     pub samples: u32,

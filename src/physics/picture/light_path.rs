@@ -8,7 +8,7 @@ use crate::physics::{
 };
 
 /// Inner reflections followed at most; only rays within a hair of the rim have more to give.
-const MAX_INNER: usize = 24;
+const MAX_INNER: usize = 64;
 /// What may be left to the last direction before following it further is pointless.
 const NEGLIGIBLE: f64 = 1e-6;
 
