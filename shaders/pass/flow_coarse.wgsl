@@ -74,15 +74,15 @@ fn fill(level: Level, entry: u32, bank: u32) {
     e[base + entries[entry].cell] = total;
 }
 
+// The innermost ring, which is all that is read of it, and the second on the way to its corners: see `HaloTable`.
 fn fill_halo(level: Level, lane: u32, bank: u32) {
     storageBarrier();
-    let edges = 24u * HALO * level.cells;
-    for (var k = lane; k < edges; k += LANES) {
+    for (var k = lane; k < 48u * level.cells; k += LANES) {
         fill(level, level.halo + k, bank);
     }
     storageBarrier();
-    for (var k = lane; k < 24u * HALO * HALO; k += LANES) {
-        fill(level, level.halo + edges + k, bank);
+    if (lane < 24u) {
+        fill(level, level.halo + 24u * HALO * level.cells + lane, bank);
     }
     storageBarrier();
 }

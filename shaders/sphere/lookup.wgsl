@@ -48,7 +48,19 @@ fn healed_map(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
 
 // A map of unit vectors at a direction, cubic: the unit vector there, and in w what was gathered on the way from it.
 fn map_at(map: u32, direction: vec3f, cells: u32) -> vec4f {
-    let at = cell_point(direction, cells);
+    return map_between(map, cell_point(direction, cells), direction);
+}
+
+// The same at the centre of a cell, halo included, of a grid with `finer` cells: on a coarser one, of the same panels, its place is known.
+fn coarse_map_at(map: u32, id: vec3u, finer: u32, direction: vec3f, cells: u32) -> vec4f {
+    let cell = (vec2f(id.xy) + 0.5 - f32(HALO)) * f32(cells) / f32(finer) - 0.5;
+    // No stencil reaches beyond the halo.
+    let base = clamp(floor(cell), vec2f(1.0 - f32(HALO)), vec2f(f32(cells + HALO) - 3.0));
+    let place = padded_index(id.z, i32(base.x), i32(base.y), cells);
+    return map_between(map, CellPoint(place, cells + 2u * HALO, cell - base), direction);
+}
+
+fn map_between(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
     let wi = cubic_weights(at.t.x);
     let wj = cubic_weights(at.t.y);
     let first = at.place - at.stride - 1u;

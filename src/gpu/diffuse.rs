@@ -36,8 +36,10 @@ const STAGES: u32 = 3;
 const MOST_A_PART: f64 = 0.9;
 /// Parts of one diffusion at most.
 const MOST_PARTS: u32 = 4;
-/// The longest that a film is moved without being diffused: filaments reach the grid in a few tenths of a second.
-const LONGEST_S: f64 = 0.1;
+/// How long a film is moved without being diffused, if that needs no more parts: filaments reach the grid in a few tenths of a second.
+const USUAL_S: f64 = 0.1;
+/// The longest that it is, if as many parts can do it.
+const LONGEST_S: f64 = 0.2;
 
 /// Diffusion of a film's thickness, done at remaps.
 pub struct Diffusion {
@@ -58,9 +60,9 @@ impl Diffusion {
         if per_tick <= 0.0 {
             return None;
         }
-        let wanted_ticks = (LONGEST_S / tick_s).max(1.0);
-        let parts = (wanted_ticks * per_tick / MOST_A_PART).ceil().min(f64::from(MOST_PARTS));
-        let latest_ticks = wanted_ticks.min(parts * MOST_A_PART / per_tick).max(1.0) as u32;
+        let [usual_ticks, longest_ticks] = [USUAL_S, LONGEST_S].map(|most_s| (most_s / tick_s).max(1.0));
+        let parts = (usual_ticks * per_tick / MOST_A_PART).ceil().min(f64::from(MOST_PARTS));
+        let latest_ticks = longest_ticks.min(parts * MOST_A_PART / per_tick).max(1.0) as u32;
         Some(Self {
             law: (rad2_s, tick_s),
             per_tick,

@@ -20,7 +20,8 @@ pub struct HaloEntry {
     pub weights: [f32; 4],
 }
 
-/// The halo cells of a grid in two passes: all of `edges`, then all of `corners`. Within a pass any order gives the same values.
+/// The halo cells of a grid in two passes: all of `edges`, then all of `corners`, each from the innermost ring outwards. Within a pass any
+/// order gives the same values. The 24 innermost corners read no edge cells beyond the second ring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HaloTable {
     /// The 48·N cells beyond one edge; they read inner cells only.
@@ -34,7 +35,8 @@ impl HaloTable {
     pub fn new(grid: CubedSphere) -> Self {
         let n = grid.n() as isize;
         let span = -(HALO as isize)..n + HALO as isize;
-        let outside = |k: isize| usize::from(!(0..n).contains(&k));
+        let depth = |k: isize| (-k).max(k + 1 - n).max(0);
+        let outside = |k: isize| usize::from(depth(k) > 0);
         let beyond = |edges: usize| {
             let span = span.clone();
             (0..6).flat_map(move |panel| {
@@ -44,7 +46,11 @@ impl HaloTable {
                     .filter(move |&(_, i, j)| outside(i) + outside(j) == edges)
             })
         };
-        let entries = |edges, reach| beyond(edges).map(|(panel, i, j)| entry(grid, panel, i, j, reach)).collect();
+        let entries = |edges, reach| {
+            let mut cells: Vec<_> = beyond(edges).collect();
+            cells.sort_by_key(|&(_, i, j)| depth(i).max(depth(j)));
+            cells.into_iter().map(|(panel, i, j)| entry(grid, panel, i, j, reach)).collect()
+        };
         Self { edges: entries(1, 0), corners: entries(2, HALO as isize) }
     }
 }
@@ -104,6 +110,22 @@ mod tests {
                 ready.extend(pass.iter().map(|entry| entry.target));
             }
             assert_eq!(ready.len(), grid.padded_len());
+        }
+    }
+
+    #[test]
+    fn inner_rings_come_first_and_their_corners_need_two_of_them() {
+        for n in [8, 15, 40] {
+            let table = HaloTable::new(CubedSphere::new(n).unwrap());
+            let outer: HashSet<u32> = table.edges[48 * n..].iter().map(|entry| entry.target).collect();
+            let corners = &table.corners[..24];
+            assert!(corners.iter().all(|entry| entry.source.iter().all(|source| !outer.contains(source))));
+            let width = n + 2 * HALO;
+            let inner = |k: usize| k == HALO - 1 || k == HALO + n;
+            assert!(corners.iter().all(|entry| {
+                let place = entry.target as usize % (width * width);
+                inner(place % width) && inner(place / width)
+            }));
         }
     }
 
