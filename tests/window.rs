@@ -200,6 +200,54 @@ fn tools_are_there() -> bool {
     false
 }
 
+/// A film on which nothing acts, so that what moves was moved by hand.
+const STILL: &str = "version = 1
+[[bubble]]
+film.state = \"rest\"
+[motion]
+strength = 0
+gravity_m_s2 = [0, 0, 0]
+drag_1_s = 8
+[view]
+dither = false
+";
+
+#[test]
+fn a_film_is_stirred_and_a_bubble_is_moved() {
+    if !tools_are_there() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("still.toml");
+    std::fs::write(&scene, STILL).unwrap();
+    let mut screen = Screen::open(&["app", scene.to_str().unwrap()]);
+    // The panels show the time that passes.
+    screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 4.0).then_some(()));
+    screen.press("h");
+    let still = screen.settled("a film at rest while time runs");
+
+    screen.press("2");
+    screen.act(&["mousemove", "540", "400"]);
+    let taken = screen.settled("another tool");
+    screen.drag([540, 400], [200, 0]);
+    sleep(Duration::from_secs(1));
+    screen.press("space");
+    let stirred = screen.settled("a stirred film");
+    assert!(difference(MIDDLE, &taken, &stirred) > 2.0, "the stir must be seen");
+    assert!(difference([0, 100, 60, 600], &still, &stirred) < 0.01, "the camera stands");
+
+    screen.press("space");
+    screen.press("4");
+    screen.drag([640, 400], [150, 0]);
+    sleep(Duration::from_secs(2));
+    screen.press("space");
+    let moved = screen.settled("a moved bubble");
+    assert!(difference([240, 200, 100, 400], &stirred, &moved) > 2.0, "the bubble must leave its place");
+
+    screen.press("ctrl+q");
+    screen.ends_well();
+}
+
 #[test]
 fn a_window_shows_a_bubble_obeys_and_rests() {
     if !tools_are_there() {

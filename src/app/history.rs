@@ -8,8 +8,14 @@ pub fn record(scene: &mut Scene, tick: u64, change: MotionChange) {
     match scene.events[..after].last_mut() {
         Some(Event { tick: known, change: Change::Motion(motion) }) if *known == tick => merge(motion, &change),
         _ if tick == 0 => begin(scene, &change),
-        _ => scene.events.insert(after, Event { tick, change: Change::Motion(change) }),
+        _ => insert(scene, Event { tick, change: Change::Motion(change) }),
     }
+}
+
+/// Enters what happens at a tick, after all that has happened until then.
+pub fn insert(scene: &mut Scene, event: Event) {
+    let after = scene.events.partition_point(|known| known.tick <= event.tick);
+    scene.events.insert(after, event);
 }
 
 fn merge(known: &mut MotionChange, newer: &MotionChange) {

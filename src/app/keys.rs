@@ -2,6 +2,8 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
+use super::tools::Tool;
+
 /// What a key does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
@@ -27,6 +29,16 @@ pub enum Action {
     SavePng,
     /// Saves the picture as EXR.
     SaveExr,
+    /// Takes a tool in the pointer's hand.
+    Take(Tool),
+    /// Tilts gravity to the right of the picture.
+    TiltRight,
+    /// Tilts gravity to its left.
+    TiltLeft,
+    /// Tilts gravity away from the camera.
+    TiltAway,
+    /// Tilts gravity towards it.
+    TiltBack,
     /// Takes messages and help away.
     Dismiss,
     /// Ends the program.
@@ -54,7 +66,7 @@ const fn command(key: Key, action: Action, help: &'static str) -> Binding {
 const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 /// All keys. Those with more modifiers stand first, for a shortcut also matches with more held than it asks for.
-pub const BINDINGS: [Binding; 14] = [
+pub const BINDINGS: [Binding; 23] = [
     Binding {
         shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::P),
         action: Action::SaveExr,
@@ -69,6 +81,15 @@ pub const BINDINGS: [Binding; 14] = [
     bare(Key::R, Action::Reset, "Back to the beginning"),
     bare(Key::N, Action::NewSeed, "New seeds for film and flow"),
     bare(Key::F, Action::Frame, "Frame the bubbles"),
+    bare(Key::Num1, Action::Take(Tool::Orbit), "The pointer turns the view"),
+    bare(Key::Num2, Action::Take(Tool::Stir), "The pointer stirs a film"),
+    bare(Key::Num3, Action::Take(Tool::Blow), "The pointer blows at a film"),
+    bare(Key::Num4, Action::Take(Tool::Drag), "The pointer moves a bubble"),
+    bare(Key::Num5, Action::Take(Tool::Prick), "The pointer bursts a bubble"),
+    bare(Key::ArrowRight, Action::TiltRight, "Tilt gravity to the right"),
+    bare(Key::ArrowLeft, Action::TiltLeft, "Tilt gravity to the left"),
+    bare(Key::ArrowUp, Action::TiltAway, "Tilt gravity away from the camera"),
+    bare(Key::ArrowDown, Action::TiltBack, "Tilt gravity towards the camera"),
     bare(Key::H, Action::Panels, "Show or hide the panels"),
     bare(Key::F1, Action::Help, "This help"),
     bare(Key::Questionmark, Action::Help, "This help"),
@@ -76,8 +97,9 @@ pub const BINDINGS: [Binding; 14] = [
 ];
 
 /// What the pointer does, for the help.
-pub const POINTER: [(&str, &str); 4] = [
+pub const POINTER: [(&str, &str); 5] = [
     ("Drag", "Turn around the bubble"),
+    ("Drag with a tool", "Stir, blow at or move a bubble; beside it, turn"),
     ("Right or Shift drag", "Shift the view"),
     ("Wheel, pinch", "Nearer or farther, into the bubble too"),
     ("Double click", "Frame the bubbles"),

@@ -27,6 +27,7 @@ mod reload;
 mod stage;
 mod style;
 mod surface;
+mod tools;
 mod window;
 
 use crate::{

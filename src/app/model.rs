@@ -2,7 +2,17 @@
 
 use std::path::PathBuf;
 
-use super::{clock::Clock, costs::Costs, history, keys::Action, messages::Messages, orbit};
+use glam::{DMat3, DVec2};
+
+use super::{
+    clock::Clock,
+    costs::Costs,
+    history,
+    keys::Action,
+    messages::Messages,
+    orbit,
+    tools::{self, Hand, Tool},
+};
 use crate::{
     input::LoadedScene,
     plan::Resources,
@@ -56,6 +66,9 @@ pub enum Request {
     Quit,
 }
 
+/// How far a key tilts gravity, degrees.
+const TILT_DEG: f64 = 10.0;
+
 /// The window's state.
 pub struct Model {
     /// The scene as edited.
@@ -74,6 +87,10 @@ pub struct Model {
     pub furthest_tick: u64,
     /// A change of motion while its slider is being dragged: it counts once it is let go.
     pub motion_draft: Option<MotionChange>,
+    /// What the pointer is used for.
+    pub tool: Tool,
+    /// What the pointer does with it.
+    pub hand: Hand,
     /// Whether the panels are there.
     pub shows_panels: bool,
     /// Whether the help is there.
@@ -103,6 +120,8 @@ impl Model {
             selected: 0,
             furthest_tick: 0,
             motion_draft: None,
+            tool: Tool::default(),
+            hand: Hand::default(),
             shows_panels: true,
             shows_help: false,
             loading: None,
@@ -122,6 +141,8 @@ impl Model {
         self.clock.reset();
         self.furthest_tick = 0;
         self.selected = 0;
+        // What the hand held is gone.
+        self.hand = Hand::default();
         self.loading = None;
     }
 
@@ -173,6 +194,23 @@ impl Model {
         self.clock.reset();
     }
 
+    /// Lets the pointer use its tool: pressed at a place of the picture, as [`tools::touch`] has it, or not pressed. Tells whether the
+    /// camera shall stand.
+    pub fn touch(&mut self, pressed: Option<DVec2>) -> bool {
+        tools::touch(&mut self.hand, self.tool, &mut self.scene, self.clock.tick, pressed);
+        matches!(self.hand, Hand::Film(_))
+    }
+
+    /// Tilts gravity from now on, by so many degrees to the right of the picture and away from the camera.
+    fn tilt(&mut self, right_deg: f64, away_deg: f64) {
+        let camera = &self.scene.camera;
+        let turn = DMat3::from_axis_angle(camera.forward(), -right_deg.to_radians())
+            * DMat3::from_axis_angle(camera.right(), away_deg.to_radians());
+        let gravity = turn * glam::DVec3::from(self.motion().gravity_m_s2);
+        let gravity_m_s2 = Some(gravity.to_array().map(|part| (part * 1e3).round() / 1e3));
+        self.change_motion(MotionChange { gravity_m_s2, ..MotionChange::default() });
+    }
+
     /// Moves the camera.
     pub fn move_camera(&mut self, gesture: &orbit::Gesture, aspect: f64) {
         if *gesture != orbit::Gesture::default() {
@@ -198,6 +236,11 @@ impl Model {
             Action::SavePng => self.requests.push(Request::Ask(Target::SavePng)),
             Action::SaveExr => self.requests.push(Request::Ask(Target::SaveExr)),
             Action::Quit => self.requests.push(Request::Quit),
+            Action::Take(tool) => self.tool = tool,
+            Action::TiltRight => self.tilt(TILT_DEG, 0.0),
+            Action::TiltLeft => self.tilt(-TILT_DEG, 0.0),
+            Action::TiltAway => self.tilt(0.0, TILT_DEG),
+            Action::TiltBack => self.tilt(0.0, -TILT_DEG),
             Action::Frame => {}
         }
     }

@@ -18,7 +18,7 @@ pub use keys::{
     FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, TableKey, TonemapKey,
     range_nm,
 };
-pub use want::{Lamp, Resources, Shot, WantError, centre_path, film_key, want};
+pub use want::{Lamp, Resources, Shot, WantError, centre_path, film_key, film_turn, want};
 
 /// How much may be done before the next picture must be out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

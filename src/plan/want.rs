@@ -227,7 +227,7 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         // A film of one thickness looks the same however it is turned.
         to_film: match film {
             FilmKey::Uniform(_) => DMat3::IDENTITY,
-            FilmKey::Field(_) => DMat3::from_quat(turned(scene, life.born as f64 + ticks).inverse()),
+            FilmKey::Field(_) => DMat3::from_quat(film_turn(scene, life.born as f64 + ticks).inverse()),
         },
         thinned_nm: evaporated_nm(&rates, scene.motion.tick_s, ticks),
         samples: samples(radius_pixels),
@@ -257,7 +257,8 @@ fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
 }
 
 /// How far all films have turned as a whole at a time in ticks.
-fn turned(scene: &Scene, ticks: f64) -> DQuat {
+#[must_use]
+pub fn film_turn(scene: &Scene, ticks: f64) -> DQuat {
     let starts: Vec<u64> = changes(scene).collect();
     let ends = starts.iter().skip(1).map(|tick| *tick as f64).chain(std::iter::once(f64::INFINITY));
     starts.iter().zip(ends).fold(DQuat::IDENTITY, |turn, (start, end)| {

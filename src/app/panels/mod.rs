@@ -11,10 +11,12 @@ mod picture;
 mod plots;
 #[cfg(test)]
 mod tests;
+mod tools;
 mod view;
 mod widgets;
 
 use egui::{CollapsingHeader, Panel, Rect, ScrollArea, Ui};
+use glam::DVec2;
 
 use super::{
     keys::{self, Action},
@@ -32,6 +34,8 @@ pub struct Picture {
     pub rect: Rect,
     /// How its camera is to be moved.
     pub gesture: Gesture,
+    /// Where the pointer is pressed there, right and up from its middle in heights of the picture.
+    pub pressed: Option<DVec2>,
 }
 
 /// Shows everything around the picture, obeys the keys, and returns where the picture stands.
@@ -46,6 +50,10 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
         Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
     }
     let mut picture = picture::show(ui);
+    if model.touch(picture.pressed) {
+        picture.gesture.turn = DVec2::ZERO;
+    }
+    tools::show(ui.ctx(), picture.rect, model);
     picture.gesture.frame |= actions.contains(&Action::Frame);
     notices::show(ui.ctx(), picture.rect, model);
     help::show(ui.ctx(), &mut model.shows_help);

@@ -102,7 +102,8 @@ fn dials(ui: &mut Ui, model: &mut Model) {
     if dial(slider(ui, "Evaporation", &mut rate, 0.0..=100.0, help, |s| s.suffix(" nm/s").max_decimals(1))) {
         evaporation_nm_s = Some(rate);
     }
-    let edit = MotionChange { strength, spin_deg_s, evaporation_nm_s, ..MotionChange::default() };
+    let gravity_m_s2 = gravity(ui, shown.gravity_m_s2, dial);
+    let edit = MotionChange { strength, spin_deg_s, evaporation_nm_s, gravity_m_s2, ..MotionChange::default() };
     if edit != MotionChange::default() {
         model.motion_draft = Some(edit);
     }
@@ -112,6 +113,19 @@ fn dials(ui: &mut Ui, model: &mut Model) {
     if let Some(change) = model.motion_draft.take().filter(|change| change.applied_to(motion.clone()) != motion) {
         model.change_motion(change);
     }
+}
+
+/// Sliders for the strength of gravity and its tilt about the world's x axis; returns gravity if one was moved.
+fn gravity(ui: &mut Ui, [x, y, z]: [f64; 3], mut dial: impl FnMut(Response) -> bool) -> Option<[f64; 3]> {
+    let mut strength = y.hypot(z);
+    let mut tilt_deg = if strength > 0.0 { y.atan2(-z).to_degrees() } else { 0.0 };
+    let help = "What pulls a free film down";
+    let stronger = dial(slider(ui, "Gravity", &mut strength, 0.0..=100.0, help, |s| s.suffix(" m/s²").max_decimals(1)));
+    let help = "From straight down towards +y. The arrow keys tilt it as the picture shows it.";
+    let tilted = dial(slider(ui, "Tilt", &mut tilt_deg, -180.0..=180.0, help, |s| s.suffix("°").max_decimals(1)));
+    let (sin, cos) = tilt_deg.to_radians().sin_cos();
+    let rounded = |part: f64| (part * 1e3).round() / 1e3;
+    (stronger || tilted).then(|| [x, rounded(strength * sin), rounded(-strength * cos)])
 }
 
 /// The history: what happens at which time, each entry removable.

@@ -16,9 +16,17 @@ pub fn show(ui: &mut Ui) -> Picture {
         .show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
-            Picture { rect, gesture: gesture(ui, &response) }
+            Picture { rect, gesture: gesture(ui, &response), pressed: pressed(ui, &response) }
         })
         .inner
+}
+
+/// Where the primary button is held without Shift, which would shift the view.
+fn pressed(ui: &Ui, response: &Response) -> Option<DVec2> {
+    let is_down = ui.input(|input| input.pointer.primary_down() && !input.modifiers.shift);
+    let at = response.interact_pointer_pos().filter(|_| is_down && response.is_pointer_button_down_on())?;
+    let from_middle = (at - response.rect.center()) / response.rect.height().max(1.0);
+    Some(DVec2::new(from_middle.x.into(), (-from_middle.y).into()))
 }
 
 fn gesture(ui: &Ui, response: &Response) -> Gesture {

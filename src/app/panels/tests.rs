@@ -5,8 +5,11 @@ use egui_kittest::{Harness, kittest::Queryable};
 
 use super::Picture;
 use crate::{
-    app::model::{Model, Request, Target, tests::model},
-    scene::{Backdrop, FilmStateName, Flow, Scene, TransportScheme},
+    app::{
+        model::{Model, Request, Target, tests::model},
+        tools::Tool,
+    },
+    scene::{Backdrop, Change, FilmStateName, Flow, Scene, TransportScheme},
 };
 
 struct State {
@@ -52,6 +55,8 @@ fn sliders_change_what_they_are_called() {
         ("Strength", 2.5),
         ("Spin", -45.0),
         ("Evaporation", 12.5),
+        ("Gravity", 5.0),
+        ("Tilt", 90.0),
         ("Speed", 0.5),
         ("Rotation", 90.0),
         ("Intensity", 3.0),
@@ -66,6 +71,7 @@ fn sliders_change_what_they_are_called() {
     assert_eq!((bubble.radius_mm, bubble.film.thickness_nm, bubble.film.stratification), (20.0, 321.0, -1.0));
     assert_eq!((scene.motion.strength, scene.motion.speed), (2.5, 0.5));
     assert_eq!((scene.motion.spin_deg_s, scene.motion.evaporation_nm_s), ([0.0, 0.0, -45.0], 12.5));
+    assert_eq!(scene.motion.gravity_m_s2, [0.0, 5.0, 0.0]);
     assert_eq!((scene.light.rotation_deg, scene.light.intensity), (90.0, 3.0));
     assert_eq!((scene.view.exposure_ev, scene.camera.fov_y_deg, scene.camera.distance_m), (-1.5, 50.0, 0.5));
     assert_eq!(scene.validate(), Ok(()));
@@ -75,7 +81,7 @@ fn sliders_change_what_they_are_called() {
 fn no_slider_leaves_the_ranges_of_a_scene() {
     let mut window = window();
     let names = ["Radius", "Thickness", "Stratification", "Strength", "Speed", "Rotation", "Intensity", "Exposure"];
-    let others = ["Field of view", "Distance", "Spin", "Evaporation", "Time"];
+    let others = ["Field of view", "Distance", "Spin", "Evaporation", "Gravity", "Tilt", "Time"];
     let names: Vec<_> = names.into_iter().chain(others).collect();
     for extreme in [-1e12, 1e12] {
         for name in &names {
@@ -264,6 +270,53 @@ fn a_drag_on_the_picture_turns_and_a_wheel_zooms() {
         })
         .sum();
     assert!((0.1..0.3).contains(&zoom), "{zoom}");
+}
+
+#[test]
+fn a_tool_in_hand_works_on_the_film_and_beside_it_the_view_turns() {
+    let mut window = window();
+    click(&mut window, "Stir");
+    let middle = window.state().picture.unwrap().rect.center();
+    for (from, events, turns) in [(middle, 3, false), (middle - vec2(0.0, 550.0), 3, true)] {
+        window.drag_at(from);
+        window.step();
+        for k in 1..=3u8 {
+            window.state_mut().model.clock.tick += 6;
+            window.hover_at(from + vec2(30.0 * f32::from(k), 0.0));
+            window.step();
+        }
+        let Picture { gesture, .. } = window.state().picture.unwrap();
+        assert_eq!((window.state().model.scene.events.len(), gesture.turn.x > 0.0), (events, turns));
+        window.drop_at(from + vec2(90.0, 0.0));
+        window.step();
+    }
+    let scene = &window.state().model.scene;
+    assert!(scene.events.iter().all(|event| matches!(event.change, Change::Stir(_))));
+    assert_eq!(Scene::from_toml(&scene.to_toml(), "saved").as_ref(), Ok(scene));
+}
+
+#[test]
+fn keys_take_tools_and_tilt_gravity() {
+    let mut window = window();
+    for (key, tool) in [(Key::Num2, Tool::Stir), (Key::Num5, Tool::Prick), (Key::Num1, Tool::Orbit)] {
+        window.key_press(key);
+        window.run();
+        assert_eq!(window.state().model.tool, tool);
+    }
+    window.state_mut().model.clock.tick = 60;
+    (window.state_mut().model.scene.camera.azimuth_deg, window.state_mut().model.scene.camera.elevation_deg) =
+        (0.0, 0.0);
+    (0..9).for_each(|_| {
+        window.key_press(Key::ArrowRight);
+        window.run();
+    });
+    // Seen from +x, +y is on the right.
+    let [x, y, z] = window.state().model.motion().gravity_m_s2;
+    assert!(x.abs() < 0.01 && (y - 9.81).abs() < 0.01 && z.abs() < 0.01, "{x} {y} {z}");
+    assert_eq!(window.state().model.scene.events.len(), 1, "one tick, one event");
+    window.key_press(Key::ArrowUp);
+    window.run();
+    assert!(window.state().model.motion().gravity_m_s2[1] > 9.8, "it lies along the axis of that turn");
 }
 
 #[test]

@@ -1,0 +1,321 @@
+//! Tools: what the pointer does to a film becomes events of the scene's history, so that a saved scene replays it.
+
+use glam::{DQuat, DVec2, DVec3};
+
+use super::history;
+use crate::{
+    plan::{centre_path, film_turn},
+    scene::{Blow, Change, Drag, Event, Prick, Scene, Stir},
+};
+
+/// What the pointer is used for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// It moves the camera.
+    #[default]
+    Orbit,
+    /// It moves the film.
+    Stir,
+    /// It blows at the film.
+    Blow,
+    /// It takes the bubble along.
+    Drag,
+    /// It bursts the bubble.
+    Prick,
+}
+
+impl Tool {
+    /// All tools, each with its name and what it does, in the order of the keys 1 to 5.
+    pub const ALL: [(Self, &str, &str); 5] = [
+        (Self::Orbit, "Orbit", "Drag to turn around the bubble (1)"),
+        (Self::Stir, "Stir", "Drag over a film to take it along (2)"),
+        (Self::Blow, "Blow", "Hold to blow along the line of sight; obliquely at the rim it moves the film most (3)"),
+        (Self::Drag, "Move", "Drag a bubble: its film stays behind (4)"),
+        (Self::Prick, "Prick", "Click to burst a bubble there (5)"),
+    ];
+}
+
+/// Shortest time between two events of a stir or a jet, s.
+const STROKE_S: f64 = 0.1;
+/// The same of a drag, whose bubble is to keep up with the pointer.
+const PULL_S: f64 = 0.05;
+/// Longest duration of a stroke, s: film time that passes while nothing is drawn belongs to none.
+const LONGEST_STROKE_S: f64 = 0.5;
+/// Size of a stir and of a jet, degrees.
+const STIR_DEG: f64 = 10.0;
+const JET_DEG: f64 = 15.0;
+/// Speed of a jet, m/s: a person's breath through pursed lips, an arm's length away.
+const JET_M_S: f64 = 3.0;
+
+/// The pointer over the picture, between presses and during one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Hand {
+    /// Nothing is pressed.
+    #[default]
+    Free,
+    /// It is pressed and moves the camera.
+    Camera,
+    /// It holds a bubble's film.
+    Film(Grip),
+}
+
+/// A pressed pointer on a film.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grip {
+    tool: Tool,
+    bubble: usize,
+    /// The tick of the last event, or of the press.
+    tick: u64,
+    /// Where the pointer was then, as a direction in the film.
+    at: DVec3,
+    /// From the pointer's place on the film to the bubble's centre, m.
+    to_centre_m: DVec3,
+    /// How far the place where the pointer took hold is along the line of sight, m.
+    depth_m: f64,
+    /// Where a dragged bubble shall go, m.
+    target_m: Option<DVec3>,
+}
+
+/// A line of sight, and the film that it meets first.
+struct Aim {
+    bubble: usize,
+    /// The line's direction in the world.
+    ray: DVec3,
+    /// Where it meets the film, m.
+    place_m: DVec3,
+    /// The bubble's centre, m.
+    centre_m: DVec3,
+    /// From the world's directions to the film's.
+    to_film: DQuat,
+}
+
+impl Aim {
+    /// The place as a direction in the film.
+    fn at(&self) -> DVec3 {
+        self.to_film * (self.place_m - self.centre_m).normalize()
+    }
+}
+
+/// Lets the pointer do what it does with a tool at a tick: pressed at a place of the picture, right and up from its middle in heights of the
+/// picture, or not pressed.
+pub fn touch(hand: &mut Hand, tool: Tool, scene: &mut Scene, tick: u64, pressed: Option<DVec2>) {
+    let change = match (&mut *hand, pressed) {
+        (Hand::Free, Some(place)) => {
+            let aim = (tool != Tool::Orbit).then(|| aim(scene, tick, place)).flatten();
+            let prick = aim.as_ref().filter(|_| tool == Tool::Prick).map(|aim| prick(aim));
+            *hand = aim.map_or(Hand::Camera, |aim| Hand::Film(Grip::new(tool, scene, tick, &aim)));
+            prick
+        }
+        (Hand::Film(grip), Some(place)) => grip.moved(scene, tick, place),
+        (Hand::Film(grip), None) => {
+            let last = grip.target_m.take().map(|to_m| drag(grip.bubble, to_m));
+            *hand = Hand::Free;
+            last
+        }
+        (_, None) => {
+            *hand = Hand::Free;
+            None
+        }
+        (Hand::Camera, Some(_)) => None,
+    };
+    if let Some(change) = change {
+        history::insert(scene, Event { tick, change });
+    }
+}
+
+impl Grip {
+    fn new(tool: Tool, scene: &Scene, tick: u64, aim: &Aim) -> Self {
+        Self {
+            tool,
+            bubble: aim.bubble,
+            tick,
+            at: aim.at(),
+            to_centre_m: aim.centre_m - aim.place_m,
+            depth_m: (aim.place_m - scene.camera.eye()).length(),
+            target_m: None,
+        }
+    }
+
+    /// What the tool does now that the pointer is here, if it is time for it.
+    fn moved(&mut self, scene: &Scene, tick: u64, place: DVec2) -> Option<Change> {
+        if self.tool == Tool::Drag {
+            let held_m = scene.camera.eye() + self.depth_m * ray(scene, place);
+            self.target_m = Some(held_m + self.to_centre_m);
+        }
+        let tick_s = scene.motion.tick_s;
+        let shortest_s = if self.tool == Tool::Drag { PULL_S } else { STROKE_S };
+        let elapsed_s = tick.saturating_sub(self.tick) as f64 * tick_s;
+        if elapsed_s < shortest_s {
+            // Back in time nothing has been done yet.
+            self.tick = self.tick.min(tick);
+            return None;
+        }
+        self.tick = tick;
+        let ticks = (elapsed_s.min(LONGEST_STROKE_S) / tick_s).round().max(1.0) as u64;
+        if self.tool == Tool::Drag {
+            return self.target_m.take().map(|to_m| drag(self.bubble, to_m));
+        }
+        let aim = aim(scene, tick, place).filter(|aim| aim.bubble == self.bubble)?;
+        let before = std::mem::replace(&mut self.at, aim.at());
+        let radius_m = scene.bubbles.get(self.bubble)?.radius_mm * 1e-3;
+        match self.tool {
+            Tool::Stir => stroke(self.bubble, before, self.at, radius_m / (ticks as f64 * tick_s), ticks),
+            Tool::Blow => Some(jet(&aim, ticks)),
+            Tool::Orbit | Tool::Drag | Tool::Prick => None,
+        }
+    }
+}
+
+/// A stir from one place to another, where an angle is a speed in m/s; nothing for a pointer that stands.
+fn stroke(bubble: usize, before: DVec3, now: DVec3, speed: f64, ticks: u64) -> Option<Change> {
+    let middle = (before + now).try_normalize()?;
+    let velocity = speed * (now - before);
+    let velocity = velocity - velocity.dot(middle) * middle;
+    (velocity.length() > 1e-3).then(|| {
+        let velocity_m_s = rounded(velocity.clamp_length_max(10.0));
+        Change::Stir(Stir { bubble, at: rounded(middle), velocity_m_s, radius_deg: STIR_DEG, ticks })
+    })
+}
+
+fn jet(aim: &Aim, ticks: u64) -> Change {
+    let toward = rounded(aim.to_film * aim.ray);
+    let (bubble, at) = (aim.bubble, rounded(aim.at()));
+    Change::Blow(Blow { bubble, at, toward, speed_m_s: JET_M_S, radius_deg: JET_DEG, ticks })
+}
+
+fn prick(aim: &Aim) -> Change {
+    Change::Prick(Prick { bubble: aim.bubble, at: rounded(aim.at()) })
+}
+
+fn drag(bubble: usize, to_m: DVec3) -> Change {
+    Change::Drag(Drag { bubble, to_m: rounded(to_m.clamp(DVec3::splat(-1000.0), DVec3::splat(1000.0))) })
+}
+
+/// To a ten-thousandth, finer than any pointer: numbers that a saved scene shows are short.
+fn rounded(vector: DVec3) -> [f64; 3] {
+    vector.to_array().map(|number| (number * 1e4).round() / 1e4)
+}
+
+/// The direction of the line of sight through a place in the picture.
+fn ray(scene: &Scene, place: DVec2) -> DVec3 {
+    let camera = &scene.camera;
+    let height = 2.0 * (0.5 * camera.fov_y_deg.to_radians()).tan();
+    (camera.forward() + height * (place.x * camera.right() + place.y * camera.up())).normalize()
+}
+
+/// The film that is met first in the line of sight through a place in the picture; from inside a bubble that is its wall.
+fn aim(scene: &Scene, tick: u64, place: DVec2) -> Option<Aim> {
+    let (eye, ray) = (scene.camera.eye(), ray(scene, place));
+    let met = scene.bubbles.iter().enumerate().filter_map(|(bubble, sphere)| {
+        let centre_m = centre_path(scene, bubble, sphere).at(tick as f64 * scene.motion.tick_s).place_m;
+        let along = hit(eye - centre_m, ray, sphere.radius_mm * 1e-3)?;
+        Some((along, bubble, centre_m))
+    });
+    let (along, bubble, centre_m) = met.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(Aim { bubble, ray, place_m: eye + along * ray, centre_m, to_film: film_turn(scene, tick as f64).inverse() })
+}
+
+/// How far along a ray it meets a sphere around the origin for the first time.
+fn hit(from: DVec3, ray: DVec3, radius: f64) -> Option<f64> {
+    let nearest = -from.dot(ray);
+    let half_chord = (radius * radius - (from + nearest * ray).length_squared()).max(-1.0);
+    let half_chord = (half_chord > 0.0).then(|| half_chord.sqrt())?;
+    [nearest - half_chord, nearest + half_chord].into_iter().find(|along| *along > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MIDDLE: DVec2 = DVec2::ZERO;
+
+    /// Presses at places, one each `ticks` ticks, and lets go.
+    fn gesture(tool: Tool, scene: &mut Scene, places: &[DVec2], ticks: u64) {
+        let mut hand = Hand::default();
+        for (k, place) in places.iter().enumerate() {
+            touch(&mut hand, tool, scene, ticks * k as u64, Some(*place));
+        }
+        touch(&mut hand, tool, scene, ticks * places.len() as u64, None);
+        assert_eq!(hand, Hand::Free);
+    }
+
+    fn seen_from_x() -> Scene {
+        let mut scene = Scene::default();
+        (scene.camera.azimuth_deg, scene.camera.elevation_deg) = (0.0, 0.0);
+        scene
+    }
+
+    #[test]
+    fn a_stroke_to_the_right_moves_the_near_side_to_the_right() {
+        let mut scene = seen_from_x();
+        let places: Vec<DVec2> = (0..61).map(|k| DVec2::new(0.002 * f64::from(k), 0.0)).collect();
+        gesture(Tool::Stir, &mut scene, &places, 1);
+        // A second at ten strokes a second.
+        assert_eq!(scene.events.len(), 10);
+        assert_eq!(scene.validate(), Ok(()));
+        let Change::Stir(first) = &scene.events[0].change else { panic!("a stir") };
+        // The camera at +x sees +y on its right. A tenth of a second moves the pointer by 0.012 heights, and the film by as much.
+        let across_m = 0.012 * 2.0 * 15f64.to_radians().tan() * (0.24 - 0.05);
+        assert!((first.velocity_m_s[1] - across_m / 0.1).abs() < 0.02 * across_m / 0.1, "{first:?}");
+        assert!(first.at[0] > 0.99 && first.ticks == 6, "{first:?}");
+    }
+
+    #[test]
+    fn a_turned_film_is_met_where_it_is() {
+        let mut scene = seen_from_x();
+        scene.motion.spin_deg_s = [0.0, 0.0, 90.0];
+        let aim = aim(&scene, 60, MIDDLE).unwrap();
+        // After a quarter turn the film's -y is where +x was.
+        assert!(aim.at().distance(DVec3::NEG_Y) < 1e-12, "{}", aim.at());
+    }
+
+    #[test]
+    fn a_bubble_is_taken_along_and_met_where_it_went() {
+        let mut scene = seen_from_x();
+        gesture(Tool::Drag, &mut scene, &[DVec2::new(0.05, 0.05), DVec2::new(0.25, 0.05)], 6);
+        let Change::Drag(last) = &scene.events.last().unwrap().change else { panic!("a drag") };
+        let way = 0.2 * 2.0 * 15f64.to_radians().tan() * 0.19;
+        assert!((last.to_m[1] - way).abs() < 0.05 * way && last.to_m[2].abs() < 1e-3, "{last:?}");
+        let there = aim(&scene, 600, MIDDLE).unwrap();
+        assert!(there.centre_m.distance(last.to_m.into()) < 1e-9);
+    }
+
+    #[test]
+    fn a_jet_lasts_while_it_is_held_and_a_prick_is_one() {
+        let mut scene = seen_from_x();
+        gesture(Tool::Blow, &mut scene, &[DVec2::new(0.2, 0.1); 31], 1);
+        assert_eq!(scene.events.len(), 5);
+        let Change::Blow(blow) = &scene.events[0].change else { panic!("a jet") };
+        assert!(blow.toward[0] < -0.9, "away from the camera: {blow:?}");
+        gesture(Tool::Prick, &mut scene, &[MIDDLE; 31], 1);
+        let pricks = scene.events.iter().filter(|event| matches!(event.change, Change::Prick(_)));
+        assert_eq!((pricks.count(), scene.validate()), (1, Ok(())));
+    }
+
+    #[test]
+    fn beside_the_bubbles_and_without_a_tool_the_camera_moves() {
+        for (tool, place) in [(Tool::Stir, DVec2::new(0.6, 0.0)), (Tool::Orbit, MIDDLE)] {
+            let (mut hand, mut scene) = (Hand::default(), seen_from_x());
+            touch(&mut hand, tool, &mut scene, 0, Some(place));
+            touch(&mut hand, tool, &mut scene, 60, Some(MIDDLE));
+            assert_eq!((hand, scene.events.len()), (Hand::Camera, 0));
+        }
+    }
+
+    #[test]
+    fn while_time_stands_nothing_happens() {
+        let (mut hand, mut scene) = (Hand::default(), seen_from_x());
+        for k in 0..100 {
+            touch(&mut hand, Tool::Stir, &mut scene, 7, Some(DVec2::new(0.003 * f64::from(k), 0.0)));
+        }
+        assert_eq!(scene.events, []);
+    }
+
+    #[test]
+    fn rays_meet_spheres_from_outside_and_inside() {
+        assert_eq!(hit(DVec3::new(-3.0, 0.0, 0.0), DVec3::X, 1.0), Some(2.0));
+        assert_eq!(hit(DVec3::ZERO, DVec3::X, 1.0), Some(1.0));
+        assert_eq!(hit(DVec3::new(3.0, 0.0, 0.0), DVec3::X, 1.0), None);
+        assert_eq!(hit(DVec3::new(-3.0, 2.0, 0.0), DVec3::X, 1.0), None);
+    }
+}
