@@ -8,12 +8,13 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 19] = presets![
+const PRESETS: [(&str, &str); 20] = presets![
     "default",
     "fresh",
     "bands",
     "draining",
     "black",
+    "bursting",
     "stirred",
     "glycerol",
     "weightless",

@@ -113,7 +113,8 @@ fn a_hole_opens_as_its_f64_twin_does() {
 #[test]
 fn a_burst_film_moves_no_more_and_then_is_gone() {
     let Some(mut renderer) = renderer() else { return };
-    let loaded = pricked([1.0, 0.2, 0.0]);
+    let mut loaded = pricked([1.0, 0.2, 0.0]);
+    loaded.scene.bubbles[0].film.state = FilmStateName::Blown;
     let first = still(&loaded, SIZE, 0.5);
     renderer.bring(&first).unwrap();
     let later = renderer.bring(&still(&loaded, SIZE, 0.8)).unwrap();
