@@ -231,7 +231,8 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         },
         thinned_nm: evaporated_nm(&rates, scene.motion.tick_s, ticks),
         samples: samples(radius_pixels),
-        filtered: is_filtered(&film, radius_pixels),
+        // The edge of a hole is no thickness between others.
+        filtered: life.hole.is_none() && is_filtered(&film, radius_pixels),
         magnified: is_magnified(&film, radius_m, radius_pixels, centre_m.distance(camera.eye_m)),
         film,
         hole: life.hole,
