@@ -83,6 +83,12 @@ fn damped_reflectances(
     return Reflectances(damped(r2.x, interference, coherence), damped(r2.y, interference, coherence));
 }
 
+// damped_reflectances() for one film.
+fn damped_reflectance(n: f32, cos_theta: f32, thickness_nm: f32, wavelength_nm: f32, coherence: f32) -> vec2f {
+    let film = damped_reflectances(n, cos_theta, vec4f(thickness_nm), wavelength_nm, vec4f(coherence));
+    return vec2f(film.s.x, film.p.x);
+}
+
 fn damped(r2: f32, interference: vec4f, coherence: vec4f) -> vec4f {
     let q = coherence * r2;
     let fringes = q * interference;

@@ -5,6 +5,8 @@ struct Band {
     wavelength_nm: f32,
     // Refractive index of the film's liquid.
     index: f32,
-    // Thickness from which on the bands are too few to resolve the film's fringes; read where THICK is 1.
-    coherent_nm: f32,
+    // The widest step from one thickness to the next that is told from wider ones, in nm; read where THICK is 1.
+    gap_nm: f32,
+    // Width of the part of the spectrum that it is a sample of, 0 for a line; read by the table's bake.
+    width_nm: f32,
 }

@@ -61,39 +61,47 @@ fn table_factors(r: vec4f) -> vec4f {
     return select(vec4f(r.xy, 0.0, 0.0), vec4f(0.0), EVERYTHING == 1u);
 }
 
-// Walls whose products the bands resolve. Where all walls are thick, only the differences of their fringes can be seen (Brewster's
-// fringes), and those stay the same when all walls lose as much thickness.
-fn resolved(walls: Walls, coherent_nm: f32) -> Walls {
+// Walls whose products the bands resolve. White light shows fringes of thin walls, and of the difference between two walls however thick
+// (Brewster's fringes); where walls, or no wall and the thinnest, are further apart than any of these fringes reach, it shows none, and
+// such a gap is closed up to `gap_nm`. What no fringe can tell apart stays so, and thickness stays continuous.
+fn resolved(walls: Walls, gap_nm: f32) -> Walls {
     if (THICK == 0u) {
         return walls;
     }
-    let kept_nm = COHERENT_PART * coherent_nm;
-    let pair_nm = min(walls.first.walls_nm.xy, walls.first.walls_nm.zw);
-    let lost_nm = max(min(pair_nm.x, pair_nm.y) - kept_nm, 0.0);
+    let levels = sorted(walls.first.walls_nm);
     var thinner = walls;
-    thinner.first.walls_nm -= lost_nm;
-    thinner.second.walls_nm = max(walls.second.walls_nm - lost_nm, min(walls.second.walls_nm, vec4f(kept_nm)));
-    thinner.third.walls_nm = max(walls.third.walls_nm - lost_nm, min(walls.third.walls_nm, vec4f(kept_nm)));
+    thinner.first.walls_nm = closed_up(walls.first.walls_nm, levels, gap_nm);
+    thinner.second.walls_nm = closed_up(walls.second.walls_nm, levels, gap_nm);
+    thinner.third.walls_nm = closed_up(walls.third.walls_nm, levels, gap_nm);
     return thinner;
 }
 
-// Part of the thickness that bands resolve up to which fringes keep all their contrast.
-const COHERENT_PART: f32 = 0.6;
+// Thicknesses without what lies more than `gap_nm` above the next of the levels, which rise, or above zero.
+fn closed_up(nm: vec4f, levels: vec4f, gap_nm: f32) -> vec4f {
+    let kept_nm = min(vec4f(levels.yzw - levels.xyz, gap_nm), vec4f(gap_nm));
+    var thinner_nm = min(nm, vec4f(min(levels.x, gap_nm)));
+    for (var k = 0u; k < 4u; k++) {
+        thinner_nm += clamp(nm - levels[k], vec4f(0.0), vec4f(kept_nm[k]));
+    }
+    return thinner_nm;
+}
+
+// The same numbers, rising.
+fn sorted(numbers: vec4f) -> vec4f {
+    let low = min(numbers.xz, numbers.yw);
+    let high = max(numbers.xz, numbers.yw);
+    let inner = vec2f(max(low.x, low.y), min(high.x, high.y));
+    return vec4f(min(low.x, low.y), min(inner.x, inner.y), max(inner.x, inner.y), max(high.x, high.y));
+}
 
 // Reflectances at four hits.
 fn wall_reflectances(band: Band, cos_theta: f32, hits: Hits) -> Reflectances {
-    if (FILTERED == 0u && THICK == 0u) {
+    if (FILTERED == 0u) {
         return film_reflectances(band.index, cos_theta, hits.walls_nm, band.wavelength_nm);
     }
-    var coherence = vec4f(1.0);
-    if (FILTERED == 1u) {
-        // Of a Gaussian as wide as the box of thicknesses: its variance is w^2 / 12, and contrast falls by exp(-delta^2 / 2).
-        let turns = 2.0 * band.index * cos_refracted(band.index, cos_theta) / band.wavelength_nm * hits.spread_nm;
-        coherence = exp(-1.645 * turns * turns);
-    }
-    if (THICK == 1u) {
-        coherence *= 1.0 - smoothstep(vec4f(COHERENT_PART * band.coherent_nm), vec4f(band.coherent_nm), hits.walls_nm);
-    }
+    // Of a Gaussian as wide as the box of thicknesses: its variance is w^2 / 12, and contrast falls by exp(-delta^2 / 2).
+    let turns = 2.0 * band.index * cos_refracted(band.index, cos_theta) / band.wavelength_nm * hits.spread_nm;
+    let coherence = exp(-1.645 * turns * turns);
     return damped_reflectances(band.index, cos_theta, hits.walls_nm, band.wavelength_nm, coherence);
 }
 

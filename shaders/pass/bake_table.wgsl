@@ -2,9 +2,9 @@
 // greatest reflectance at its angle so that half floats and filtering spend their precision where the eye does. Layers: what is seen of
 // white light, or of each primary; of s and p light together, or first of s and then of p.
 
-import package::optics::airy::{film_reflectance, max_reflectance};
+import package::optics::airy::{cos_refracted, damped_reflectance, film_reflectance, max_reflectance};
 import package::optics::band::Band;
-import package::optics::table::{TableAxes, film_of_texel};
+import package::optics::table::{FilmPoint, TableAxes, film_of_texel};
 
 // As in optics/film_colour.wgsl.
 override COLOURED: u32;
@@ -20,6 +20,8 @@ struct Bake {
 @group(0) @binding(1) var<storage, read> samples: array<Band>;
 @group(0) @binding(2) var table: texture_storage_2d_array<rgba16float, write>;
 
+const TAU: f32 = 6.2831853;
+
 // What is seen of each primary, or of all three together.
 fn store(texel: vec2u, first: u32, seen: mat3x3f) {
     if (COLOURED == 0u) {
@@ -29,6 +31,22 @@ fn store(texel: vec2u, first: u32, seen: mat3x3f) {
     for (var k = 0u; k < 3u; k++) {
         textureStore(table, texel, first + k, vec4f(seen[k], 1.0));
     }
+}
+
+// Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast: films of 1.5 um.
+const RESOLVED_STEP: f32 = 0.2;
+
+// (R_s, R_p) of the part of the spectrum that a sample stands for. Fringes that move by much of a turn within it fade to their mean before
+// sums over samples would show them as colours that are not there.
+fn sample_reflectance(sample: Band, film: FilmPoint) -> vec2f {
+    let path_nm = 2.0 * sample.index * film.thickness_nm * cos_refracted(sample.index, film.cos_theta);
+    let step = TAU * path_nm / sample.wavelength_nm * (sample.width_nm / sample.wavelength_nm);
+    if (step <= RESOLVED_STEP) {
+        return film_reflectance(sample.index, film.cos_theta, film.thickness_nm, sample.wavelength_nm);
+    }
+    let excess = (step - RESOLVED_STEP) * (step - RESOLVED_STEP);
+    let coherence = exp(-excess * excess);
+    return damped_reflectance(sample.index, film.cos_theta, film.thickness_nm, sample.wavelength_nm, coherence);
 }
 
 @compute @workgroup_size(64)
@@ -41,7 +59,7 @@ fn bake_table(@builtin(global_invocation_id) id: vec3u) {
     var s = mat3x3f();
     var p = mat3x3f();
     for (var k = 0u; k < arrayLength(&samples); k++) {
-        let r = film_reflectance(samples[k].index, film.cos_theta, film.thickness_nm, samples[k].wavelength_nm);
+        let r = sample_reflectance(samples[k], film);
         if (POLARISED == 1u) {
             s += r.x * samples[k].response;
             p += r.y * samples[k].response;

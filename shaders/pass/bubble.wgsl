@@ -59,7 +59,7 @@ struct Bubble {
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;
 @group(0) @binding(8) var film: texture_2d_array<f32>;
-@group(0) @binding(9) var<uniform> bands: array<Band, 80>;
+@group(0) @binding(9) var<uniform> bands: array<Band, 120>;
 @group(0) @binding(10) var<uniform> film_balance: Balance;
 @group(0) @binding(11) var<storage, read> film_map: array<vec4f>;
 @group(0) @binding(12) var<storage, read> film_tracer: array<f32>;
@@ -294,7 +294,7 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
         walls.further[FURTHER - 1u] += more;
     }
     var seen = vec3f(0.0);
-    let products = resolved(walls, bands[0].coherent_nm);
+    let products = resolved(walls, bands[0].gap_nm);
     for (var k = 0u; k < BANDS; k++) {
         seen += band_radiance(bands[k], path.cos_theta, products, polarisation);
     }

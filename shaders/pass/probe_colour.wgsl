@@ -18,7 +18,7 @@ struct ProbePoint {
 @group(0) @binding(0) var<uniform> axes: TableAxes;
 @group(0) @binding(1) var table: texture_2d_array<f32>;
 @group(0) @binding(2) var table_sampler: sampler;
-@group(0) @binding(3) var<uniform> bands: array<Band, 80>;
+@group(0) @binding(3) var<uniform> bands: array<Band, 120>;
 @group(0) @binding(4) var<storage, read> points: array<ProbePoint>;
 @group(0) @binding(5) var<storage, read_write> colours: array<vec4f>;
 
@@ -43,7 +43,7 @@ fn probe_colour(@builtin(global_invocation_id) id: vec3u) {
     }
     var walls: Walls;
     walls.first = Hits(vec4f(at.front_nm, at.back_nm, at.exit_nm, at.exit_nm), vec4f(0.0), steps);
-    walls = resolved(walls, bands[0].coherent_nm);
+    walls = resolved(walls, bands[0].gap_nm);
     for (var k = 0u; k < BANDS; k++) {
         seen += band_radiance(bands[k], at.cos_theta, walls, UNPOLARISED);
     }

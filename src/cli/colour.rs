@@ -125,7 +125,7 @@ fn films_of_strip() -> Points {
 
 fn read_points(path: &Path) -> anyhow::Result<Points> {
     let text = read_text(path)?;
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
     let header: Vec<String> =
         reader.headers().with_context(|| path.display().to_string())?.iter().map(str::to_owned).collect();
     let column = |name: &str| header.iter().position(|known| known == name);
@@ -139,17 +139,32 @@ fn read_points(path: &Path) -> anyhow::Result<Points> {
     let (mut rows, mut films) = (Vec::new(), Vec::new());
     for record in reader.records() {
         let record = record.with_context(|| path.display().to_string())?;
-        let line = record.position().map_or(0, csv::Position::line);
-        films.push(film_of(&record, columns).with_context(|| format!("{}:{line}", path.display()))?);
+        let place = || format!("{}:{}", path.display(), line_of(&text, &record));
+        anyhow::ensure!(
+            record.len() == header.len(),
+            "{}: {} values for {} columns",
+            place(),
+            record.len(),
+            header.len()
+        );
+        films.push(film_of(&record, columns).with_context(place)?);
         rows.push(record.iter().map(str::to_owned).collect());
     }
     anyhow::ensure!(!films.is_empty(), "{}: no points below the header", path.display());
     Ok(Points { header, rows, films })
 }
 
+/// The line that a record stands in, from 1; where the reader places it empty lines may follow.
+fn line_of(text: &str, record: &csv::StringRecord) -> usize {
+    let start = record.position().map_or(0, |position| position.byte() as usize);
+    let empty = text[start..].len() - text[start..].trim_start().len();
+    1 + text[..start + empty].matches('\n').count()
+}
+
 fn film_of(record: &csv::StringRecord, [thickness, cosine, back, exit]: [usize; 4]) -> anyhow::Result<FilmPoint> {
     let parsed = |column: usize, name: &str, parser: fn(&str) -> Result<f64, String>| {
         let text = record.get(column).unwrap_or("");
+        anyhow::ensure!(!text.is_empty(), "{name} is missing; a film needs thickness_nm and cos_theta, two walls back_nm and exit_nm too");
         parser(text).map_err(|reason| anyhow::anyhow!("{name} `{text}`: {reason}"))
     };
     let given = |column: usize| record.get(column).is_some_and(|text| !text.is_empty());

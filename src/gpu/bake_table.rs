@@ -74,7 +74,7 @@ impl Table {
             ..Default::default()
         });
         let axes = gpu.uniform("table axes", &TableAxes::of(key));
-        Self { axes, view, samples: gpu.storage("spectra", &spectrum_samples(&key.optics.spectra())) }
+        Self { axes, view, samples: gpu.storage("spectra", &spectrum_samples(&key.optics)) }
     }
 
     /// A whole table.

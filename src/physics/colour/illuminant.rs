@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use crate::physics::spectra::{Spectrum, SpectrumError};
+use crate::physics::spectra::{FIRST_NM, SAMPLES, Spectrum, SpectrumError};
 
 const D65: &str = include_str!("../../../assets/spectra/illuminant_d65.csv");
 const D50: &str = include_str!("../../../assets/spectra/illuminant_d50.csv");
@@ -101,6 +101,18 @@ impl Illuminant {
             [line.wavelength_nm.min(low), line.wavelength_nm.max(high)]
         });
         self.spectrum.iter().all(|power| power == 0.0) && ends[1] - ends[0] < 10.0
+    }
+
+    /// The same light with the continuous part as lines, so many to a nanometre: integrals then resolve fringes finer than the grid, which
+    /// films of more than some 10 µm have.
+    #[must_use]
+    pub fn as_lines(&self, lines_per_nm: usize) -> Self {
+        let power = |nm: f64| self.spectrum.at_nm(nm) / lines_per_nm as f64;
+        let line = |k: usize| FIRST_NM + k as f64 / lines_per_nm as f64;
+        let continuous = (0..=(SAMPLES - 1) * lines_per_nm).map(line);
+        let continuous = continuous.map(|wavelength_nm| Line { wavelength_nm, power: power(wavelength_nm) });
+        let lines = continuous.chain(self.lines.iter().copied()).collect();
+        Self { name: self.name.clone(), spectrum: Spectrum::constant(0.0), lines }
     }
 
     fn built_in(name: &str, text: &str) -> Self {

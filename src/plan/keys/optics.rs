@@ -102,7 +102,7 @@ pub struct BandsKey {
 
 impl BandsKey {
     /// Bands at most: what a uniform buffer has room for.
-    pub const MOST: usize = 80;
+    pub const MOST: usize = 120;
 
     /// What the bands are summed for.
     #[must_use]
@@ -124,10 +124,9 @@ impl BandsKey {
         self.wanted().min(Self::MOST)
     }
 
-    /// Thickness, in nm, up to which as many as there is room for resolve the products' fringes. Thicker films have none that white light
-    /// would show.
+    /// Thickness, in nm, up to which as many as there is room for resolve the products' fringes.
     #[must_use]
-    pub fn coherent_nm(&self) -> f64 {
+    pub fn resolved_nm(&self) -> f64 {
         // Where single walls come from a table, more bands than standard's are of no use.
         let measured = self.measured().min(if self.needs_table() { 13.0 } else { f64::MAX });
         Self::MOST as f64 / measured * TableKey::MIN_RANGE_NM
