@@ -204,6 +204,7 @@ fn tools_are_there() -> bool {
 const STILL: &str = "version = 1
 [[bubble]]
 film.state = \"rest\"
+film.cells = 32
 [motion]
 strength = 0
 gravity_m_s2 = [0, 0, 0]

@@ -22,6 +22,8 @@ override MAGNIFIED: u32;
 override SAMPLES: u32;
 // 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
 override OUTLINE: u32;
+// 1: the bubble is an ellipsoid. It is traced where it is round: `unstretch` takes the picture there, `stretch` back.
+override STRETCHED: u32;
 // 1: the bubble bursts, and its film has a hole.
 override BURST: u32;
 
@@ -41,6 +43,9 @@ struct Bubble {
     thinned_nm: f32,
     // Takes directions of the world to the film, which may turn as a whole.
     to_film: mat3x3f,
+    // Takes the unit sphere to the bubble's wall, over the radius, and the inverse.
+    stretch: mat3x3f,
+    unstretch: mat3x3f,
     // The thickness at which evaporation ends, in nm.
     black_nm: f32,
     // What the film's skins add to the thickness of a plain film that looks like it, and the thickness of both, in nm.
@@ -73,14 +78,30 @@ override SIDES: u32;
 // every pixel belongs to one of them.
 @vertex
 fn ring(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let to_centre = normalize(bubble.centre_m - view.eye_m);
+    let to_centre = normalize(to_round(bubble.centre_m - view.eye_m));
     let helper = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(to_centre.x) > 0.7);
     let right = normalize(cross(to_centre, helper));
     let up = cross(right, to_centre);
     let turn = TAU * f32((index >> 1u) % SIDES) / f32(SIDES);
     let edge = select(bubble.inner, bubble.outer, (index & 1u) == 1u);
     let ray = edge.x * to_centre + edge.y * (cos(turn) * right + sin(turn) * up);
-    return clip_position(ray);
+    return clip_position(from_round(ray));
+}
+
+// A vector of the world where the bubble is round.
+fn to_round(vector: vec3f) -> vec3f {
+    if (STRETCHED == 0u) {
+        return vector;
+    }
+    return bubble.unstretch * vector;
+}
+
+// The inverse.
+fn from_round(vector: vec3f) -> vec3f {
+    if (STRETCHED == 0u) {
+        return vector;
+    }
+    return bubble.stretch * vector;
 }
 
 // Where a direction from the eye is in the picture.
@@ -151,11 +172,16 @@ fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
 }
 
 // A ray and the great circle that all its hits lie on. With the unit sphere at the origin a hit at normal n under direction v has
-// v . n = -+cos_theta, a chord has the length 2 cos_theta, and every reflection turns the ray by the same angle.
+// v . n = -+cos_theta, a chord has the length 2 cos_theta, and every reflection turns the ray by the same angle. An ellipsoid is met where
+// it is round, and turns rays by its true normals; the angle at the film is the mean of those at the first two walls.
 struct Path {
     direction: vec3f,
-    // Foot of the perpendicular from the centre on the ray: |foot| = sin theta.
+    // The direction where the bubble is round.
+    round: vec3f,
+    // Foot of the perpendicular from the centre on the ray there: |foot| = sin theta.
     foot: vec3f,
+    // Half of a chord there.
+    half_chord: f32,
     cos_theta: f32,
     // Angle that the sample spans.
     pixel: f32,
@@ -179,7 +205,7 @@ fn polarisation_along(path: Path) -> vec2f {
     if (POLARISED == 0u) {
         return vec2f(0.5);
     }
-    let across = cross(path.direction, path.foot);
+    let across = cross(path.direction, to_round(path.foot));
     let s = dot(light.polariser, across);
     let p = dot(light.polariser, cross(path.direction, across));
     // Straight through the middle s and p are the same.
@@ -193,8 +219,26 @@ struct Hop {
 }
 
 fn reflected(hop: Hop, chord: f32) -> Hop {
+    if (STRETCHED == 1u) {
+        let turned = reflect(hop.direction, wall_normal(hop.point));
+        let round = normalize(to_round(turned));
+        return Hop(hop.point - 2.0 * dot(hop.point, round) * round, turned);
+    }
     let direction = hop.direction - chord * hop.point;
     return Hop(hop.point + chord * direction, direction);
+}
+
+// The wall's normal at a point of the unit sphere.
+fn wall_normal(point: vec3f) -> vec3f {
+    return normalize(to_round(point));
+}
+
+// The outer reflection at a point of the unit sphere.
+fn mirrored(path: Path, front: vec3f) -> vec3f {
+    if (STRETCHED == 1u) {
+        return reflect(path.direction, wall_normal(front));
+    }
+    return path.direction + 2.0 * path.cos_theta * front;
 }
 
 // How far a ray was followed inside: where it heads now, how often it was reflected, and the light from there.
@@ -205,7 +249,7 @@ struct Followed {
 }
 
 fn followed(path: Path, before: Followed) -> Followed {
-    let hop = reflected(before.hop, 2.0 * path.cos_theta);
+    let hop = reflected(before.hop, 2.0 * path.half_chord);
     let reflections = before.reflections + 1.0;
     return Followed(hop, reflections, surroundings(hop.direction, footprint(path, hop.direction, -2.0 * reflections)));
 }
@@ -245,15 +289,15 @@ fn four_hits(path: Path, at: Followed) -> FourHits {
 
 // The first four hits: the front wall, which there is none of from inside the bubble, and three inside.
 fn first_hits(path: Path, is_inside: bool, behind: vec3f) -> FourHits {
-    let at = Followed(Hop(path.foot + path.cos_theta * path.direction, path.direction), 0.0, behind);
+    let at = Followed(Hop(path.foot + path.half_chord * path.round, path.direction), 0.0, behind);
     let a = followed(path, at);
     let b = followed(path, a);
     let c = followed(path, b);
     var walls_nm = vec4f(0.0, optical_nm(at.hop.point), optical_nm(a.hop.point), optical_nm(b.hop.point));
     var steps = mat4x3f(vec3f(0.0), a.light - behind, b.light - a.light, c.light - b.light);
     if (!is_inside) {
-        let front = path.foot - path.cos_theta * path.direction;
-        let direction = path.direction + 2.0 * path.cos_theta * front;
+        let front = path.foot - path.half_chord * path.round;
+        let direction = mirrored(path, front);
         walls_nm.x = optical_nm(front);
         steps[0] = surroundings(direction, footprint(path, direction, 2.0)) - behind;
     }
@@ -313,14 +357,26 @@ fn wall_reflection(path: Path, nm: f32, spread_nm: f32, polarisation: vec2f, ste
 
 // Geometry of a view ray that meets the sphere.
 fn path_along(direction: vec3f, width: f32) -> Path {
-    let eye = (view.eye_m - bubble.centre_m) / bubble.radius_m;
-    let foot = eye - dot(eye, direction) * direction;
-    let cos_theta = sqrt(max(1.0 - dot(foot, foot), 0.0));
+    let eye = to_round(view.eye_m - bubble.centre_m) / bubble.radius_m;
+    var round = direction;
+    if (STRETCHED == 1u) {
+        round = normalize(to_round(direction));
+    }
+    let foot = eye - dot(eye, round) * round;
+    let half_chord = sqrt(max(1.0 - dot(foot, foot), 0.0));
+    var cos_theta = half_chord;
+    if (STRETCHED == 1u) {
+        let front = -dot(direction, wall_normal(foot - half_chord * round));
+        let back = dot(direction, wall_normal(foot + half_chord * round));
+        cos_theta = select(0.5 * (front + back), back, eye_is_inside());
+    }
     let distance = length(eye);
-    let cos_view = abs(dot(eye, direction)) / distance;
+    let cos_view = abs(dot(eye, round)) / distance;
     return Path(
         direction,
+        round,
         foot,
+        half_chord,
         cos_theta,
         width * pixel_angle(view, direction),
         distance * cos_view / max(cos_theta, 1e-3),
@@ -328,9 +384,26 @@ fn path_along(direction: vec3f, width: f32) -> Path {
     );
 }
 
+fn eye_is_inside() -> bool {
+    return length(to_round(view.eye_m - bubble.centre_m)) <= bubble.radius_m;
+}
+
+// The outline, which is that of a sphere where the bubble is round.
+fn outline(plane: vec3f, width: f32) -> Silhouette {
+    if (STRETCHED == 0u) {
+        return silhouette(view, bubble.centre_m, bubble.radius_m, plane, width);
+    }
+    var round = view;
+    round.eye_m = to_round(view.eye_m - bubble.centre_m);
+    round.right = to_round(view.right);
+    round.up = to_round(view.up);
+    let edge = silhouette(round, vec3f(0.0), bubble.radius_m, to_round(plane), width);
+    return Silhouette(edge.coverage, normalize(from_round(edge.inside)));
+}
+
 // What is seen of the bubble along a ray that is known to meet it.
 fn bubble_radiance(direction: vec3f, width: f32) -> vec3f {
-    return film_radiance(path_along(direction, width), distance(view.eye_m, bubble.centre_m) <= bubble.radius_m);
+    return film_radiance(path_along(direction, width), eye_is_inside());
 }
 
 // One sample: the bubble as far as it covers the sample's square, the backdrop in the rest.
@@ -339,7 +412,7 @@ fn sample_radiance(position: vec2f, width: f32) -> vec3f {
     if (OUTLINE == 0u) {
         return bubble_radiance(normalize(plane), width);
     }
-    let edge = silhouette(view, bubble.centre_m, bubble.radius_m, plane, width);
+    let edge = outline(plane, width);
     // Not only where it is covered: derivatives need the neighbours.
     let radiance = bubble_radiance(edge.inside, width);
     let ray = normalize(plane);
@@ -370,14 +443,13 @@ fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
 @fragment
 fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let plane = view_plane(view, position.xy);
-    let edge = silhouette(view, bubble.centre_m, bubble.radius_m, plane, 1.0);
+    let edge = outline(plane, 1.0);
     let behind = light.seen * backdrop(normalize(plane), view.pixel_height);
     if (edge.coverage <= 0.0) {
         return vec4f(behind, 1.0);
     }
     let path = path_along(edge.inside, 1.0);
-    let point = path.foot - path.cos_theta * path.direction;
-    let mirrored = path.direction + 2.0 * path.cos_theta * point;
-    let shown = light.seen * surroundings(mirrored, footprint(path, mirrored, 2.0));
+    let direction = mirrored(path, path.foot - path.half_chord * path.round);
+    let shown = light.seen * surroundings(direction, footprint(path, direction, 2.0));
     return vec4f(mix(behind, shown, edge.coverage), 1.0);
 }

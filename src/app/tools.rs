@@ -72,8 +72,8 @@ pub struct Grip {
     to_centre_m: DVec3,
     /// How far the place where the pointer took hold is along the line of sight, m.
     depth_m: f64,
-    /// Where a dragged bubble shall go, m.
-    target_m: Option<DVec3>,
+    /// Where the pointer is now in the picture.
+    place: DVec2,
 }
 
 /// A line of sight, and the film that it meets first.
@@ -103,12 +103,15 @@ pub fn touch(hand: &mut Hand, tool: Tool, scene: &mut Scene, tick: u64, pressed:
         (Hand::Free, Some(place)) => {
             let aim = (tool != Tool::Orbit).then(|| aim(scene, tick, place)).flatten();
             let prick = aim.as_ref().filter(|_| tool == Tool::Prick).map(|aim| prick(aim));
-            *hand = aim.map_or(Hand::Camera, |aim| Hand::Film(Grip::new(tool, scene, tick, &aim)));
+            *hand = aim.map_or(Hand::Camera, |aim| Hand::Film(Grip::new(tool, scene, tick, &aim, place)));
             prick
         }
-        (Hand::Film(grip), Some(place)) => grip.moved(scene, tick, place),
+        (Hand::Film(grip), Some(place)) => {
+            grip.place = place;
+            grip.act(scene, tick, false)
+        }
         (Hand::Film(grip), None) => {
-            let last = grip.target_m.take().map(|to_m| drag(grip.bubble, to_m));
+            let last = grip.act(scene, tick, true);
             *hand = Hand::Free;
             last
         }
@@ -124,7 +127,7 @@ pub fn touch(hand: &mut Hand, tool: Tool, scene: &mut Scene, tick: u64, pressed:
 }
 
 impl Grip {
-    fn new(tool: Tool, scene: &Scene, tick: u64, aim: &Aim) -> Self {
+    fn new(tool: Tool, scene: &Scene, tick: u64, aim: &Aim, place: DVec2) -> Self {
         Self {
             tool,
             bubble: aim.bubble,
@@ -132,32 +135,34 @@ impl Grip {
             at: aim.at(),
             to_centre_m: aim.centre_m - aim.place_m,
             depth_m: (aim.place_m - scene.camera.eye()).length(),
-            target_m: None,
+            place,
         }
     }
 
-    /// What the tool does now that the pointer is here, if it is time for it.
-    fn moved(&mut self, scene: &Scene, tick: u64, place: DVec2) -> Option<Change> {
-        if self.tool == Tool::Drag {
-            let held_m = scene.camera.eye() + self.depth_m * ray(scene, place);
-            self.target_m = Some(held_m + self.to_centre_m);
-        }
+    /// What the tool does with what the pointer did since the last event, if it is time for that; the last of it when it lets go.
+    fn act(&mut self, scene: &Scene, tick: u64, lets_go: bool) -> Option<Change> {
         let tick_s = scene.motion.tick_s;
-        let shortest_s = if self.tool == Tool::Drag { PULL_S } else { STROKE_S };
-        let elapsed_s = tick.saturating_sub(self.tick) as f64 * tick_s;
+        let shortest_s = match self.tool {
+            _ if lets_go => 0.0,
+            Tool::Drag => PULL_S,
+            _ => STROKE_S,
+        };
+        // Back in time nothing has been done yet.
+        let since = self.tick.min(tick);
+        self.tick = since;
+        let elapsed_s = (tick - since) as f64 * tick_s;
         if elapsed_s < shortest_s {
-            // Back in time nothing has been done yet.
-            self.tick = self.tick.min(tick);
             return None;
         }
         self.tick = tick;
-        let ticks = (elapsed_s.min(LONGEST_STROKE_S) / tick_s).round().max(1.0) as u64;
         if self.tool == Tool::Drag {
-            return self.target_m.take().map(|to_m| drag(self.bubble, to_m));
+            let held_m = scene.camera.eye() + self.depth_m * ray(scene, self.place);
+            return Some(drag(self.bubble, held_m + self.to_centre_m));
         }
-        let aim = aim(scene, tick, place).filter(|aim| aim.bubble == self.bubble)?;
+        let aim = aim(scene, tick, self.place).filter(|aim| aim.bubble == self.bubble && tick > since)?;
         let before = std::mem::replace(&mut self.at, aim.at());
         let radius_m = scene.bubbles.get(self.bubble)?.radius_mm * 1e-3;
+        let ticks = (elapsed_s.min(LONGEST_STROKE_S) / tick_s).round().max(1.0) as u64;
         match self.tool {
             Tool::Stir => stroke(self.bubble, before, self.at, radius_m / (ticks as f64 * tick_s), ticks),
             Tool::Blow => Some(jet(&aim, ticks)),
@@ -284,7 +289,8 @@ mod tests {
     fn a_jet_lasts_while_it_is_held_and_a_prick_is_one() {
         let mut scene = seen_from_x();
         gesture(Tool::Blow, &mut scene, &[DVec2::new(0.2, 0.1); 31], 1);
-        assert_eq!(scene.events.len(), 5);
+        // Each tenth of a second, and what is left when it is let go.
+        assert_eq!(scene.events.len(), 6);
         let Change::Blow(blow) = &scene.events[0].change else { panic!("a jet") };
         assert!(blow.toward[0] < -0.9, "away from the camera: {blow:?}");
         gesture(Tool::Prick, &mut scene, &[MIDDLE; 31], 1);

@@ -164,7 +164,10 @@ fn line_of(text: &str, record: &csv::StringRecord) -> usize {
 fn film_of(record: &csv::StringRecord, [thickness, cosine, back, exit]: [usize; 4]) -> anyhow::Result<FilmPoint> {
     let parsed = |column: usize, name: &str, parser: fn(&str) -> Result<f64, String>| {
         let text = record.get(column).unwrap_or("");
-        anyhow::ensure!(!text.is_empty(), "{name} is missing; a film needs thickness_nm and cos_theta, two walls back_nm and exit_nm too");
+        anyhow::ensure!(
+            !text.is_empty(),
+            "{name} is missing; a film needs thickness_nm and cos_theta, two walls back_nm and exit_nm too"
+        );
         parser(text).map_err(|reason| anyhow::anyhow!("{name} `{text}`: {reason}"))
     };
     let given = |column: usize| record.get(column).is_some_and(|text| !text.is_empty());

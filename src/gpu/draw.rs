@@ -86,6 +86,10 @@ pub struct BubbleUniform {
     pub thinned_nm: f32,
     /// Columns take directions of the world to the film; the fourth number of each is padding.
     pub to_film: [[f32; 4]; 3],
+    /// Takes the unit sphere to the bubble's wall, over the radius.
+    pub stretch: [[f32; 4]; 3],
+    /// The inverse.
+    pub unstretch: [[f32; 4]; 3],
     /// Thickness at which evaporation ends, in nm.
     pub black_nm: f32,
     /// What the film's skins add to its thickness, in nm.
@@ -252,6 +256,7 @@ fn ring_pipeline(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey, ring: &
             ("SAMPLES", ring.samples),
             ("OUTLINE", u32::from(ring.outline)),
             ("FILTERED", u32::from(bubble.filtered)),
+            ("STRETCHED", u32::from(bubble.stretch != DMat3::IDENTITY)),
             ("BURST", u32::from(bubble.hole.is_some())),
             ("HOLE_MERIDIANS", HOLE_MERIDIANS as u32),
             ("INNER", ring.inner_reflections),
@@ -325,6 +330,8 @@ fn bubble_uniform(film: &FilmMaterial, bubble: &BubbleKey, ring: &Ring, shown: &
         tracer_cells: shown.tracer_cells,
         thinned_nm: bubble.thinned_nm as f32,
         to_film: DVec3::AXES.map(column),
+        stretch: matrix(bubble.stretch),
+        unstretch: matrix(bubble.stretch.inverse()),
         black_nm: BLACK_FILM_NM as f32,
         extra_nm: film.equivalent_extra_nm() as f32,
         skins_nm: (2.0 * film.skin_nm).max(1e-3) as f32,

@@ -2,6 +2,7 @@
 //! faster than pixels do: rings there follow more reflections and take more samples, and the middle does not pay for it.
 
 use crate::{
+    physics::bubble::reach,
     plan::{BubbleKey, CameraKey},
     scene::Quality,
 };
@@ -12,7 +13,7 @@ pub const SIDES: u32 = 96;
 /// A part of a bubble's picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
-    /// Inner and outer edge: angle from the direction of the bubble's centre, in radians. None: the whole picture.
+    /// Inner and outer edge: angle from the direction of the bubble's centre, in radians, where the bubble is round. None: the whole picture.
     pub edges_rad: Option<[f64; 2]>,
     /// Inner reflections whose films are looked up: 3, 7 or 11. After eleven, light is followed on: see `shaders/optics/walls.wgsl`.
     pub inner_reflections: u32,
@@ -63,10 +64,20 @@ impl Ring {
     }
 }
 
-/// Angle from a bubble's centre to its outline, in radians; none from inside.
+/// Distance of the eye from a bubble's centre in radii, in the space in which the bubble is round.
+fn eye_radii(camera: &CameraKey, bubble: &BubbleKey) -> f64 {
+    (bubble.stretch.inverse() * (camera.eye_m - bubble.centre_m)).length() / bubble.radius_m
+}
+
+/// Angle from a bubble's centre to its outline, in radians and in the space in which it is round; none from inside.
 fn limb_rad(camera: &CameraKey, bubble: &BubbleKey) -> Option<f64> {
-    let sine = bubble.radius_m / camera.eye_m.distance(bubble.centre_m);
+    let sine = eye_radii(camera, bubble).recip();
     (sine < 1.0).then(|| sine.asin())
+}
+
+/// The most that a pixel spans there, in radians: in the middle of the picture, less elsewhere.
+fn pixel_rad(camera: &CameraKey, bubble: &BubbleKey) -> f64 {
+    camera.pixel_height_m * reach(bubble.stretch) * reach(bubble.stretch.inverse())
 }
 
 /// The rings of a bubble, from the middle outwards.
@@ -75,11 +86,10 @@ pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality) -> Vec<Ri
     let care = Care::of(quality);
     let deep_sin = (1.0 - care.deep_cos * care.deep_cos).sqrt();
     let Some(limb_rad) = limb_rad(camera, bubble) else {
-        let is_deep = camera.eye_m.distance(bubble.centre_m) > deep_sin * bubble.radius_m;
+        let is_deep = eye_radii(camera, bubble) > deep_sin;
         return vec![Ring::everywhere(if is_deep { care.deep_reflections } else { 3 }, bubble.samples)];
     };
-    // Pixels span this angle in the middle of the picture, and less elsewhere.
-    let pixel_rad = camera.pixel_height_m;
+    let pixel_rad = pixel_rad(camera, bubble);
     let rim_rad = (limb_rad - RIM_PIXELS * pixel_rad).max(0.0);
     let deep_rad = (deep_sin * limb_rad.sin()).asin().min(rim_rad);
     let ring = |edges_rad: [f64; 2], inner_reflections: u32| Ring {
@@ -98,6 +108,6 @@ pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality) -> Vec<Ri
 #[must_use]
 pub fn disc(camera: &CameraKey, bubble: &BubbleKey) -> Ring {
     let Some(limb_rad) = limb_rad(camera, bubble) else { return Ring::everywhere(3, 1) };
-    let edges_rad = Some([0.0, limb_rad + MARGIN_PIXELS * camera.pixel_height_m]);
+    let edges_rad = Some([0.0, limb_rad + MARGIN_PIXELS * pixel_rad(camera, bubble)]);
     Ring { edges_rad, outline: true, ..Ring::everywhere(3, 1) }
 }

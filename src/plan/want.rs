@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     physics::{
-        bubble::CentrePath,
+        bubble::{CentrePath, Oscillator, Shape, reach},
         colour::{Gamut, Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
         film::{
@@ -209,10 +209,11 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     let ticks = shot.moment.tick as f64 + shot.moment.fraction;
     let centre_m = centre_path(scene, index, bubble).at(ticks * scene.motion.tick_s).place_m;
     let radius_m = bubble.radius_mm * 1e-3;
-    let bounds = bounds(camera, shot.size, centre_m, radius_m)?;
+    let life = life(scene, index, shot.moment)?;
+    let stretch = shape(scene, index, bubble, &life).stretch();
+    let bounds = bounds(camera, shot.size, centre_m, radius_m * reach(stretch))?;
     let distance = centre_m.distance(camera.eye_m).max(radius_m);
     let radius_pixels = radius_m / distance / camera.pixel_height_m;
-    let life = life(scene, index, shot.moment)?;
     let film = match film(scene, index, bubble, &life) {
         FilmKey::Field(_) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(bubble.film.thickness_nm),
         film => film,
@@ -223,6 +224,7 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         index,
         centre_m,
         radius_m,
+        stretch,
         bounds,
         // A film of one thickness looks the same however it is turned.
         to_film: match film {
@@ -339,7 +341,7 @@ fn film(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) -> FilmKey {
         key.evaporation.retain(|(tick, _)| *tick < end);
         key.pushes = pushes(scene, index, bubble, life.born);
         key.pushes.retain(|push| push.ticks.start < end);
-        key.path = path_in_radii(scene, index, bubble, life.born).until(end as f64 * key.tick_s);
+        key.path = path_since(life.born, scene, index, bubble, radius_m).until(end as f64 * key.tick_s);
     }
     FilmKey::Field(key)
 }
@@ -350,13 +352,33 @@ pub fn centre_path(scene: &Scene, index: usize, bubble: &Bubble) -> CentrePath {
     CentrePath::new(bubble.center_m.into(), jumps(scene, index))
 }
 
-/// The same from where it is at a tick, at which it rests, in radii and from then on.
-fn path_in_radii(scene: &Scene, index: usize, bubble: &Bubble, born: u64) -> CentrePath {
+/// The same from where it is at a tick, at which it rests, from then on and seen from where it began, in a unit of length.
+fn path_since(born: u64, scene: &Scene, index: usize, bubble: &Bubble, unit_m: f64) -> CentrePath {
     let born_s = born as f64 * scene.motion.tick_s;
-    let in_radii = |place_m: DVec3| (place_m - DVec3::from(bubble.center_m)) / (bubble.radius_mm * 1e-3);
+    let in_units = |place_m: DVec3| (place_m - DVec3::from(bubble.center_m)) / unit_m;
     let jumps = jumps(scene, index).filter(|(time_s, _)| *time_s >= born_s);
-    let start = in_radii(centre_path(scene, index, bubble).at(born_s).place_m);
-    CentrePath::new(start, jumps.map(|(time_s, place_m)| (time_s - born_s, in_radii(place_m))))
+    let start = in_units(centre_path(scene, index, bubble).at(born_s).place_m);
+    CentrePath::new(start, jumps.map(|(time_s, place_m)| (time_s - born_s, in_units(place_m))))
+}
+
+/// How far from round a bubble has been pushed, by the air that it is dragged through and by jets.
+fn shape(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) -> Shape {
+    let tick_s = scene.motion.tick_s;
+    let oscillator = Oscillator::new(bubble.radius_mm * 1e-3, 1e-9 * bubble.film.thickness_nm);
+    let now_s = (life.moment.tick as f64 + life.moment.fraction) * tick_s;
+    let dragged = oscillator.along(&path_since(life.born, scene, index, bubble, 1.0), now_s);
+    let jets = scene.events.iter().filter_map(|event| match &event.change {
+        Change::Blow(blow) if blow.bubble == index && event.tick >= life.born => {
+            let to_world = film_turn(scene, event.tick as f64);
+            let [at, toward] = [blow.at, blow.toward].map(|vector| to_world * DVec3::from(vector).normalize());
+            let sharpness = Push::sharpness_of(blow.radius_deg.to_radians());
+            let push = oscillator.jet_push(at, sharpness, toward, blow.speed_m_s);
+            let since_s = now_s - (event.tick - life.born) as f64 * tick_s;
+            Some(oscillator.after_push(push, blow.ticks as f64 * tick_s, since_s))
+        }
+        _ => None,
+    });
+    jets.fold(dragged, |sum, jet| sum + jet)
 }
 
 /// Where a bubble is dragged, from when on, in seconds.

@@ -130,7 +130,7 @@ fn sphere<'a>(key: &BubbleKey, films: &'a MovedFilms) -> Result<FilmSphere<'a>, 
             Box::new(move |direction| hole.pierced(to_film * direction, film_nm(to_film * direction)))
         }
     };
-    Ok(FilmSphere { centre_m: key.centre_m, radius_m: key.radius_m, thickness_nm })
+    Ok(FilmSphere { centre_m: key.centre_m, radius_m: key.radius_m, stretch: key.stretch, thickness_nm })
 }
 
 /// Direction of the thinnest cell of a film; the top of one that is as thin everywhere.

@@ -1,17 +1,22 @@
 //! What people do to a bubble, on the device against the f64 twin.
 
 use soapfilm::{
+    gpu::Renderer,
+    input::LoadedScene,
     physics::{
         film::{Push, properties::air_drag},
         flow::{FlowForces, FlowSolver, relative_l2},
         sphere::{CubedSphere, PaddedField},
     },
-    scene::{Blow, Change, Event, Stir},
-    verify::interaction::{Played, weightless},
+    scene::{Backdrop, Blow, Change, Drag, Event, FilmStateName, Quality, Scene, Stir},
+    verify::{
+        interaction::{Played, weightless},
+        reference,
+    },
 };
 
-use crate::support::gpu;
-use glam::DVec3;
+use crate::support::{gpu, load, mean_and_max, radiance, renderer, still};
+use glam::{DMat3, DVec3};
 
 const CELLS: u32 = 64;
 /// A step is two ticks of 1/60 s.
@@ -77,12 +82,75 @@ fn a_jet_straight_at_the_film_moves_nothing() {
     let Some(gpu) = gpu() else { return };
     let largest = |toward: [f64; 3]| {
         let blow = Blow { at: [0.3, 0.5, 0.8], toward, ..Blow::default() };
-        let scene =
-            soapfilm::scene::Scene { events: vec![Event { tick: 0, change: Change::Blow(blow) }], ..weightless(CELLS) };
+        let scene = Scene { events: vec![Event { tick: 0, change: Change::Blow(blow) }], ..weightless(CELLS) };
         let mut played = Played::new(&gpu, &scene).unwrap();
         played.play_to(6).unwrap();
         played.velocity().unwrap().iter().fold(0.0, |most: f64, u| most.max(u.length()))
     };
     let (straight, oblique) = (largest([-0.3, -0.5, -0.8]), largest([-0.3, 0.5, -0.8]));
     assert!(straight < 1e-5 * oblique && oblique > 1.0, "{straight} {oblique}");
+}
+
+/// A picture of a bubble that flies through the air, and the matrix that stretches it.
+fn pushed_picture(renderer: &mut Renderer, loaded: &LoadedScene, size: [u32; 2]) -> (Vec<DVec3>, Vec<DVec3>, DMat3) {
+    let want = still(loaded, size, 25.0 / 60.0);
+    let draw = &want.picture.draw;
+    let stretch = draw.bubbles[0].stretch;
+    let truth = reference::radiance(draw, &Default::default(), &|| ()).unwrap();
+    (radiance(renderer, &want), truth, stretch)
+}
+
+/// A bubble of one thickness that a drag has pushed out of shape.
+fn dragged(to_m: [f64; 3]) -> LoadedScene {
+    let mut loaded = load("default");
+    (loaded.scene.bubbles[0].film.state, loaded.scene.bubbles[0].film.thickness_nm) = (FilmStateName::Uniform, 420.0);
+    loaded.scene.view.quality = Quality::Spectral;
+    loaded.scene.events = vec![Event { tick: 2, change: Change::Drag(Drag { bubble: 0, to_m }) }];
+    loaded
+}
+
+#[test]
+fn a_pushed_bubble_is_the_f64_one() {
+    let Some(mut renderer) = renderer() else { return };
+    for (to_m, largest_stretch, limit) in [([0.0, 0.05, 0.02], 0.02, 5e-4), ([0.0, 0.3, 0.1], 0.2, 3e-3)] {
+        let mut loaded = dragged(to_m);
+        loaded.scene.camera.target_m = [0.0, to_m[1], to_m[2]];
+        let (seen, truth, stretch) = pushed_picture(&mut renderer, &loaded, [96, 60]);
+        let size = (0..3).map(|k| (stretch.col(k) - DMat3::IDENTITY.col(k)).abs().max_element()).fold(0.0, f64::max);
+        assert!(size > 1e-3 && size < largest_stretch, "{size}");
+        let brightest = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
+        let apart = seen.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element() / brightest);
+        let (mean, most) = mean_and_max(apart);
+        eprintln!("measured: stretch {size:.4}, mean {mean:.5}, most {most:.4} of the brightest");
+        // The film has the mean of the angles at its first two walls, which differ in proportion to the stretch.
+        assert!(mean < limit, "stretch {size}: {mean} {most}");
+    }
+}
+
+/// Without film an ellipsoid is as invisible as a sphere, and in even light nothing of it is seen.
+#[test]
+fn an_ellipsoid_vanishes_in_even_light() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = dragged([0.0, 0.3, 0.1]);
+    loaded.scene.camera.target_m = [0.0, 0.3, 0.1];
+    loaded.scene.light.constant = Some([1.0; 3]);
+    loaded.scene.view.backdrop = Backdrop::Environment;
+    let (seen, truth, stretch) = pushed_picture(&mut renderer, &loaded, [64, 40]);
+    assert_ne!(stretch, DMat3::IDENTITY);
+    let even = truth[0];
+    let (_, most) = mean_and_max(seen.iter().chain(&truth).map(|pixel| (*pixel - even).abs().max_element() / even.x));
+    assert!(most < 2e-3, "{most}");
+}
+
+#[test]
+fn a_still_bubble_is_round_to_the_bit() {
+    let Some(mut renderer) = renderer() else { return };
+    let still_scene =
+        LoadedScene { scene: Scene { events: Vec::new(), ..dragged([0.0; 3]).scene }, ..dragged([0.0; 3]) };
+    let long_ago = dragged([1e-3, 0.0, 0.0]);
+    let mut back = long_ago.clone();
+    back.scene.events.push(Event { tick: 8, change: Change::Drag(Drag::default()) });
+    let at = |loaded: &LoadedScene| still(loaded, [64, 40], 60.0);
+    assert_eq!(at(&back).picture.draw.bubbles[0].stretch, DMat3::IDENTITY, "it has come to rest");
+    assert_eq!(radiance(&mut renderer, &at(&back)), radiance(&mut renderer, &at(&still_scene)));
 }

@@ -84,6 +84,8 @@ fn mirrors() -> Vec<Mirror> {
             tracer_cells = tracer_cells,
             thinned_nm = thinned_nm,
             to_film = to_film,
+            stretch = stretch,
+            unstretch = unstretch,
             black_nm = black_nm,
             extra_nm = extra_nm,
             skins_nm = skins_nm,

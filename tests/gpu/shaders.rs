@@ -28,6 +28,7 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
         ("SAMPLES", vec![1.0, 4.0]),
         ("SIDES", vec![96.0]),
         ("OUTLINE", vec![0.0, 1.0]),
+        ("STRETCHED", vec![0.0, 1.0]),
         ("BURST", vec![0.0, 1.0]),
         ("HOLE_MERIDIANS", vec![soapfilm::physics::film::HOLE_MERIDIANS as f64]),
         ("HOLE_PARTS", vec![soapfilm::physics::film::HOLE_PARTS as f64]),

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::shape::LegMotion;
+
 /// Time constant τ of the critically damped motion `c″ = (target − c)/τ² − 2c′/τ`, s: a hand's. The centre comes within 4 % in 5 τ, and a jump
 /// of the target by d accelerates it by up to d/τ², which for a radius of 5 cm is half of gravity.
 pub const SETTLING_S: f64 = 0.1;
@@ -66,6 +68,16 @@ impl CentrePath {
     #[must_use]
     pub fn is_still(&self) -> bool {
         self.legs.iter().all(|leg| leg.target_m == leg.start.place_m)
+    }
+
+    /// How the centre moves from each jump on.
+    pub(super) fn motions(&self) -> impl Iterator<Item = LegMotion> {
+        self.legs.iter().map(|leg| {
+            let a = leg.start.place_m - leg.target_m;
+            let b = a + SETTLING_S * leg.start.velocity_m_s;
+            let [start, slope] = [b - a, -b].map(|part| part / SETTLING_S);
+            LegMotion { from_s: leg.from_s, start, slope, settling_s: SETTLING_S }
+        })
     }
 
     /// Mean acceleration between two times in seconds, m/s².

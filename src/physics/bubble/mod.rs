@@ -1,5 +1,7 @@
-//! The bubble as a whole: where its centre is.
+//! The bubble as a whole: where its centre is, and its shape.
 
 mod centre;
+mod shape;
 
 pub use centre::{CentrePath, SETTLING_S};
+pub use shape::{Oscillator, Shape, reach};

@@ -41,18 +41,33 @@ impl<'a> LightPath<'a> {
         self.responses.iter().fold(DMat3::ZERO, |sum, response| sum + *response)
     }
 
-    /// Follows a ray (a unit vector) from an eye in units of the radius, the sphere's centre at the origin; nothing if it misses.
-    pub fn trace(&self, eye: DVec3, ray: DVec3, thickness_nm: &dyn Fn(DVec3) -> f64) -> Option<Arrivals> {
-        let along = eye.dot(ray);
-        let foot = eye - along * ray;
+    /// Follows a ray (a unit vector) from an eye in units of the radius, the bubble's centre at the origin and stretched by a symmetric
+    /// matrix; nothing if it misses.
+    pub fn trace(
+        &self,
+        eye: DVec3,
+        ray: DVec3,
+        stretch: DMat3,
+        thickness_nm: &dyn Fn(DVec3) -> f64,
+    ) -> Option<Arrivals> {
+        let is_round = stretch == DMat3::IDENTITY;
+        let to_round = stretch.inverse();
+        let (eye, round) = if is_round { (eye, ray) } else { (to_round * eye, (to_round * ray).normalize()) };
+        let along = eye.dot(round);
+        let foot = eye - along * round;
         let inside = eye.length_squared() <= 1.0;
         if foot.length_squared() >= 1.0 || (!inside && along >= 0.0) {
             return None;
         }
         let cos_theta = (1.0 - foot.length_squared()).sqrt();
-        let hits = Hits::new(foot, ray, cos_theta, self.inner_reflections(cos_theta));
+        let inner = self.inner_reflections(cos_theta);
+        let hits = if is_round {
+            Hits::on_sphere(foot, ray, cos_theta, inner)
+        } else {
+            Hits::on_ellipsoid([foot - cos_theta * round, foot + cos_theta * round], ray, to_round, inner)
+        };
         let thickness_nm: Vec<f64> = hits.points.iter().map(|point| thickness_nm(*point)).collect();
-        let factors = self.factors(cos_theta, &thickness_nm, inside, self.polarisation(foot, ray));
+        let factors = self.factors(&hits.cosines, &thickness_nm, inside, self.polarisation(to_round * foot, ray));
         let first = usize::from(inside);
         let reflected = hits.directions.into_iter().zip(factors.reflected).skip(first).collect();
         Some(Arrivals { straight: factors.straight, reflected })
@@ -77,11 +92,13 @@ impl<'a> LightPath<'a> {
         if s + p > 1e-12 { Polarised { s: s / (s + p), p: p / (s + p) } } else { Polarised { s: 0.5, p: 0.5 } }
     }
 
-    fn factors(&self, cos_theta: f64, thickness_nm: &[f64], inside: bool, polarisation: Polarised) -> Factors {
+    /// With the cosine at each hit, or one for all.
+    fn factors(&self, cosines: &[f64], thickness_nm: &[f64], inside: bool, polarisation: Polarised) -> Factors {
         let mut factors = Factors { straight: DMat3::ZERO, reflected: vec![DMat3::ZERO; thickness_nm.len()] };
         for (i, response) in self.responses.iter().enumerate() {
-            let wall = self.optics.wall(i, cos_theta);
-            let walls = thickness_nm.iter().map(|nm| wall.reflectance(*nm));
+            let walls: Vec<_> = cosines.iter().map(|cos_theta| self.optics.wall(i, *cos_theta)).collect();
+            let wall = |k: usize| &walls[k.min(walls.len() - 1)];
+            let walls = thickness_nm.iter().enumerate().map(|(k, nm)| wall(k).reflectance(*nm));
             factors.add(*response, walls, inside, polarisation);
         }
         factors
@@ -122,8 +139,10 @@ impl Factors {
     }
 }
 
-/// Where a ray meets the unit sphere, and where it goes from there.
+/// Where a ray meets the wall, as points of the unit sphere, and where it goes from there.
 struct Hits {
+    /// The cosine of incidence at each point, or one for all.
+    cosines: Vec<f64>,
     /// The front wall, then each point on the inside that the ray comes to.
     points: Vec<DVec3>,
     /// The outer reflection, then the direction after each inner one.
@@ -132,7 +151,7 @@ struct Hits {
 
 impl Hits {
     /// With the foot of the perpendicular from the centre on the ray; every chord has the length 2 cos θ.
-    fn new(foot: DVec3, ray: DVec3, cos_theta: f64, inner: usize) -> Self {
+    fn on_sphere(foot: DVec3, ray: DVec3, cos_theta: f64, inner: usize) -> Self {
         let chord = 2.0 * cos_theta;
         let front = foot - cos_theta * ray;
         let mut points = vec![front];
@@ -144,6 +163,30 @@ impl Hits {
             directions.push(direction);
             point += chord * direction;
         }
-        Self { points, directions }
+        Self { cosines: vec![cos_theta], points, directions }
+    }
+
+    /// With the two points where the ray goes through the wall, and the matrix that makes the bubble round, by which normals are turned too.
+    fn on_ellipsoid([front, back]: [DVec3; 2], ray: DVec3, to_round: DMat3, inner: usize) -> Self {
+        let mut hits = Self { cosines: Vec::new(), points: Vec::new(), directions: Vec::new() };
+        hits.meet(front, ray, to_round);
+        let (mut point, mut direction) = (back, ray);
+        for _ in 0..inner {
+            direction = hits.meet(point, direction, to_round);
+            let round = (to_round * direction).normalize();
+            point -= 2.0 * point.dot(round) * round;
+        }
+        hits
+    }
+
+    /// Adds a hit, and returns where it turns the ray.
+    fn meet(&mut self, point: DVec3, direction: DVec3, to_round: DMat3) -> DVec3 {
+        let normal = (to_round * point).normalize();
+        let along = direction.dot(normal);
+        let reflected = direction - 2.0 * along * normal;
+        self.cosines.push(along.abs());
+        self.points.push(point);
+        self.directions.push(reflected);
+        reflected
     }
 }

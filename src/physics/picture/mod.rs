@@ -10,6 +10,9 @@
 //! where v is the ray, v₀ its outer reflection and vₖ its direction after k inner reflections; what is left after the last direction
 //! followed is given to that direction, so that no energy is lost. From inside the bubble the sum starts at hit 1.
 //!
+//! A bubble that is stretched is met where it is round, and turns rays by its true normals. Each hit then has an angle of its own; that the
+//! planes of incidence turn from hit to hit, which mixes s and p light by the square of the stretch, is left out.
+//!
 //! What is and is not exact: the products of walls are formed at each wavelength of the light, and only their sum becomes a colour. RGB
 //! surroundings stand for spectra (see [`Uplift`](super::colour::Uplift)), so that coloured light too is the full spectral answer. Rays are straight (refraction shifts them by less than the film's thickness). A bubble behind another is not seen through it.
 
@@ -29,6 +32,8 @@ pub struct FilmSphere<'a> {
     pub centre_m: DVec3,
     /// Radius in metres.
     pub radius_m: f64,
+    /// Takes directions from the centre to places on the wall, over the radius: symmetric; the identity for a sphere.
+    pub stretch: DMat3,
     /// Film thickness in nm in the direction of a unit vector from the centre.
     pub thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a>,
 }
@@ -91,9 +96,11 @@ impl PictureScene<'_> {
     fn samples_at(&self, position: DVec2) -> u32 {
         let ray = self.camera.ray(self.size, position);
         let pixels = |sphere: &FilmSphere| {
-            let offset = sphere.centre_m - self.camera.eye_m;
+            // Where the bubble is round, and pixels are about as large.
+            let to_round = sphere.stretch.inverse();
+            let offset = to_round * (sphere.centre_m - self.camera.eye_m);
             let limb = (sphere.radius_m / offset.length()).asin();
-            (ray.angle_between(offset) - limb).abs() / self.camera.pixel_height_m
+            ((to_round * ray).angle_between(offset) - limb).abs() / self.camera.pixel_height_m
         };
         // Not a number inside the bubble, which has no outline: the smaller of two numbers is then the other.
         match self.spheres.iter().map(pixels).fold(f64::INFINITY, f64::min) {
@@ -106,7 +113,7 @@ impl PictureScene<'_> {
     fn sample(&self, paths: &LightPath, seen: DMat3, ray: DVec3) -> DVec3 {
         let hit = self.spheres.iter().rev().find_map(|sphere| {
             let eye = (self.camera.eye_m - sphere.centre_m) / sphere.radius_m;
-            paths.trace(eye, ray, &*sphere.thickness_nm)
+            paths.trace(eye, ray, sphere.stretch, &*sphere.thickness_nm)
         });
         let behind = || self.backdrop.unwrap_or_else(|| (self.surroundings)(ray));
         match hit {

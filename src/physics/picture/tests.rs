@@ -1,4 +1,4 @@
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::{FilmSphere, LightPath, PictureCamera, PictureScene};
 use crate::physics::{
@@ -16,7 +16,12 @@ fn camera(eye_x: f64, fov: f64) -> PictureCamera {
 }
 
 fn sphere<'a>(thickness_nm: f64) -> FilmSphere<'a> {
-    FilmSphere { centre_m: DVec3::ZERO, radius_m: 1.0, thickness_nm: Box::new(move |_| thickness_nm) }
+    FilmSphere {
+        centre_m: DVec3::ZERO,
+        radius_m: 1.0,
+        stretch: DMat3::IDENTITY,
+        thickness_nm: Box::new(move |_| thickness_nm),
+    }
 }
 
 fn radiance(
@@ -101,7 +106,7 @@ fn a_polariser_takes_the_reflection_at_brewsters_angle() {
     let paths = |axis| LightPath::new(&optics, axis);
     // The foot of a ray at Brewster's angle: sin θ = n / √(1 + n²) = 0.8.
     let (eye, ray) = (DVec3::new(4.0, 0.8, 0.0), DVec3::NEG_X);
-    let front = |axis| paths(axis).trace(eye, ray, &|_| 300.0).unwrap().reflected[0].1 * DVec3::ONE;
+    let front = |axis| paths(axis).trace(eye, ray, DMat3::IDENTITY, &|_| 300.0).unwrap().reflected[0].1 * DVec3::ONE;
     let (unpolarised, s, p) = (front(None), front(Some(DVec3::Z)), front(Some(DVec3::Y)));
     assert!(p.max_element() < 1e-12 && (s - 2.0 * unpolarised).abs().max_element() < 1e-12, "{s} {p} {unpolarised}");
 }

@@ -34,6 +34,9 @@ pub struct BubbleKey {
     pub centre_m: DVec3,
     /// Radius in metres.
     pub radius_m: f64,
+    /// Takes directions from the centre to places on the wall, over the radius: symmetric, of determinant 1, and the identity for a bubble that
+    /// is round.
+    pub stretch: DMat3,
     /// Bounding rectangle in clip coordinates, lower left and upper right.
     pub bounds: [DVec2; 2],
     /// Takes directions of the world to the film, which may turn as a whole.
