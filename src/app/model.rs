@@ -194,7 +194,7 @@ impl Model {
         self.clock.reset();
     }
 
-    /// Lets the pointer use its tool: pressed at a place of the picture, as [`tools::touch`] has it, or not pressed. Tells whether the
+    /// Lets the pointer use its tool: pressed at a place of the picture, as `tools::touch` has it, or not pressed. Tells whether the
     /// camera shall stand.
     pub fn touch(&mut self, pressed: Option<DVec2>) -> bool {
         tools::touch(&mut self.hand, self.tool, &mut self.scene, self.clock.tick, pressed);

@@ -102,7 +102,7 @@ pub fn touch(hand: &mut Hand, tool: Tool, scene: &mut Scene, tick: u64, pressed:
     let change = match (&mut *hand, pressed) {
         (Hand::Free, Some(place)) => {
             let aim = (tool != Tool::Orbit).then(|| aim(scene, tick, place)).flatten();
-            let prick = aim.as_ref().filter(|_| tool == Tool::Prick).map(|aim| prick(aim));
+            let prick = aim.as_ref().filter(|_| tool == Tool::Prick).map(prick);
             *hand = aim.map_or(Hand::Camera, |aim| Hand::Film(Grip::new(tool, scene, tick, &aim, place)));
             prick
         }
