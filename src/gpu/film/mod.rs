@@ -292,10 +292,10 @@ impl Field {
         self.rules.scheme.keeps_map().then_some(&self.map[0])
     }
 
-    /// Moves the liquid by one step that lasts some ticks.
+    /// Moves the liquid by one step that lasts some ticks. Steps back, and those whose times are no numbers, are refused.
     pub fn advance(&mut self, recorder: &mut Recorder<'_>, step: &Step, ticks: u32) -> Result<(), GpuError> {
-        if !step.is_finite() {
-            return Err(GpuError::Refused("a step of the film needs finite times".to_owned()));
+        if !step.is_forward() {
+            return Err(GpuError::Refused("a step of the film needs finite times, the later one last".to_owned()));
         }
         recorder.counts.cells_stepped += self.film.sphere.cells() as u64;
         self.has_moved = true;
