@@ -3,7 +3,7 @@
 
 import package::film::control::Control;
 import package::sphere::cubed::{HALO, cell_place, panel_direction};
-import package::sphere::lookup::{coarse_map_at, healed, map_at};
+import package::sphere::lookup::{map_at_cell, healed, map_at};
 
 // 1: the step was traced on the map's own grid.
 override SAME_GRID: u32;
@@ -50,7 +50,7 @@ fn compose_map(@builtin(global_invocation_id) id: vec3u) {
     if (SAME_GRID == 1u) {
         origin = step_map[cell_place(id, compose.cells)];
     } else {
-        origin = coarse_map_at(STEP_MAP, id, compose.cells, x, compose.step_cells);
+        origin = map_at_cell(STEP_MAP, id, compose.cells, x, compose.step_cells);
     }
     if (HAS_MAP == 1u) {
         let before = map_at(MAP_BEFORE, origin.xyz, compose.cells);

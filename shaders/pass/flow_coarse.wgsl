@@ -6,7 +6,7 @@ import package::flow::operators::area_density;
 import package::sphere::cubed::{HALO, padded_index};
 import package::sphere::halo::HaloEntry;
 
-const LANES: u32 = 256u;
+const LANES: u32 = 128u;
 
 // One grid. Mirrors `CoarseLevel` in src/gpu/flow/multigrid.rs.
 struct Level {
@@ -43,7 +43,7 @@ struct Coarse {
 // Two banks of corrections: sweeps read one and write the other, and end in the first.
 @group(0) @binding(4) var<storage, read_write> e: array<f32>;
 
-var<workgroup> shares: array<f32, 256>;
+var<workgroup> shares: array<f32, 128>;
 
 struct Cell {
     panel: u32,
@@ -195,7 +195,7 @@ fn solve_coarsest(level: Level, lane: u32) {
     }
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(128)
 fn flow_coarse(@builtin(local_invocation_index) lane: u32) {
     for (var l = 1u; l < coarse.levels; l++) {
         average(coarse.level[l - 1u], coarse.level[l], lane);

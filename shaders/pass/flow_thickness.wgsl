@@ -2,7 +2,7 @@
 
 import package::film::control::Control;
 import package::sphere::cubed::{HALO, padded_index, panel_direction};
-import package::sphere::lookup::{healed, map_at, tracer_at};
+import package::sphere::lookup::{healed, map_at_cell, tracer_at};
 
 // 0: there is no map, and the tracer is where it is.
 override HAS_MAP: u32;
@@ -42,7 +42,7 @@ fn flow_thickness(@builtin(global_invocation_id) id: vec3u) {
     }
     var origin = normalize(panel_direction(id.z, vec2f(tangents[id.x + HALO], tangents[id.y + HALO])));
     if (HAS_MAP == 1u) {
-        origin = map_at(0u, origin, thickness.map_cells).xyz;
+        origin = map_at_cell(0u, id + vec3u(HALO, HALO, 0u), thickness.cells, origin, thickness.map_cells).xyz;
     }
     let nm = tracer_at(origin, thickness.tracer_cells);
     if (healed > 0u) {

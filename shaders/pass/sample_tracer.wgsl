@@ -3,7 +3,7 @@
 
 import package::film::control::Control;
 import package::sphere::cubed::{HALO, cell_place, panel_direction};
-import package::sphere::lookup::{coarse_map_at, healed, tracer_at};
+import package::sphere::lookup::{map_at_cell, healed, tracer_at};
 
 // What the map's fourth number means: see `Gathered` in src/gpu/sample_tracer.rs.
 override GATHERED: u32;
@@ -66,7 +66,7 @@ fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
         if (ON_MAP_GRID == 1u) {
             origin = map[place];
         } else {
-            origin = coarse_map_at(0u, id, sample.cells, x, sample.map_cells);
+            origin = map_at_cell(0u, id, sample.cells, x, sample.map_cells);
         }
     }
     var value: f32;

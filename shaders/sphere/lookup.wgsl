@@ -51,9 +51,10 @@ fn map_at(map: u32, direction: vec3f, cells: u32) -> vec4f {
     return map_between(map, cell_point(direction, cells), direction);
 }
 
-// The same at the centre of a cell, halo included, of a grid with `finer` cells: on a coarser one, of the same panels, its place is known.
-fn coarse_map_at(map: u32, id: vec3u, finer: u32, direction: vec3f, cells: u32) -> vec4f {
-    let cell = (vec2f(id.xy) + 0.5 - f32(HALO)) * f32(cells) / f32(finer) - 0.5;
+// The same at the centre of a cell of another grid, numbered like an invocation of a pass over `other_cells` with the halo included: on all
+// grids of the same panels its place is known. Cells of a halo may not be those of a coarser grid than the map's.
+fn map_at_cell(map: u32, id: vec3u, other_cells: u32, direction: vec3f, cells: u32) -> vec4f {
+    let cell = (vec2f(id.xy) + 0.5 - f32(HALO)) * f32(cells) / f32(other_cells) - 0.5;
     // No stencil reaches beyond the halo.
     let base = clamp(floor(cell), vec2f(1.0 - f32(HALO)), vec2f(f32(cells + HALO) - 3.0));
     let place = padded_index(id.z, i32(base.x), i32(base.y), cells);

@@ -8,7 +8,7 @@ use super::{FlowGrid, buffer};
 use crate::{
     gpu::{Gpu, GpuError, timing::Recorder},
     physics::{
-        flow::{MAX_COARSEST_SWEEPS, Order, SWEEPS, Shift, coarser, coarsest_weights, sweep_weights},
+        flow::{MAX_COARSEST_SWEEPS, Order, SWEEPS, Shift, coarser, coarsest_weights, is_coarsest, sweep_weights},
         sphere::{CubedSphere, HaloEntry, HaloTable},
     },
 };
@@ -171,12 +171,15 @@ impl Multigrid {
 
     fn coarse_uniform(&self, shift: Shift) -> CoarseUniform {
         let mut uniform = CoarseUniform::zeroed();
-        (uniform.levels, uniform.values, uniform.shift) = (self.levels.len() as u32, self.values, shift as f32);
-        for (slot, level) in uniform.level.iter_mut().zip(&self.levels) {
+        // The finest grid, those below it, and the first of them that needs none below itself.
+        let needed = 2 + self.levels.iter().skip(1).take_while(|level| !is_coarsest(level.cells as usize, shift)).count();
+        let levels = &self.levels[..needed.min(self.levels.len())];
+        (uniform.levels, uniform.values, uniform.shift) = (levels.len() as u32, self.values, shift as f32);
+        for (slot, level) in uniform.level.iter_mut().zip(levels) {
             let weights = sweep_weights(level.cells as usize, Order::Second, shift).map(|weight| weight as f32);
             *slot = CoarseLevel { weights, ..*level };
         }
-        if let Some(coarsest) = self.levels.last() {
+        if let Some(coarsest) = levels.last() {
             let weights = coarsest_weights(coarsest.cells as usize, shift);
             uniform.sweeps = weights.len() as u32;
             for (slot, weight) in uniform.coarsest.iter_mut().zip(weights) {

@@ -2,7 +2,8 @@
 //!
 //! A cycle is a sawtooth: the residual of the finest grid is averaged down to the coarsest, solved there, and on the way back up each grid
 //! interpolates the correction and smooths it by a few damped Jacobi sweeps with Chebyshev weights. The finest grid differences to fourth
-//! order and the coarse ones to second. Grids need not nest: of N cells an edge the next has ⌈N/2⌉, so any N will do.
+//! order and the coarse ones to second. Grids need not nest: of N cells an edge the next has ⌈N/2⌉, so any N will do. The larger k is, the
+//! fewer grids there is work for.
 
 use std::f64::consts::PI;
 
@@ -13,6 +14,8 @@ use crate::physics::sphere::{CubedSphere, HaloTable, PaddedField};
 pub const SWEEPS: usize = 3;
 /// Sweeps on the coarsest grid at most.
 pub const MAX_COARSEST_SWEEPS: usize = 32;
+/// So few sweeps cost less than another grid.
+const FEW_SWEEPS: usize = 8;
 
 /// k of `(Δ − k) ψ = f`, in 1/rad²: 0 for Poisson's equation; −0.3 or more otherwise, for at −2 first-degree harmonics have no answer.
 pub type Shift = f64;
@@ -36,11 +39,25 @@ pub fn sweep_weights(n: usize, order: Order, shift: Shift) -> [f64; SWEEPS] {
     [weights[0], weights[1], weights[2]]
 }
 
+/// Whether a grid is the last that a cycle goes down to: there is none below it, or a few sweeps solve it.
+pub fn is_coarsest(n: usize, shift: Shift) -> bool {
+    coarser(n).is_none() || coarsest_sweeps(n, shift) <= FEW_SWEEPS
+}
+
+/// Sweeps that solve the coarsest grid, a power of two.
+fn coarsest_sweeps(n: usize, shift: Shift) -> usize {
+    // Of Poisson's equation, enough to divide an error by five: the condition number goes as n², the sweeps that it takes as n.
+    let most = if n <= 9 { MAX_COARSEST_SWEEPS / 2 } else { MAX_COARSEST_SWEEPS };
+    let root = ((2.0 * largest_diagonal(n, Order::Second) + shift) / (2.0 + shift)).sqrt();
+    // Where a hundred times less is cheap, that.
+    let wanted = (200.0_f64).ln() / ((root + 1.0) / (root - 1.0)).ln();
+    (wanted.ceil().max(2.0) as usize).next_power_of_two().min(most)
+}
+
 /// Weights of the sweeps that solve the coarsest grid: Chebyshev over the whole spectrum but constants, in the order of Lebedev &
 /// Finogenov (1971), in which rounding errors do not grow.
 pub fn coarsest_weights(n: usize, shift: Shift) -> Vec<f64> {
-    // Enough to divide an error by ten: the condition number goes as n², the sweeps that it takes as n.
-    let count = if n <= 9 { MAX_COARSEST_SWEEPS / 2 } else { MAX_COARSEST_SWEEPS };
+    let count = coarsest_sweeps(n, shift);
     let diagonal = largest_diagonal(n, Order::Second);
     let scaled = |eigenvalue: f64| (eigenvalue + shift) / (diagonal + shift);
     let mut order = vec![0];
@@ -115,7 +132,8 @@ impl Multigrid {
     fn correction(&self, l: usize, residual: &[f64], shift: Shift) -> Option<PaddedField<f64>> {
         let level = self.levels.get(l)?;
         let f = level.averaged(self.levels[l - 1].grid.n(), residual);
-        Some(match self.correction(l + 1, &f, shift) {
+        let below = if is_coarsest(level.grid.n(), shift) { None } else { self.correction(l + 1, &f, shift) };
+        Some(match below {
             Some(coarse) => level.smoothed(level.interpolated(&coarse, |_, value| value), &f, shift),
             None => level.solve(&f, shift),
         })
