@@ -168,6 +168,7 @@ fn gravity(run: &mut Run<'_>) -> Result<(), GpuError> {
         let around = Surroundings {
             forces: FlowForces { gravity: DVec3::NEG_Z * sign * 50.0 * 9.81 / 0.05, ..FlowForces::default() },
             air: &PrescribedFlow::default(),
+            pushes: &[],
             mean_nm: field.mean(),
             thinned_nm: 0.0,
             black_nm: 1.0,

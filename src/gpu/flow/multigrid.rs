@@ -172,7 +172,8 @@ impl Multigrid {
     fn coarse_uniform(&self, shift: Shift) -> CoarseUniform {
         let mut uniform = CoarseUniform::zeroed();
         // The finest grid, those below it, and the first of them that needs none below itself.
-        let needed = 2 + self.levels.iter().skip(1).take_while(|level| !is_coarsest(level.cells as usize, shift)).count();
+        let needed =
+            2 + self.levels.iter().skip(1).take_while(|level| !is_coarsest(level.cells as usize, shift)).count();
         let levels = &self.levels[..needed.min(self.levels.len())];
         (uniform.levels, uniform.values, uniform.shift) = (levels.len() as u32, self.values, shift as f32);
         for (slot, level) in uniform.level.iter_mut().zip(levels) {

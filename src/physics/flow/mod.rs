@@ -19,7 +19,9 @@ mod solver;
 
 pub use cases::{FlowCase, FlowCaseError, FlowCaseKind, Mode};
 pub use measure::{Invariants, invariants, relative_l2};
-pub use multigrid::{MAX_COARSEST_SWEEPS, Multigrid, SWEEPS, Shift, coarser, coarsest_weights, is_coarsest, sweep_weights};
+pub use multigrid::{
+    MAX_COARSEST_SWEEPS, Multigrid, SWEEPS, Shift, coarser, coarsest_weights, is_coarsest, sweep_weights,
+};
 pub use operators::{CellMetric, Order, laplacian, turned_gradient};
 pub use oscillation::{Oscillation, fit_oscillation};
 pub use solver::{
