@@ -1,7 +1,7 @@
 //! A film's state kept aside, so that the film can go on from there again with the same bits.
 
 use super::{
-    super::{copies::Copies, flow::FlowCheckpoint, timing::Recorder},
+    super::{blacken::BlackeningLaw, copies::Copies, flow::FlowCheckpoint, timing::Recorder},
     Field, FreeMotion, MovingFilm,
 };
 
@@ -18,6 +18,8 @@ struct FieldCheckpoint {
     ticks_since_decision: u32,
     /// Law of diffusion.
     diffusion: Option<(f64, f64)>,
+    /// Law of the collapse to black film.
+    black: Option<BlackeningLaw>,
 }
 
 impl MovingFilm {
@@ -59,16 +61,18 @@ impl Field {
             has_moved: self.has_moved,
             ticks_since_decision: self.ticks_since_decision,
             diffusion: self.diffusion.as_ref().map(|diffusion| diffusion.law()),
+            black: self.black.as_ref().map(|black| black.law),
         }
     }
 
     fn restore(&mut self, recorder: &mut Recorder<'_>, checkpoint: &FieldCheckpoint) {
-        let FieldCheckpoint { buffers, has_moved, ticks_since_decision, diffusion } = checkpoint;
+        let FieldCheckpoint { buffers, has_moved, ticks_since_decision, diffusion, black } = checkpoint;
         buffers.restore(recorder, &self.state());
         (self.has_moved, self.ticks_since_decision) = (*has_moved, *ticks_since_decision);
         match *diffusion {
             Some((rad2_s, tick_s)) => self.diffuse(recorder.gpu, rad2_s, tick_s),
             None => self.diffusion = None,
         }
+        self.collapse(recorder.gpu, *black);
     }
 }
