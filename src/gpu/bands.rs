@@ -76,15 +76,21 @@ impl Bands {
     #[must_use]
     pub fn fit(gpu: &Gpu, key: &BandsKey) -> Self {
         let resolved_nm = key.resolved_nm();
-        let optics = key.optics.spectra();
+        let bands = Self::of_count(gpu, &key.optics, key.task(), key.count(), resolved_nm.min(key.range_nm));
         // A light of few lines is summed exactly, whatever the film.
-        let thick = resolved_nm < key.range_nm && optics.indices().len() > key.count();
-        let bands = fit_bands(&optics, key.task(), key.count(), resolved_nm.min(key.range_nm));
+        let is_fitted = key.optics.spectra().indices().len() > key.count();
+        Self { thick: resolved_nm < key.range_nm && is_fitted, ..bands }
+    }
+
+    /// So many of them, or the light's own wavelengths where those are fewer, that resolve films up to a thickness.
+    #[must_use]
+    pub fn of_count(gpu: &Gpu, optics: &OpticsKey, task: BandTask, count: usize, resolved_nm: f64) -> Self {
+        let bands = fit_bands(&optics.spectra(), task, count.min(MOST_BANDS), resolved_nm);
         let mut samples = [BandSample::zeroed(); MOST_BANDS];
         let gap_nm = (GAP * resolved_nm) as f32;
         let sample = |band: &Band| BandSample { gap_nm, ..band.into() };
         samples.iter_mut().zip(&bands).for_each(|(place, band)| *place = sample(band));
-        Self { buffer: gpu.uniform("bands", &samples), count: bands.len() as u32, thick, task: key.task() }
+        Self { buffer: gpu.uniform("bands", &samples), count: bands.len() as u32, thick: false, task }
     }
 }
 

@@ -70,13 +70,13 @@ impl ColourProbe {
             true => Table::baked(gpu, &TableKey::full(optics.clone(), range_nm))?,
             false => Table::unread(gpu, optics),
         };
-        Ok(Self::with_table(gpu, table, bands))
+        Ok(Self::with_table(table, Bands::fit(gpu, &bands)))
     }
 
-    /// With another table than pictures use.
+    /// With another table or other bands than pictures use.
     #[must_use]
-    pub fn with_table(gpu: &Gpu, table: Table, bands: BandsKey) -> Self {
-        Self { table, bands: Bands::fit(gpu, &bands) }
+    pub fn with_table(table: Table, bands: Bands) -> Self {
+        Self { table, bands }
     }
 
     /// Unpolarised colours of some points, linear BT.2020, where a perfect mirror has the illuminant's white.

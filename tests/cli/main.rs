@@ -293,6 +293,24 @@ fn colours_come_in_the_promised_columns() {
     assert!((y(0) / truth - 1.0).abs() < 0.002, "{} {truth}", y(0));
 }
 
+/// A mistake in a list of films is told with its file and line.
+#[test]
+fn broken_points_are_refused_by_file_and_line() {
+    let desk = Desk::new();
+    for (text, told) in [
+        ("thickness_nm\n300\n", "points.csv:1: no column `cos_theta`"),
+        ("thickness_nm,cos_theta\n", "points.csv: no points"),
+        ("thickness_nm,cos_theta\n300,nan\n", "points.csv:2: cos_theta `nan`"),
+        ("thickness_nm,cos_theta\n300,0.5\n\n-3,0.5\n", "points.csv:4: thickness_nm `-3`"),
+        ("thickness_nm,cos_theta\n300,0.5\n300,0.5,7\n", "points.csv:3: 3 values for 2 columns"),
+        ("thickness_nm,cos_theta,back_nm\n300,0.5,200\n", "points.csv:2: exit_nm is missing"),
+    ] {
+        desk.write("points.csv", text);
+        let line = desk.refused("colour --points points.csv");
+        assert!(line.contains(told), "{text}: {line}");
+    }
+}
+
 /// A mistake in a spectrum is told with its file and line, and nothing is written.
 #[test]
 fn broken_spectra_are_refused_by_file_and_line() {

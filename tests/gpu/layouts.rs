@@ -93,7 +93,15 @@ fn mirrors() -> Vec<Mirror> {
         ),
         mirror!("TableAxes", TableAxes, size = size, max_thickness_nm = max_thickness_nm, index = index),
         mirror!("Bake", BakeUniform, axes = axes, first_row = first_row),
-        mirror!("Band", BandSample, response = response, wavelength_nm = wavelength_nm, index = index, gap_nm = gap_nm),
+        mirror!(
+            "Band",
+            BandSample,
+            response = response,
+            wavelength_nm = wavelength_nm,
+            index = index,
+            gap_nm = gap_nm,
+            width_nm = width_nm
+        ),
         mirror!(
             "ProbePoint",
             ProbePoint,
