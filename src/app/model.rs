@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use glam::{DMat3, DVec2};
+use glam::{DMat3, DVec3};
 
 use super::{
     clock::Clock,
@@ -11,7 +11,7 @@ use super::{
     keys::Action,
     messages::Messages,
     orbit,
-    tools::{self, Hand, Tool},
+    tools::{self, Hand, Press, Tool},
 };
 use crate::{
     input::LoadedScene,
@@ -194,9 +194,8 @@ impl Model {
         self.clock.reset();
     }
 
-    /// Lets the pointer use its tool: pressed at a place of the picture, as `tools::touch` has it, or not pressed. Tells whether the
-    /// camera shall stand.
-    pub fn touch(&mut self, pressed: Option<DVec2>) -> bool {
+    /// Lets the pointer, pressed or not, use its tool. Tells whether the camera shall stand.
+    pub fn touch(&mut self, pressed: Option<Press>) -> bool {
         tools::touch(&mut self.hand, self.tool, &mut self.scene, self.clock.tick, pressed);
         matches!(self.hand, Hand::Film(_))
     }
@@ -206,7 +205,7 @@ impl Model {
         let camera = &self.scene.camera;
         let turn = DMat3::from_axis_angle(camera.forward(), -right_deg.to_radians())
             * DMat3::from_axis_angle(camera.right(), away_deg.to_radians());
-        let gravity = turn * glam::DVec3::from(self.motion().gravity_m_s2);
+        let gravity = turn * DVec3::from(self.motion().gravity_m_s2);
         let gravity_m_s2 = Some(gravity.to_array().map(|part| (part * 1e3).round() / 1e3));
         self.change_motion(MotionChange { gravity_m_s2, ..MotionChange::default() });
     }

@@ -47,6 +47,15 @@ const JET_DEG: f64 = 15.0;
 /// Speed of a jet, m/s: a person's breath through pursed lips, an arm's length away.
 const JET_M_S: f64 = 3.0;
 
+/// A pressed pointer: places in the picture, right and up from its middle in heights of the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Press {
+    /// Where it was pressed, which may be some way back when frames are slow.
+    pub from: DVec2,
+    /// Where it is now.
+    pub at: DVec2,
+}
+
 /// The pointer over the picture, between presses and during one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Hand {
@@ -96,18 +105,17 @@ impl Aim {
     }
 }
 
-/// Lets the pointer do what it does with a tool at a tick: pressed at a place of the picture, right and up from its middle in heights of the
-/// picture, or not pressed.
-pub fn touch(hand: &mut Hand, tool: Tool, scene: &mut Scene, tick: u64, pressed: Option<DVec2>) {
+/// Lets the pointer, pressed or not, do what it does with a tool at a tick.
+pub fn touch(hand: &mut Hand, tool: Tool, scene: &mut Scene, tick: u64, pressed: Option<Press>) {
     let change = match (&mut *hand, pressed) {
-        (Hand::Free, Some(place)) => {
-            let aim = (tool != Tool::Orbit).then(|| aim(scene, tick, place)).flatten();
+        (Hand::Free, Some(press)) => {
+            let aim = (tool != Tool::Orbit).then(|| aim(scene, tick, press.from)).flatten();
             let prick = aim.as_ref().filter(|_| tool == Tool::Prick).map(prick);
-            *hand = aim.map_or(Hand::Camera, |aim| Hand::Film(Grip::new(tool, scene, tick, &aim, place)));
+            *hand = aim.map_or(Hand::Camera, |aim| Hand::Film(Grip::new(tool, scene, tick, &aim, press.at)));
             prick
         }
-        (Hand::Film(grip), Some(place)) => {
-            grip.place = place;
+        (Hand::Film(grip), Some(press)) => {
+            grip.place = press.at;
             grip.act(scene, tick, false)
         }
         (Hand::Film(grip), None) => {
@@ -238,7 +246,7 @@ mod tests {
     fn gesture(tool: Tool, scene: &mut Scene, places: &[DVec2], ticks: u64) {
         let mut hand = Hand::default();
         for (k, place) in places.iter().enumerate() {
-            touch(&mut hand, tool, scene, ticks * k as u64, Some(*place));
+            touch(&mut hand, tool, scene, ticks * k as u64, Some(Press { from: places[0], at: *place }));
         }
         touch(&mut hand, tool, scene, ticks * places.len() as u64, None);
         assert_eq!(hand, Hand::Free);
@@ -302,8 +310,9 @@ mod tests {
     fn beside_the_bubbles_and_without_a_tool_the_camera_moves() {
         for (tool, place) in [(Tool::Stir, DVec2::new(0.6, 0.0)), (Tool::Orbit, MIDDLE)] {
             let (mut hand, mut scene) = (Hand::default(), seen_from_x());
-            touch(&mut hand, tool, &mut scene, 0, Some(place));
-            touch(&mut hand, tool, &mut scene, 60, Some(MIDDLE));
+            for tick in [0, 60] {
+                touch(&mut hand, tool, &mut scene, tick, Some(Press { from: place, at: MIDDLE }));
+            }
             assert_eq!((hand, scene.events.len()), (Hand::Camera, 0));
         }
     }
@@ -312,7 +321,8 @@ mod tests {
     fn while_time_stands_nothing_happens() {
         let (mut hand, mut scene) = (Hand::default(), seen_from_x());
         for k in 0..100 {
-            touch(&mut hand, Tool::Stir, &mut scene, 7, Some(DVec2::new(0.003 * f64::from(k), 0.0)));
+            let at = DVec2::new(0.003 * f64::from(k), 0.0);
+            touch(&mut hand, Tool::Stir, &mut scene, 7, Some(Press { from: MIDDLE, at }));
         }
         assert_eq!(scene.events, []);
     }

@@ -22,6 +22,7 @@ use super::{
     keys::{self, Action},
     model::Model,
     orbit::Gesture,
+    tools::Press,
 };
 
 /// Width of the panels, points.
@@ -34,8 +35,8 @@ pub struct Picture {
     pub rect: Rect,
     /// How its camera is to be moved.
     pub gesture: Gesture,
-    /// Where the pointer is pressed there, right and up from its middle in heights of the picture.
-    pub pressed: Option<DVec2>,
+    /// The pointer, if it is pressed there.
+    pub pressed: Option<Press>,
 }
 
 /// Shows everything around the picture, obeys the keys, and returns where the picture stands.

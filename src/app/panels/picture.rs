@@ -4,7 +4,7 @@ use egui::{CentralPanel, Frame, PointerButton, Response, Sense, Ui};
 use glam::DVec2;
 
 use super::Picture;
-use crate::app::orbit::Gesture;
+use crate::app::{orbit::Gesture, tools::Press};
 
 /// Natural logarithm of the magnification for a point of scrolling: a notch of a wheel is 40 points.
 const ZOOM_PER_POINT: f64 = 0.004;
@@ -21,12 +21,16 @@ pub fn show(ui: &mut Ui) -> Picture {
         .inner
 }
 
-/// Where the primary button is held without Shift, which would shift the view.
-fn pressed(ui: &Ui, response: &Response) -> Option<DVec2> {
-    let is_down = ui.input(|input| input.pointer.primary_down() && !input.modifiers.shift);
+/// The pointer, if its primary button is held without Shift, which would shift the view.
+fn pressed(ui: &Ui, response: &Response) -> Option<Press> {
+    let (is_down, from) =
+        ui.input(|input| (input.pointer.primary_down() && !input.modifiers.shift, input.pointer.press_origin()));
     let at = response.interact_pointer_pos().filter(|_| is_down && response.is_pointer_button_down_on())?;
-    let from_middle = (at - response.rect.center()) / response.rect.height().max(1.0);
-    Some(DVec2::new(from_middle.x.into(), (-from_middle.y).into()))
+    let place = |at: egui::Pos2| {
+        let from_middle = (at - response.rect.center()) / response.rect.height().max(1.0);
+        DVec2::new(from_middle.x.into(), (-from_middle.y).into())
+    };
+    Some(Press { from: place(from.unwrap_or(at)), at: place(at) })
 }
 
 fn gesture(ui: &Ui, response: &Response) -> Gesture {
