@@ -12,14 +12,16 @@ struct Control {
     spared_nm: f32,
 }
 
-// A correction of a film's values, h + offset + slope h, that restores its amount of liquid. Mirrors `BalanceBlock`.
+// From a field's departure from a film's level to what is made of it: d + offset + slope d, which restores the amount of liquid, and the
+// level itself where a thickness is wanted. Mirrors `BalanceBlock`.
 struct Balance {
     offset: f32,
     slope: f32,
+    level: f32,
 }
 
-fn balanced(value: f32, balance: Balance) -> f32 {
-    return value + (balance.offset + balance.slope * value);
+fn balanced(departure: f32, balance: Balance) -> f32 {
+    return balance.level + (departure + (balance.offset + balance.slope * departure));
 }
 
 // By its bits: compilers may assume that what is no number does not occur.

@@ -1,7 +1,7 @@
 // Thin film collapses to black film, which a real film does within a fraction of a second once its surfaces attract each other: the
 // difference to black film decays at a constant rate. What a cell loses goes to the thicker cells around it, as the rim of a black spot
 // gathers it; the nearest cells of thick film may be too far, then the film as a whole gets it with the correction of its liquid.
-// The tracer holds the thickness and what has evaporated of it. One invocation a cell, halo included.
+// The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation a cell, halo included.
 
 import package::film::control::Control;
 import package::sphere::cubed::HALO;
@@ -10,8 +10,9 @@ import package::sphere::cubed::HALO;
 struct Blacken {
     // Cells along a panel's edge.
     cells: u32,
-    // What has evaporated, nm.
-    thinned_nm: f32,
+    // What the tracer departs from, and the same less what has evaporated, nm.
+    level_nm: f32,
+    thinned_level_nm: f32,
     // Thickness of black film, and that below which film collapses, nm.
     black_nm: f32,
     onset_nm: f32,
@@ -29,7 +30,7 @@ struct Blacken {
 const REACH: u32 = 3u;
 
 fn thickness_nm(place: u32) -> f32 {
-    return tracer[place] - blacken.thinned_nm;
+    return tracer[place] + blacken.thinned_level_nm;
 }
 
 // What a cell loses since the last remap.
@@ -54,7 +55,8 @@ fn is_halo(id: vec3u) -> bool {
 fn stop_evaporation(@builtin(global_invocation_id) id: vec3u) {
     if (id.x < blacken.cells + 2u * HALO) {
         let place = place_of(id);
-        result[place] = max(result[place], blacken.thinned_nm + min(result[place], blacken.black_nm));
+        let left = max(result[place] + blacken.thinned_level_nm, min(result[place] + blacken.level_nm, blacken.black_nm));
+        result[place] = max(result[place], left - blacken.thinned_level_nm);
     }
 }
 

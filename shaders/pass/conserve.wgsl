@@ -18,6 +18,8 @@ struct Conserve {
     low: f32,
     high: f32,
     bounded: u32,
+    // What is added to corrected values.
+    level: f32,
 }
 
 @group(0) @binding(0) var<uniform> conserve: Conserve;
@@ -87,12 +89,12 @@ fn balance_sum(@builtin(local_invocation_index) local: u32) {
         return;
     }
     if (conserve.bounded == 0u) {
-        balance = Balance(-excess / SPHERE, 0.0);
+        balance = Balance(-excess / SPHERE, 0.0, conserve.level);
         return;
     }
     // Liquid is taken in proportion to what stands above the lower bound, or given in proportion to what is missing to the upper one.
     let bound = select(conserve.high, conserve.low, excess > 0.0);
     let room = abs(conserve.mean - bound) * SPHERE + abs(excess);
     let part = select(0.0, clamp(abs(excess) / room, 0.0, 1.0), room > 0.0);
-    balance = Balance(part * bound, -part);
+    balance = Balance(part * bound, -part, conserve.level);
 }

@@ -41,8 +41,8 @@ fn flow_force(@builtin(global_invocation_id) id: vec3u) {
 // What forces that hold still do in half a step, exactly, however strong: see `HalfStep` in src/physics/flow/solver.rs.
 fn half_of_forces(at: u32, turned: vec3f) -> vec2f {
     let u = velocity[at].xyz;
-    // No film is thinner than an atom, and nothing stands in for one whose thickness cannot be used.
-    let thin = select(0.0, exp(-max(log_thickness[at], -2.0)), usable(log_thickness[at]));
+    // No film is so much thinner than its mean, and nothing stands in for one whose thickness cannot be used.
+    let thin = select(0.0, exp(-max(log_thickness[at], -12.0)), usable(log_thickness[at]));
     let of_air = flow.air_drag * sqrt(max(length(u), flow.min_air_speed)) * thin;
     let x = 0.5 * flow.dt_s * (flow.drag + of_air);
     let decay = exp(-x);

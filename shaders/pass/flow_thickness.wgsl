@@ -1,4 +1,5 @@
-// The film as its flow feels it: the logarithm of the thickness in nm at the cells of the flow's grid, looked up through the film's map.
+// The film as its flow feels it: the logarithm of the thickness over a reference at the cells of the flow's grid, looked up through the
+// film's map.
 
 import package::film::control::Control;
 import package::sphere::cubed::{HALO, padded_index, panel_direction};
@@ -13,8 +14,11 @@ struct Thickness {
     cells: u32,
     map_cells: u32,
     tracer_cells: u32,
-    // What has evaporated from the tracer's thickness, and the thickness at which evaporation ends, nm.
-    thinned_nm: f32,
+    // The reference, nm.
+    reference_nm: f32,
+    // Less the reference, nm: what the tracer departs from with and without what has evaporated, and the thickness at which that ends.
+    offset_nm: f32,
+    level_nm: f32,
     black_nm: f32,
 }
 
@@ -35,6 +39,14 @@ fn tracer_value(place: u32) -> f32 {
     return tracer[place];
 }
 
+// ln(1 + x) as exact near 0 as elsewhere, where the built-in logarithm may err by 2^-21: 2 artanh(x / (2 + x)) by its series.
+fn log_of_one_and(x: f32) -> f32 {
+    let s = x / (2.0 + x);
+    let q = s * s;
+    let series = 2.0 * s * (1.0 + q * (1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q / 11.0)))));
+    return select(log(1.0 + x), series, abs(s) < 0.2);
+}
+
 @compute @workgroup_size(64)
 fn flow_thickness(@builtin(global_invocation_id) id: vec3u) {
     if (id.x >= thickness.cells) {
@@ -44,11 +56,12 @@ fn flow_thickness(@builtin(global_invocation_id) id: vec3u) {
     if (HAS_MAP == 1u) {
         origin = map_at_cell(0u, id + vec3u(HALO, HALO, 0u), thickness.cells, origin, thickness.map_cells).xyz;
     }
-    let nm = tracer_at(origin, thickness.tracer_cells);
+    let departure = tracer_at(origin, thickness.tracer_cells);
     if (healed > 0u) {
         atomicAdd(&control.healed, healed);
     }
     let place = padded_index(id.z, i32(id.x), i32(id.y), thickness.cells);
     // As pictures have it: evaporation ends at black film.
-    log_thickness[place] = log(max(nm - thickness.thinned_nm, min(nm, thickness.black_nm)));
+    let nm = max(departure + thickness.offset_nm, min(departure + thickness.level_nm, thickness.black_nm));
+    log_thickness[place] = log_of_one_and(nm / thickness.reference_nm);
 }

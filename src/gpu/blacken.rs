@@ -16,15 +16,17 @@ use super::{
 pub struct BlackenUniform {
     /// Cells along a panel's edge.
     pub cells: u32,
-    /// What has evaporated, nm.
-    pub thinned_nm: f32,
+    /// What the tracer departs from, nm.
+    pub level_nm: f32,
+    /// The same less what has evaporated, nm.
+    pub thinned_level_nm: f32,
     /// Thickness of black film, nm.
     pub black_nm: f32,
     /// Thickness below which film collapses, nm.
     pub onset_nm: f32,
     /// Rate of the collapse, 1/tick.
     pub rate: f32,
-    pad: [u32; 3],
+    pad: [u32; 2],
 }
 
 /// How film collapses, now.
@@ -44,16 +46,23 @@ pub struct BlackeningLaw {
 pub struct BlackFilm {
     /// The law in force.
     pub law: BlackeningLaw,
+    /// What the tracer departs from, nm.
+    level_nm: f32,
     /// What each cell gives to each of those around it, nm.
     shed: wgpu::Buffer,
     halo: wgpu::Buffer,
 }
 
 impl BlackFilm {
-    /// On a film's tracer grid.
+    /// On a film's tracer grid, for a tracer that departs from a level in nm.
     #[must_use]
-    pub fn new(gpu: &Gpu, grid: &Grid, law: BlackeningLaw) -> Self {
-        Self { law, shed: grid.field(gpu, "shed", 4), halo: gpu.storage("film halo", &halo_entries(grid.sphere)) }
+    pub fn new(gpu: &Gpu, grid: &Grid, law: BlackeningLaw, level_nm: f32) -> Self {
+        Self {
+            law,
+            level_nm,
+            shed: grid.field(gpu, "shed", 4),
+            halo: gpu.storage("film halo", &halo_entries(grid.sphere)),
+        }
     }
 
     fn uniform(&self, recorder: &Recorder<'_>, grid: &Grid) -> wgpu::Buffer {
@@ -62,11 +71,12 @@ impl BlackFilm {
             "blacken",
             &BlackenUniform {
                 cells: grid.cells,
-                thinned_nm: thinned_nm as f32,
+                level_nm: self.level_nm,
+                thinned_level_nm: (f64::from(self.level_nm) - thinned_nm) as f32,
                 black_nm: black_nm as f32,
                 onset_nm: onset_nm as f32,
                 rate: rate as f32,
-                pad: [0; 3],
+                pad: [0; 2],
             },
         )
     }

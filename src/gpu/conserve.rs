@@ -27,7 +27,8 @@ pub struct ConserveUniform {
     pub high: f32,
     /// Whether the bounds count.
     pub bounded: u32,
-    pad: u32,
+    /// What is added to corrected values.
+    pub level: f32,
 }
 
 /// What must be conserved.
@@ -37,6 +38,8 @@ pub struct Target {
     pub mean: f64,
     /// Bounds that corrected values must keep, if any.
     pub bounds: Option<[f32; 2]>,
+    /// What is then added to them.
+    pub level: f32,
 }
 
 /// Workgroups that a sum over a grid takes.
@@ -102,7 +105,7 @@ fn summed(
             low,
             high,
             bounded: u32::from(target.bounds.is_some()),
-            pad: 0,
+            level: target.level,
         },
     );
     let key = |entry| ComputeKey { pass: "conserve", entry, constants: vec![] };

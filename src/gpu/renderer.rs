@@ -11,7 +11,7 @@ use super::{
     bands::Bands,
     draw::{DrawInputs, DrawPass, pixels_shaded, radiance_format, strips},
     environment::Environment,
-    film::{Field, LawInForce, MovingFilm, rules},
+    film::{Field, MovingFilm, rules},
     open_hole::OpenHole,
     readback::Readback,
     timing::{Counts, Recorder, TimeLog},
@@ -19,7 +19,7 @@ use super::{
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{DrawKey, FieldKey, FlowLaw, Have, OpenHoleKey, Pass, Plan, TableKey, TonemapKey, Want, plan},
+    plan::{DrawKey, FieldKey, Have, OpenHoleKey, Pass, Plan, TableKey, TonemapKey, Want, plan},
 };
 
 /// Cells stepped in one submission, so that none runs long: about 50 ms on a software rasteriser.
@@ -127,6 +127,11 @@ impl Renderer {
         let result = plan.steps.iter().try_for_each(|(pass, _)| self.run(pass)).and_then(|()| self.gpu.check());
         // After a failure nobody knows what is there: everything is made anew.
         self.have = if result.is_ok() { plan.after.clone() } else { Have::default() };
+        for (have, film) in self.have.fields.iter_mut().zip(&self.products.films) {
+            if let (Some(have), Some(film)) = (have, film) {
+                have.rest = film.rest();
+            }
+        }
         result
     }
 
@@ -186,11 +191,12 @@ impl Renderer {
                 Ok(())
             }
             Pass::SeedField { film, key } => self.seed(*film, key),
-            Pass::RestoreField { film, slot, .. } => {
-                self.copy_state(*film, |film, recorder| film.restore(recorder, *slot))
-            }
+            Pass::RestoreField { film, slot, .. } => self.copy_state(*film, |film, recorder| {
+                film.restore(recorder, *slot);
+                Ok(())
+            }),
             Pass::SaveField { film, slot, .. } => self.copy_state(*film, |film, recorder| film.save(recorder, *slot)),
-            Pass::StepField { film, key, ticks } => self.step(*film, key, ticks.clone()),
+            Pass::StepField { film, key, ticks } => self.step(*film, key, ticks.start),
             Pass::ShowField { film, key } => self.show(*film, key),
             Pass::OpenHole { film, key } => self.open_hole(*film, key),
             Pass::Draw(key) => self.draw(key),
@@ -251,29 +257,23 @@ impl Renderer {
     fn copy_state(
         &mut self,
         film: usize,
-        copy: impl FnOnce(&mut MovingFilm, &mut Recorder<'_>),
+        copy: impl FnOnce(&mut MovingFilm, &mut Recorder<'_>) -> Result<(), GpuError>,
     ) -> Result<(), GpuError> {
         let Some(Some(film)) = self.products.films.get_mut(film) else { return Ok(()) };
         let mut recorder = Recorder::new(&self.gpu);
-        copy(film, &mut recorder);
+        copy(film, &mut recorder)?;
         Self::submit(&self.times, &mut self.counts, recorder);
         Ok(())
     }
 
-    fn step(&mut self, film: usize, key: &FieldKey, ticks: Range<u64>) -> Result<(), GpuError> {
-        let Some(Some(film)) = self.products.films.get_mut(film) else { return Ok(()) };
+    fn step(&mut self, film: usize, key: &FieldKey, from_tick: u64) -> Result<(), GpuError> {
+        let Self { gpu, products, times, counts, .. } = self;
+        let Some(Some(film)) = products.films.get_mut(film) else { return Ok(()) };
         let per_submission = (CELLS_A_SUBMISSION / key.cell_count()).max(1) as usize;
-        let mut law = LawInForce::default();
-        let moving = |step: &Range<u64>| key.law(step.start) != FlowLaw::Rest;
-        let mut steps = key.steps_from(ticks.start).filter(moving).peekable();
-        while steps.peek().is_some() {
-            let mut recorder = Recorder::new(&self.gpu);
-            for step in steps.by_ref().take(per_submission) {
-                film.advance(&mut recorder, key, &mut law, step)?;
-            }
-            Self::submit(&self.times, &mut self.counts, recorder);
-        }
-        Ok(())
+        film.play(gpu, key, from_tick, per_submission, |recorder| {
+            Self::submit(times, counts, recorder);
+            Ok(())
+        })
     }
 
     fn show(&mut self, film: usize, key: &FieldKey) -> Result<(), GpuError> {

@@ -16,7 +16,11 @@ impl Planner {
         let before = self.after.fields[film].take();
         let mut have = self.start(film, wanted, before.clone());
         let end = self.step(film, wanted, &mut have);
-        let moment = if end == wanted.state_tick() { wanted.moment } else { Moment::tick(end) };
+        let moment = match have.rest {
+            Some(rest) => Moment::tick(rest.since_tick),
+            None if end == wanted.state_tick() => wanted.moment,
+            None => Moment::tick(end),
+        };
         let shown = wanted.at(moment);
         if have.shown != Some(moment) || before.is_none_or(|before| before.state.law_differs_until(&shown)) {
             let reason = if have.shown.is_none() { Reason::Missing } else { Reason::Changed("the moment") };
@@ -38,12 +42,12 @@ impl Planner {
         if let Some((slot, key)) = checkpoints.latest(wanted).filter(|(_, key)| nearer(key)) {
             let state = key.clone();
             self.push(Pass::RestoreField { film, slot, key: state.clone() }, Reason::Changed("the moment"));
-            return FieldHave { state, shown: None, checkpoints };
+            return FieldHave { state, shown: None, rest: None, checkpoints };
         }
         here.unwrap_or_else(|| {
             let start = wanted.at(Moment::default());
             self.push(Pass::SeedField { film, key: start.clone() }, reason);
-            FieldHave { state: start, shown: None, checkpoints }
+            FieldHave { state: start, shown: None, rest: None, checkpoints }
         })
     }
 
@@ -54,8 +58,16 @@ impl Planner {
             Pace::Frame => (CELLS_A_FRAME / wanted.cell_count()).max(1) as usize,
             Pace::Whole => usize::MAX,
         };
-        let (mut start, mut end) = (first, first);
-        for step in wanted.steps_from(first).take(most) {
+        let mut steps = wanted.steps_from(first).peekable();
+        let mut start = first;
+        if let Some(rest) = have.rest {
+            while let Some(step) = steps.next_if(|step| wanted.undisturbed(step) == Some(rest.law)) {
+                start = step.end;
+            }
+            have.rest = have.rest.filter(|_| steps.peek().is_none());
+        }
+        let mut end = start;
+        for step in steps.take(most) {
             end = step.end;
             if self.pace == Pace::Whole {
                 continue;

@@ -15,8 +15,8 @@ use std::{fmt, ops::Range};
 pub use checkpoints::Checkpoints;
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw,
-    FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, TableKey, TonemapKey,
-    range_nm,
+    FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, RestingFilm, TableKey,
+    TonemapKey, range_nm,
 };
 pub use want::{Lamp, Resources, Shot, WantError, centre_path, film_key, film_turn, want};
 
@@ -74,6 +74,8 @@ pub struct FieldHave {
     pub state: FieldKey,
     /// Moment shown, if any was.
     pub shown: Option<Moment>,
+    /// Whether the film has come to rest, as the device has found.
+    pub rest: Option<RestingFilm>,
     /// States to go back to.
     pub checkpoints: Checkpoints,
 }

@@ -285,6 +285,36 @@ fn a_free_film_is_stepped_as_its_waves_need() {
 }
 
 #[test]
+fn a_film_that_was_found_at_rest_plans_nothing_until_something_acts_on_it() {
+    let mut scene = preset("default").unwrap();
+    scene.motion.strength = 0.0;
+    let FilmKey::Field(film) = &wanted(&scene, 240, Pace::Whole).picture.draw.bubbles[0].film else { unreachable!() };
+    let FlowLaw::Free(law) = film.law(0) else { unreachable!("a free film") };
+    let resting = |tick| {
+        let mut have = after(&scene, tick);
+        have.fields[0].as_mut().unwrap().rest = Some(RestingFilm { since_tick: 240, law });
+        have
+    };
+    let then = |scene: &Scene, have: &Have, tick| plan(&wanted(scene, tick, Pace::Frame), have);
+    let shown = then(&scene, &resting(240), 7000);
+    assert!(shown.is_empty(), "{shown}");
+    let event = |change| Scene { events: vec![Event { tick: 400, change }], ..scene.clone() };
+    let tilt = MotionChange { gravity_m_s2: Some([1.0, 0.0, -9.0]), ..MotionChange::default() };
+    let draught = MotionChange { strength: Some(1.0), ..MotionChange::default() };
+    for change in [Change::Stir(Stir::default()), Change::Motion(tilt), Change::Motion(draught)] {
+        let disturbed = event(change);
+        assert!(then(&disturbed, &resting(240), 399).is_empty(), "not yet");
+        let passes = then(&disturbed, &resting(240), 404);
+        let stepped = passes.steps.iter().find_map(|(pass, _)| match pass {
+            Pass::StepField { ticks, .. } => Some(ticks.start),
+            _ => None,
+        });
+        assert_eq!(stepped, Some(400), "{passes}");
+        assert_eq!(passes.after.fields[0].as_ref().unwrap().rest, None);
+    }
+}
+
+#[test]
 fn a_film_that_hardly_moves_takes_few_steps() {
     let mut scene = stirred_scene();
     scene.motion.strength = 1e-7;

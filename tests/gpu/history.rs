@@ -130,6 +130,49 @@ fn a_film_at_rest_does_nothing() {
     assert_eq!(second.submissions, 0, "{second:?}");
 }
 
+/// A weightless film in still air, that is stirred while it rests.
+fn calm() -> LoadedScene {
+    let mut loaded = small();
+    (loaded.scene.motion.gravity_m_s2, loaded.scene.motion.strength) = ([0.0; 3], 0.0);
+    loaded.scene.events = vec![Event { tick: 300, change: Change::Stir(Stir::default()) }];
+    loaded
+}
+
+#[test]
+fn a_free_film_that_has_come_to_rest_does_nothing_until_it_is_disturbed() {
+    let loaded = calm();
+    let steps = |counts: Counts| counts.cells_stepped / (6 * u64::from(CELLS * CELLS));
+    let Some([first, second]) = cost(&loaded, 250.0, 299.5) else { return };
+    assert_eq!(steps(first), 120, "two ticks a step until the answer at tick 240: {first:?}");
+    assert_eq!(
+        (steps(second), second.draws <= first.draws),
+        (0, true),
+        "its picture is made once more at most: {second:?}"
+    );
+    let Some([_, stirred]) = cost(&loaded, 299.5, 360.0) else { return };
+    assert_eq!(steps(stirred), 30, "from the stir on: {stirred:?}");
+}
+
+#[test]
+fn equal_histories_of_a_film_that_rests_for_a_while_give_equal_bits() {
+    let loaded = calm();
+    let read = |ticks: &[f64]| {
+        let mut renderer = renderer()?;
+        for ticks in ticks {
+            while !renderer.bring(&frame(&loaded, *ticks)).unwrap().complete {}
+        }
+        let pixels = radiance(&mut renderer, &still(&loaded, SIZE, seconds(*ticks.last()?)));
+        let pixels: Vec<_> = pixels.into_iter().map(|pixel| pixel.to_array().map(f64::to_bits)).collect();
+        let (_, film) = renderer.read_film(0).unwrap().unwrap();
+        Some((film.wait(&renderer.gpu).unwrap(), pixels))
+    };
+    let end = 340.5;
+    let Some(expected) = read(&[end]) else { return };
+    let every_third: Vec<_> = (0..341).step_by(3).map(f64::from).chain([end]).collect();
+    assert!(read(&every_third).as_ref() == Some(&expected), "frame by frame");
+    assert!(read(&[290.0, 130.0, 280.0, 330.0, 200.0, end]) == Some(expected), "back and forth");
+}
+
 #[test]
 fn turning_and_evaporating_as_a_whole_draws_and_steps_no_cell() {
     let mut loaded = small();
@@ -174,7 +217,10 @@ fn a_film_that_hardly_moves_is_hardly_stepped() {
 #[test]
 fn scrubbing_to_random_moments_gives_the_bits_of_a_run_from_scratch() {
     let Some(mut scrubbed) = renderer() else { return };
-    let (mut random, loaded) = (Random(11), eventful());
+    let (mut random, mut loaded) = (Random(11), eventful());
+    // Black film spreads within the first seconds.
+    loaded.scene.bubbles[0].film.thickness_nm = 250.0;
+    (loaded.scene.motion.evaporation_nm_s, loaded.scene.motion.black_film_life_s) = (25.0, 1e6);
     let read = |renderer: &mut Renderer, ticks: f64| {
         while !renderer.bring(&frame(&loaded, ticks)).unwrap().complete {}
         let (_, film) = renderer.read_film(0).unwrap().unwrap();

@@ -149,7 +149,8 @@ fn mirrors() -> Vec<Mirror> {
             "Blacken",
             BlackenUniform,
             cells = cells,
-            thinned_nm = thinned_nm,
+            level_nm = level_nm,
+            thinned_level_nm = thinned_level_nm,
             black_nm = black_nm,
             onset_nm = onset_nm,
             rate = rate
@@ -163,7 +164,8 @@ fn mirrors() -> Vec<Mirror> {
             mean_rest = mean_rest,
             low = low,
             high = high,
-            bounded = bounded
+            bounded = bounded,
+            level = level
         ),
         mirror!(
             "Decide",
@@ -195,7 +197,7 @@ fn mirrors() -> Vec<Mirror> {
             ticks_remapped = ticks_remapped,
             spared_nm = spared_nm
         ),
-        mirror!("Balance", BalanceBlock, offset = offset, slope = slope),
+        mirror!("Balance", BalanceBlock, offset = offset, slope = slope, level = level),
         mirror!(
             "Flow",
             FlowUniform,
@@ -278,7 +280,9 @@ fn mirrors() -> Vec<Mirror> {
             cells = cells,
             map_cells = map_cells,
             tracer_cells = tracer_cells,
-            thinned_nm = thinned_nm,
+            reference_nm = reference_nm,
+            offset_nm = offset_nm,
+            level_nm = level_nm,
             black_nm = black_nm
         ),
         mirror!(

@@ -1,14 +1,16 @@
 //! A film's state kept aside, so that the film can go on from there again with the same bits.
 
 use super::{
-    super::{blacken::BlackeningLaw, copies::Copies, flow::FlowCheckpoint, timing::Recorder},
+    super::{GpuError, blacken::BlackeningLaw, copies::Copies, flow::FlowCheckpoint, timing::Recorder},
     Field, FreeMotion, MovingFilm,
+    rest::KeptRestWatch,
 };
 
 /// A film's state between two steps.
 pub struct Checkpoint {
     field: FieldCheckpoint,
     motion: Option<FlowCheckpoint>,
+    watch: KeptRestWatch,
 }
 
 /// The state of a field.
@@ -24,21 +26,24 @@ struct FieldCheckpoint {
 
 impl MovingFilm {
     /// Keeps the state in a slot, the next new one at most.
-    pub fn save(&mut self, recorder: &mut Recorder<'_>, slot: usize) {
+    pub fn save(&mut self, recorder: &mut Recorder<'_>, slot: usize) -> Result<(), GpuError> {
         let checkpoint = Checkpoint {
             field: self.field.save(recorder),
             motion: self.motion.as_ref().map(|motion| motion.solver.save(recorder)),
+            watch: self.watch.kept(recorder.gpu)?,
         };
         match self.checkpoints.get_mut(slot) {
             Some(old) => *old = checkpoint,
             None => self.checkpoints.push(checkpoint),
         }
+        Ok(())
     }
 
     /// Makes the state of a slot the film's again; nothing for an empty slot.
     pub fn restore(&mut self, recorder: &mut Recorder<'_>, slot: usize) {
-        let Self { field, motion, checkpoints } = self;
+        let Self { field, motion, watch, checkpoints } = self;
         let Some(checkpoint) = checkpoints.get(slot) else { return };
+        *watch = checkpoint.watch.into();
         field.restore(recorder, &checkpoint.field);
         // A film that had not moved by itself then starts to with no motion.
         let Some(flow) = &checkpoint.motion else {

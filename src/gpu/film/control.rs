@@ -28,10 +28,12 @@ pub struct ControlBlock {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct BalanceBlock {
-    /// Added to a value.
+    /// Added to a departure from the film's level.
     pub offset: f32,
-    /// Times the value, added to it.
+    /// Times the departure, added to it.
     pub slope: f32,
+    /// The film's level where a thickness is made of the departure, else 0.
+    pub level: f32,
 }
 
 /// Arguments of the dispatches of a remap: see `shaders/pass/decide_remap.wgsl`.
@@ -76,12 +78,11 @@ impl Control {
         }
     }
 
-    /// Forgets everything.
-    pub(super) fn reset(&self, gpu: &Gpu) {
+    /// Forgets everything; what is shown stands on a level.
+    pub(super) fn reset(&self, gpu: &Gpu, level: f32) {
         gpu.upload(&self.block, &[ControlBlock::zeroed()]);
-        for balance in [&self.shown_balance, &self.tracer_balance] {
-            gpu.upload(balance, &[BalanceBlock::zeroed()]);
-        }
+        gpu.upload(&self.tracer_balance, &[BalanceBlock::zeroed()]);
+        gpu.upload(&self.shown_balance, &[BalanceBlock { level, ..BalanceBlock::zeroed() }]);
     }
 
     /// A pass over the tracer's texels, if a remap is due.

@@ -21,11 +21,14 @@ pub struct ThicknessUniform {
     pub map_cells: u32,
     /// The same of the tracer.
     pub tracer_cells: u32,
-    /// What has evaporated, nm.
-    pub thinned_nm: f32,
-    /// Thickness at which evaporation ends, nm.
+    /// Thickness that the logarithm is relative to, nm.
+    pub reference_nm: f32,
+    /// Added to the tracer for the thickness less the reference, nm.
+    pub offset_nm: f32,
+    /// What the tracer departs from, less the reference, nm.
+    pub level_nm: f32,
+    /// Thickness at which evaporation ends, less the reference, nm.
     pub black_nm: f32,
-    pad: [u32; 3],
 }
 
 /// See `shaders/pass/flow_gusts.wgsl`.
@@ -78,6 +81,13 @@ pub struct Surroundings<'a> {
     pub black_nm: f64,
 }
 
+impl Surroundings<'_> {
+    /// What the flow takes thicknesses relative to: the mean of what is left, so that logarithms are as exact as the tracer.
+    fn reference_nm(&self) -> f64 {
+        (self.mean_nm - self.thinned_nm).max(self.black_nm)
+    }
+}
+
 /// The flow of a film that moves by itself.
 pub struct FreeMotion {
     pub(super) solver: FlowSolver,
@@ -115,7 +125,9 @@ impl FreeMotion {
         self.feel(recorder, field, around)?;
         self.blow(recorder, field, around, from_s)?;
         self.push(recorder, field, around.pushes)?;
-        self.solver.step(recorder, dt_s, &around.forces)?;
+        // The flow knows thicknesses relative to a reference.
+        let forces = FlowForces { air_drag: around.forces.air_drag / around.reference_nm(), ..around.forces };
+        self.solver.step(recorder, dt_s, &forces)?;
         field.advance(recorder, &self.ahead(dt_s), ticks)
     }
 
@@ -128,13 +140,15 @@ impl FreeMotion {
     /// Tells the flow the film's thickness.
     fn feel(&self, recorder: &mut Recorder<'_>, field: &Field, around: &Surroundings<'_>) -> Result<(), GpuError> {
         let flow = field.flow_grid();
+        let (level_nm, reference_nm) = (f64::from(field.level), around.reference_nm());
         let uniform = ThicknessUniform {
             cells: flow.cells,
             map_cells: field.map_grid().cells,
             tracer_cells: field.tracer_grid().cells,
-            thinned_nm: around.thinned_nm as f32,
-            black_nm: around.black_nm as f32,
-            pad: [0; 3],
+            reference_nm: reference_nm as f32,
+            offset_nm: (level_nm - around.thinned_nm - reference_nm) as f32,
+            level_nm: (level_nm - reference_nm) as f32,
+            black_nm: (around.black_nm - reference_nm) as f32,
         };
         let uniform = recorder.gpu.uniform("flow thickness", &uniform);
         let map = field.kept_map();

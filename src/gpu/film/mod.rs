@@ -1,5 +1,8 @@
 //! A film's field on the device: the flow map, the tracer of the last remap, and the thickness that is shown.
 //!
+//! The tracer is the thickness's departure from the film's *level*, its mean: f32 then resolves what a well mixed film still varies by, where
+//! of the thickness itself it would round the last waves away before they have calmed, and their rounded pattern would drive a flow for ever.
+//!
 //! The film is moved as a flow map: `map(x)` says where the liquid at x was at the last remap, and the thickness is the tracer of that remap
 //! looked up there. Each step composes the map with one backtrace; a remap looks the tracer up once for good and makes the map the identity.
 //! Remapping at every step is the classic semi-Lagrangian scheme; remapping rarely keeps filaments sharp, for the error then grows with the
@@ -14,6 +17,7 @@ mod control;
 mod free;
 mod grid;
 mod moving;
+mod rest;
 
 pub use control::{BalanceBlock, Control, ControlBlock, RemapArguments};
 pub use free::{FreeMotion, GustsUniform, PushesUniform, Surroundings, ThicknessUniform};
@@ -100,6 +104,8 @@ pub struct Field {
     /// Which of the maps it was sampled through.
     shown_map: usize,
     control: Control,
+    /// What the tracer departs from.
+    level: f32,
     /// What must be kept, of what is shown and of the tracer.
     targets: [Target; 2],
     /// What spreads the thickness at remaps, if anything does.
@@ -194,6 +200,7 @@ impl Field {
             texture: FilmTexture::new(gpu, film.side()),
             shown_map: 0,
             control: Control::new(gpu),
+            level: 0.0,
             targets: [Target::default(); 2],
             diffusion: None,
             black: None,
@@ -208,7 +215,7 @@ impl Field {
     /// Its mean over the sphere, which is kept.
     #[must_use]
     pub fn mean(&self) -> f64 {
-        self.targets[0].mean
+        f64::from(self.level) + self.targets[0].mean
     }
 
     /// How it is moved.
@@ -240,7 +247,7 @@ impl Field {
         match (law, &mut self.black) {
             (None, black) => *black = None,
             (Some(law), Some(black)) => black.law = law,
-            (Some(law), None) => self.black = Some(BlackFilm::new(gpu, self.tracer_grid(), law)),
+            (Some(law), None) => self.black = Some(BlackFilm::new(gpu, self.tracer_grid(), law, self.level)),
         }
     }
 
@@ -269,13 +276,19 @@ impl Field {
         value: impl Fn(glam::DVec3) -> f64 + Sync,
     ) -> Result<(), GpuError> {
         let gpu = recorder.gpu;
-        let film = Seeded::new(self.film.sphere, &value);
-        let tracer = self.fine.as_ref().map(|grid| Seeded::new(grid.sphere, &value));
+        // A density in a wind that diverges is multiplied on the way, as departures must not be.
+        let has_level = self.rules.gathered != Gathered::LogArea;
+        self.level = if has_level { mean_of(self.film.sphere, &value) as f32 } else { 0.0 };
+        let departure = |direction| value(direction) - f64::from(self.level);
+        let film = Seeded::new(self.film.sphere, &departure);
+        let tracer = self.fine.as_ref().map(|grid| Seeded::new(grid.sphere, &departure));
         let tracer = tracer.as_ref().unwrap_or(&film);
         gpu.upload(&self.tracer, &tracer.values);
-        self.targets = [&film, tracer]
-            .map(|seeded| Target { mean: seeded.mean, bounds: self.rules.bounded().then_some(seeded.range) });
-        self.control.reset(gpu);
+        self.targets = [(&film, self.level), (tracer, 0.0)].map(|(seeded, level)| {
+            let bounds = self.rules.bounded().then_some(seeded.range);
+            Target { mean: seeded.mean, bounds, level }
+        });
+        self.control.reset(gpu, self.level);
         self.black = None;
         self.has_moved = false;
         self.ticks_since_decision = 0;
@@ -487,6 +500,14 @@ impl Field {
             recorder.encoder().copy_buffer_to_buffer(from, 0, to, 0, from.size());
         }
     }
+}
+
+/// Mean of a function over a grid's cells; 0 where it is no number.
+fn mean_of(sphere: CubedSphere, value: &(impl Fn(glam::DVec3) -> f64 + Sync)) -> f64 {
+    let weighted =
+        sphere.areas().into_par_iter().enumerate().map(|(cell, area)| area * value(sphere.cell_direction(cell)));
+    let sum: f64 = weighted.collect::<Vec<_>>().into_iter().sum();
+    if sum.is_finite() { sum / (4.0 * std::f64::consts::PI) } else { 0.0 }
 }
 
 /// A function's values by padded index, and what must be kept of them.

@@ -4,18 +4,19 @@ use std::ops::Range;
 
 use super::{
     super::{
-        GpuError, blacken::BlackeningLaw, decide_remap::RemapRule, flow::FlowSolver, sample_tracer::Gathered,
+        Gpu, GpuError, blacken::BlackeningLaw, decide_remap::RemapRule, flow::FlowSolver, sample_tracer::Gathered,
         timing::Recorder, trace_step::Step,
     },
     Field, FreeMotion, Rules, Surroundings,
     checkpoint::Checkpoint,
+    rest::RestWatch,
 };
 use crate::{
     physics::film::{
         InitialFilm, PrescribedFlow,
         properties::{BLACK_FILM_COLLAPSE, BLACK_FILM_ONSET},
     },
-    plan::{BLACK_FILM_NM, FieldKey, FlowLaw, FreeFlow},
+    plan::{BLACK_FILM_NM, FieldKey, FlowLaw, FreeFlow, RestingFilm},
 };
 
 /// Steps of a flow in one step of its film at most: enough for 250 times the gravity of the Earth on a bubble of 5 cm.
@@ -27,6 +28,8 @@ pub struct MovingFilm {
     pub field: Field,
     /// What moves it, once it has moved by itself.
     pub(super) motion: Option<FreeMotion>,
+    /// Whether it still moves by itself.
+    pub(super) watch: RestWatch,
     /// States to go back to, by slot.
     pub(super) checkpoints: Vec<Checkpoint>,
 }
@@ -35,13 +38,68 @@ impl MovingFilm {
     /// A film that has not moved yet.
     #[must_use]
     pub fn new(field: Field) -> Self {
-        Self { field, motion: None, checkpoints: Vec::new() }
+        Self { field, motion: None, watch: RestWatch::default(), checkpoints: Vec::new() }
     }
 
     /// Sets the film to its beginning. Checkpoints stay.
     pub fn seed(&mut self, recorder: &mut Recorder<'_>, initial: &InitialFilm) -> Result<(), GpuError> {
         self.motion = None;
+        self.watch = RestWatch::default();
         self.field.seed(recorder, initial.profile())
+    }
+
+    /// Since when the film rests, if it does.
+    #[must_use]
+    pub fn rest(&self) -> Option<RestingFilm> {
+        self.watch.rest()
+    }
+
+    /// Moves the film through some ticks of its history; what is recorded goes out in submissions of so many steps at most.
+    pub fn play(
+        &mut self,
+        gpu: &Gpu,
+        key: &FieldKey,
+        from_tick: u64,
+        steps_a_submission: usize,
+        mut submit: impl FnMut(Recorder<'_>) -> Result<(), GpuError>,
+    ) -> Result<(), GpuError> {
+        let mut law = LawInForce::default();
+        let moving = |step: &Range<u64>| key.law(step.start) != FlowLaw::Rest;
+        let mut steps = key.steps_from(from_tick).filter(moving).peekable();
+        loop {
+            while steps.next_if(|step| self.stays_at_rest(key, step)).is_some() {}
+            if steps.peek().is_none() {
+                return Ok(());
+            }
+            let mut recorder = Recorder::new(gpu);
+            let mut asking = None;
+            for step in steps.by_ref().take(steps_a_submission) {
+                self.advance(&mut recorder, key, &mut law, step.clone())?;
+                let undisturbed = key.undisturbed(&step);
+                if undisturbed.is_none() {
+                    self.watch = RestWatch::default();
+                }
+                asking = undisturbed.filter(|_| key.asks_for_speed(&step)).map(|law| (step.end, law));
+                if asking.is_some() {
+                    break;
+                }
+            }
+            submit(recorder)?;
+            if let (Some((tick, law)), Some(motion)) = (asking, &self.motion) {
+                let rest = RestingFilm { since_tick: tick, law };
+                self.watch.watch(gpu, motion.flow(), rest, key.resting_speed(&law))?;
+            }
+        }
+    }
+
+    /// Whether the film rests through a step; if that moves it again, it is watched anew.
+    fn stays_at_rest(&mut self, key: &FieldKey, step: &Range<u64>) -> bool {
+        let Some(rest) = self.watch.rest() else { return false };
+        let stays = key.undisturbed(step) == Some(rest.law);
+        if !stays {
+            self.watch = RestWatch::default();
+        }
+        stays
     }
 
     /// Moves the film by one of the history's steps.
@@ -107,7 +165,7 @@ impl MovingFilm {
         let (state, moment) = (key.state_tick(), key.moment);
         let ticks = (moment.tick - state) as f64 + moment.fraction;
         match key.law(state) {
-            _ if ticks <= 0.0 => None,
+            _ if ticks <= 0.0 || self.rest().is_some() => None,
             FlowLaw::Rest => None,
             FlowLaw::Free(_) => self.motion.as_ref().map(|motion| motion.ahead(ticks * key.tick_s)),
             _ => Some(LawInForce::default().step(key, state, ticks)),

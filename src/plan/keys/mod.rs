@@ -3,6 +3,7 @@
 mod film;
 mod optics;
 mod picture;
+mod rest;
 
 pub use film::{
     BLACK_FILM_NM, FieldKey, FilmKey, FlowLaw, FlowSegment, FreeFlow, HoleKey, Moment, OpenHoleKey, PushKey,
@@ -10,3 +11,4 @@ pub use film::{
 };
 pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
 pub use picture::{BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey};
+pub use rest::RestingFilm;

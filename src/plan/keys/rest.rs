@@ -1,0 +1,45 @@
+//! Films that come to rest, and what keeps them there.
+
+use std::ops::Range;
+
+use super::{FieldKey, FlowLaw, FreeFlow};
+
+/// A film that moved by itself and has come to rest: it stays as it is until something else than the same law acts on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestingFilm {
+    /// The tick since which it rests.
+    pub since_tick: u64,
+    /// The law under which it came to rest.
+    pub law: FreeFlow,
+}
+
+impl FieldKey {
+    /// The law of a step in which nothing but gravity acts on the film, so that it may come to rest and stays there. It may thin, for that
+    /// moves nothing, but not turn black. What spreads thickness stands for motions smaller than cells, and ends with the flow.
+    #[must_use]
+    pub fn undisturbed(&self, step: &Range<u64>) -> Option<FreeFlow> {
+        // In radii a second squared: less than what rounding does to gravity.
+        const STEADY: f64 = 1e-6;
+        let FlowLaw::Free(free) = self.law(step.start) else { return None };
+        let (from, to) = (step.start as f64, step.end as f64);
+        let is_left_alone = free.draught == 0.0
+            && !self.has_black_film(to)
+            && self.pushes_during(from, to).is_empty()
+            && self.acceleration_during(from, to).length() < STEADY;
+        is_left_alone.then_some(free)
+    }
+
+    /// Whether the film's speed is asked for at the end of a step: every two seconds.
+    #[must_use]
+    pub fn asks_for_speed(&self, step: &Range<u64>) -> bool {
+        let ticks = (2.0 / self.tick_s).max(1.0) as u64;
+        step.start / ticks < step.end / ticks
+    }
+
+    /// Speed in rad/s at which a step under a free law moves the film by less than a thousandth of a cell.
+    #[must_use]
+    pub fn resting_speed(&self, law: &FreeFlow) -> f64 {
+        let step_s = FlowLaw::Free(*law).ticks_a_step(self.tick_s, self.cell_angle()) as f64 * self.tick_s;
+        1e-3 * self.cell_angle() / step_s
+    }
+}
