@@ -1,4 +1,4 @@
-// Fills the halo of a field of the flow in one dispatch of one workgroup: the cells beyond an edge, then those beyond a corner, which read
+// Fills the halo of a field in one dispatch of one workgroup: the cells beyond an edge, then those beyond a corner, which read
 // the edges. On grids as coarse as the flow's a second dispatch would cost more than idle lanes.
 
 import package::sphere::cubed::HALO;
@@ -24,6 +24,20 @@ fn fill_scalar(entry: u32) {
     scalar[entries[entry].cell] = total;
 }
 
+// Within the range of what it is interpolated from.
+fn fill_bounded(entry: u32) {
+    var total = 0.0;
+    var low = scalar[entries[entry].sources[0]];
+    var high = low;
+    for (var k = 0u; k < 4u; k++) {
+        let value = scalar[entries[entry].sources[k]];
+        total += entries[entry].weights[k] * value;
+        low = min(low, value);
+        high = max(high, value);
+    }
+    scalar[entries[entry].cell] = clamp(total, low, high);
+}
+
 fn fill_velocities(entry: u32) {
     var total = vec4f(0.0);
     var total_ahead = vec4f(0.0);
@@ -43,6 +57,17 @@ fn halo_of_scalar(@builtin(local_invocation_index) lane: u32) {
     storageBarrier();
     for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
         fill_scalar(entry);
+    }
+}
+
+@compute @workgroup_size(256)
+fn halo_of_thickness(@builtin(local_invocation_index) lane: u32) {
+    for (var entry = lane; entry < edges(); entry += LANES) {
+        fill_bounded(entry);
+    }
+    storageBarrier();
+    for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
+        fill_bounded(entry);
     }
 }
 

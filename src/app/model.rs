@@ -111,6 +111,8 @@ impl Model {
     /// A window on a scene, its clock running.
     #[must_use]
     pub fn new(loaded: LoadedScene) -> Self {
+        let mut messages = Messages::default();
+        warn(&mut messages, &loaded.scene);
         Self {
             scene: loaded.scene,
             resources: loaded.resources,
@@ -126,7 +128,7 @@ impl Model {
             shows_help: false,
             loading: None,
             behind_ticks: 0,
-            messages: Messages::default(),
+            messages,
             costs: Costs::default(),
             requests: Vec::new(),
         }
@@ -134,6 +136,7 @@ impl Model {
 
     /// Shows another scene, from its beginning.
     pub fn adopt(&mut self, loaded: LoadedScene) {
+        warn(&mut self.messages, &loaded.scene);
         self.scene = loaded.scene;
         self.resources = loaded.resources;
         self.name = loaded.name;
@@ -243,6 +246,11 @@ impl Model {
             Action::Frame => {}
         }
     }
+}
+
+/// Says what of a scene no real bubble does.
+fn warn(messages: &mut Messages, scene: &Scene) {
+    scene.warnings().into_iter().for_each(|warning| messages.problem(warning));
 }
 
 /// A seed that was not there before, short enough to be written down.

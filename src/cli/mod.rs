@@ -23,7 +23,7 @@ use clap::{Args, Parser, Subcommand, error::ErrorKind};
 
 use crate::{
     gpu::{AdapterChoice, Gpu, GpuError},
-    input::{LoadedScene, load_scene},
+    input::{LoadError, LoadedScene, load_scene},
 };
 
 /// Soap bubbles with correct thin-film interference and a film that flows.
@@ -118,7 +118,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, open_window: OpenWind
 fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
     match arguments.command.unwrap_or(Command::App(arguments.app)) {
         Command::App(arguments) => {
-            let scene = load_scene(arguments.scene.as_deref().unwrap_or("default"))?;
+            let scene = load(arguments.scene.as_deref().unwrap_or("default"))?;
             open_window(scene, &arguments.adapter.choice())
         }
         Command::Render(arguments) => render::run(&arguments),
@@ -130,6 +130,15 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
+}
+
+/// Loads a scene, and says on stderr what of it no real bubble does.
+fn load(name: &str) -> Result<LoadedScene, LoadError> {
+    let loaded = load_scene(name)?;
+    for warning in loaded.scene.warnings() {
+        eprintln!("warning: {warning}");
+    }
+    Ok(loaded)
 }
 
 /// What is wrong with the arguments in one line; help and version as they are.

@@ -8,7 +8,7 @@ use clap::Args;
 use super::{AdapterArguments, measure, parse, progress::Progress, reference};
 use crate::{
     gpu::{GpuError, Renderer},
-    input::{LoadedScene, load_scene},
+    input::LoadedScene,
     output::{Metadata, Picture},
     physics::{
         colour::Gamut,
@@ -65,7 +65,7 @@ pub const MAX_TICKS: u64 = 10_000_000;
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let format = Format::of(arguments)?;
-    let mut loaded = load_scene(&arguments.scene)?;
+    let mut loaded = super::load(&arguments.scene)?;
     if let Some(parse::Quality::Gpu(quality)) = arguments.quality {
         loaded.scene.view.quality = quality;
     }

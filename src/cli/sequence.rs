@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     gpu::Renderer,
-    input::{LoadedScene, load_scene},
+    input::LoadedScene,
     output::{Metadata, Picture},
     physics::colour::Gamut,
     plan::{Moment, Pace, Shot, want},
@@ -81,7 +81,7 @@ fn fps(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let loaded = load_scene(&arguments.scene)?;
+    let loaded = super::load(&arguments.scene)?;
     let Frames(frames) = arguments.frames.clone();
     let last = Moment::of_time(*frames.end() as f64 / arguments.fps, loaded.scene.motion.tick_s);
     if last.tick > MAX_TICKS {

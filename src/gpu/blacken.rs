@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use super::{
     Gpu, GpuError,
     film::{Control, Grid},
-    flow::halo_entries,
+    flow_halo::halo_of_thickness,
     pipelines::ComputeKey,
     timing::{Groups, Recorder},
 };
@@ -50,19 +50,13 @@ pub struct BlackFilm {
     level_nm: f32,
     /// What each cell gives to each of those around it, nm.
     shed: wgpu::Buffer,
-    halo: wgpu::Buffer,
 }
 
 impl BlackFilm {
     /// On a film's tracer grid, for a tracer that departs from a level in nm.
     #[must_use]
     pub fn new(gpu: &Gpu, grid: &Grid, law: BlackeningLaw, level_nm: f32) -> Self {
-        Self {
-            law,
-            level_nm,
-            shed: grid.field(gpu, "shed", 4),
-            halo: gpu.storage("film halo", &halo_entries(grid.sphere)),
-        }
+        Self { law, level_nm, shed: grid.field(gpu, "shed", 4) }
     }
 
     fn uniform(&self, recorder: &Recorder<'_>, grid: &Grid) -> wgpu::Buffer {
@@ -106,15 +100,9 @@ impl BlackFilm {
         let (uniform, block, tracer) = ((0, &uniform), (1, &control.block), (2, tracer));
         let all = control.tracer_groups();
         run(recorder, "shed", &[uniform, block, tracer, (3, &self.shed)], all)?;
-        self.fill_halo(recorder, control, &self.shed)?;
+        halo_of_thickness(recorder, grid, &self.shed, control.one_group())?;
         run(recorder, "gather", &[uniform, block, tracer, (3, to), (4, &self.shed)], all)?;
-        self.fill_halo(recorder, control, to)
-    }
-
-    fn fill_halo(&self, recorder: &mut Recorder<'_>, control: &Control, field: &wgpu::Buffer) -> Result<(), GpuError> {
-        let key = ComputeKey { pass: "flow_halo", entry: "halo_of_scalar", constants: vec![] };
-        let bound = [&self.halo, field].map(wgpu::Buffer::as_entire_binding);
-        recorder.compute("step_field", &key, &bound, control.one_group())
+        halo_of_thickness(recorder, grid, to, control.one_group())
     }
 }
 

@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use super::{
     Gpu, GpuError,
     film::{Control, Grid},
-    flow::halo_entries,
+    flow_halo::halo_of_thickness,
     pipelines::ComputeKey,
     timing::Recorder,
 };
@@ -49,7 +49,6 @@ pub struct Diffusion {
     parts: u32,
     latest_ticks: u32,
     spread: wgpu::Buffer,
-    halo: wgpu::Buffer,
 }
 
 impl Diffusion {
@@ -69,7 +68,6 @@ impl Diffusion {
             parts: parts as u32,
             latest_ticks,
             spread: grid.field(gpu, "spread", 4),
-            halo: gpu.storage("film halo", &halo_entries(grid.sphere)),
         })
     }
 
@@ -105,9 +103,7 @@ impl Diffusion {
                 let bound = bound.map(wgpu::Buffer::as_entire_binding);
                 recorder.compute("step_field", &key, &bound, control.tracer_groups())?;
             }
-            let key = ComputeKey { pass: "flow_halo", entry: "halo_of_scalar", constants: vec![] };
-            let bound = [&self.halo, field].map(wgpu::Buffer::as_entire_binding);
-            recorder.compute("step_field", &key, &bound, control.one_group())?;
+            halo_of_thickness(recorder, grid, field, control.one_group())?;
         }
         Ok(())
     }

@@ -19,6 +19,7 @@ pub mod film;
 pub mod flow;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod flow_case;
+pub mod flow_halo;
 pub mod open_hole;
 pub mod pipelines;
 #[cfg(not(target_arch = "wasm32"))]

@@ -6,6 +6,10 @@ use serde::{Deserialize, Serialize};
 /// Thinnest mean film that can flow, nm: its logarithm drives the buoyancy, so it must not vanish.
 const MIN_FLOWING_NM: f64 = 1.0;
 
+/// Radius in mm beyond which bubbles are no spheres: there the weight of a film of 1 µm, ρ g h, is a tenth of the pressure inside, 4γ/R with
+/// γ = 25 mN/m.
+const ROUND_MM: f64 = 1000.0;
+
 /// A spherical bubble: one `[[bubble]]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -25,6 +29,15 @@ impl Default for Bubble {
 }
 
 impl Bubble {
+    pub(super) fn warning(&self, number: usize) -> Option<String> {
+        let radius_mm = self.radius_mm;
+        (radius_mm > ROUND_MM).then(|| {
+            format!(
+                "[[bubble]] number {number} has a radius of {radius_mm} mm and is drawn as a sphere; a real one flattens under its weight beyond {ROUND_MM} mm"
+            )
+        })
+    }
+
     pub(super) fn check(&self) -> Checked {
         check::all_in_range("center_m", self.center_m, check::POSITION_M)?;
         check::in_range("radius_mm", self.radius_mm, 0.1..=5000.0)?;

@@ -103,6 +103,12 @@ impl Scene {
         self.check().map_err(|fault| SceneError::InMemory(fault.into()))
     }
 
+    /// What is allowed, but no real bubble does; a sentence each.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        self.bubbles.iter().enumerate().filter_map(|(index, bubble)| bubble.warning(index + 1)).collect()
+    }
+
     /// The motion in force at a tick: `[motion]` as changed by every event up to and including that tick.
     pub fn motion_at(&self, tick: u64) -> Motion {
         let past = self.events.iter().take_while(|event| event.tick <= tick);

@@ -83,7 +83,13 @@ impl<'a> Played<'a> {
         values(self.gpu, &mut self.film.field)
     }
 
-    fn fastest(&self) -> Result<f64, GpuError> {
+    /// Grid of the thickness.
+    pub fn sphere(&self) -> CubedSphere {
+        self.film.field.sphere()
+    }
+
+    /// The fastest flow, rad/s.
+    pub fn fastest(&self) -> Result<f64, GpuError> {
         Ok(largest(self.velocity()?.iter().map(|u| u.length())))
     }
 }
@@ -96,7 +102,7 @@ fn key(scene: &Scene, tick: u64) -> Result<FieldKey, GpuError> {
 }
 
 /// The largest of some numbers; no number if one is none.
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
+pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |most: f64, value| if value.is_nan() { f64::NAN } else { most.max(value) })
 }
 
@@ -195,7 +201,7 @@ fn anything(run: &mut Run<'_>, name: &str, events: u64, reach_m: f64) -> Result<
     }
     played.play_to(events + PEACE)?;
     let (last, after) = (played.fastest()?, played.thickness()?);
-    let (excess, drift) = super::stability::departures(played.film.field.sphere(), &before, &after);
+    let (excess, drift) = super::stability::departures(played.sphere(), &before, &after);
     let name = format!("{events} random interactions{name}");
     let unfinished = after.iter().filter(|value| !value.is_finite()).count();
     run.at_most(format!("{name}: values not finite"), unfinished as f64, 0.0);

@@ -1,6 +1,7 @@
 //! Whether this machine's GPU tells the truth: each part measures what the program computes against an independent reference, and holds it
 //! to a limit.
 
+mod extremes;
 mod flow;
 pub mod interaction;
 mod optics;

@@ -83,6 +83,7 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     spoilt(run)?;
     refused(run)?;
     super::interaction::run(run)?;
+    super::extremes::run(run)?;
     if run.long { long(run) } else { Ok(()) }
 }
 

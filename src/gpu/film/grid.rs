@@ -1,6 +1,8 @@
 //! A cubed sphere on the device, and fields on it.
 
-use super::super::Gpu;
+use std::sync::OnceLock;
+
+use super::super::{Gpu, flow::halo_entries};
 use crate::physics::sphere::{CubedSphere, HALO};
 
 /// A grid and the tables of it that passes read.
@@ -13,6 +15,7 @@ pub struct Grid {
     pub tangents: wgpu::Buffer,
     /// Solid angles of a panel's cells.
     pub areas: wgpu::Buffer,
+    halo: OnceLock<wgpu::Buffer>,
 }
 
 impl Grid {
@@ -24,7 +27,13 @@ impl Grid {
             cells: n as u32,
             tangents: gpu.storage("tangents", &sphere.edge_tangents()),
             areas: gpu.storage("areas", &areas),
+            halo: OnceLock::new(),
         }
+    }
+
+    /// What each cell of the halo is interpolated from, made when it is first asked for.
+    pub(in crate::gpu) fn halo(&self, gpu: &Gpu) -> &wgpu::Buffer {
+        self.halo.get_or_init(|| gpu.storage("film halo", &halo_entries(self.sphere)))
     }
 
     /// A field of so many bytes a cell in padded storage.

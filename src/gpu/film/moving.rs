@@ -12,9 +12,12 @@ use super::{
     rest::RestWatch,
 };
 use crate::{
-    physics::film::{
-        InitialFilm, PrescribedFlow,
-        properties::{BLACK_FILM_COLLAPSE, BLACK_FILM_ONSET},
+    physics::{
+        film::{
+            InitialFilm, PrescribedFlow,
+            properties::{BLACK_FILM_COLLAPSE, BLACK_FILM_ONSET},
+        },
+        flow::FlowForces,
     },
     plan::{BLACK_FILM_NM, FieldKey, FlowLaw, FreeFlow, RestingFilm},
 };
@@ -137,10 +140,13 @@ impl MovingFilm {
         let felt = free.accelerated(key.acceleration_during(tick as f64, tick as f64 + f64::from(ticks)));
         let parts = (f64::from(ticks) * key.tick_s / felt.longest_step_s()).ceil().clamp(1.0, MOST_PARTS_A_STEP);
         let dt_ticks = f64::from(ticks) / parts;
+        // Beyond so many steps gravity is felt as far as they can follow it: such films are sorted within a tick anyway.
+        let followed = (felt.longest_step_s() / (dt_ticks * key.tick_s)).min(1.0).powi(2);
         for part in 0..parts as u32 {
             let now = tick as f64 + f64::from(part) * dt_ticks;
+            let forces = free.accelerated(key.acceleration_during(now, now + dt_ticks)).forces;
             let around = Surroundings {
-                forces: free.accelerated(key.acceleration_during(now, now + dt_ticks)).forces,
+                forces: FlowForces { gravity: followed * forces.gravity, ..forces },
                 air: law.flow(key, tick),
                 pushes: &key.pushes_during(now, now + dt_ticks),
                 mean_nm: field.mean(),

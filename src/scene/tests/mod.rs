@@ -202,6 +202,17 @@ fn bubbles_of_presets_do_not_touch() {
 }
 
 #[test]
+fn bubbles_too_large_to_be_round_are_warned_of() {
+    let scene = |radius_mm: f64| {
+        let large = Bubble { radius_mm, ..Bubble::default() };
+        Scene { bubbles: vec![Bubble::default(), large], ..Scene::default() }
+    };
+    assert_eq!(scene(1000.0).warnings(), Vec::<String>::new());
+    let warnings = scene(1500.0).warnings();
+    assert!(warnings.len() == 1 && warnings[0].contains("number 2") && warnings[0].contains("1500"), "{warnings:?}");
+}
+
+#[test]
 fn no_bubbles_is_not_the_default_bubble() {
     let empty = Scene::from_toml("version = 1\nbubble = []", "s.toml").unwrap();
     assert_eq!(empty.bubbles, []);
