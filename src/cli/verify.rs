@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::AdapterArguments;
+use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN};
 use crate::{
+    gpu::Gpu,
     output::write_text,
     verify::{Check, Part, Run},
 };
@@ -55,18 +56,27 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     for part in &arguments.parts.0 {
         run.part(*part)?;
     }
+    let says_colours = arguments.parts.0.iter().any(|part| matches!(part, Part::Optics | Part::Picture));
+    if says_colours {
+        println!("{PHYSICS_IS_LESS_CERTAIN}");
+    }
     if let Some(path) = &arguments.json {
-        write_text(path, &serde_json::to_string_pretty(&document(&checks))?)?;
+        write_text(path, &serde_json::to_string_pretty(&document(&gpu, &checks))?)?;
     }
     let failed = checks.iter().filter(|check| !check.passed()).count();
     anyhow::ensure!(failed == 0, "{failed} of {} checks failed", checks.len());
     Ok(())
 }
 
-fn document(checks: &[Check]) -> serde_json::Value {
+fn document(gpu: &Gpu, checks: &[Check]) -> serde_json::Value {
     let rows = checks.iter().map(|check| {
         let Check { name, measured, limit } = check;
         json!({ "name": name, "measured": measured, "limit": limit, "passed": check.passed() })
     });
-    json!({ "checks": rows.collect::<Vec<_>>() })
+    json!({
+        "adapter": gpu.adapter_name(),
+        "driver": gpu.driver(),
+        "physics": PHYSICS_IS_LESS_CERTAIN,
+        "checks": rows.collect::<Vec<_>>(),
+    })
 }
