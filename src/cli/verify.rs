@@ -14,11 +14,11 @@ use crate::{
 
 /// Measure this machine's GPU against the references; fails if a check does
 #[derive(Args)]
-#[command(after_help = "Example:\n  soapfilm verify transport --json checks.json")]
+#[command(after_help = "Example:\n  soapfilm verify\n  soapfilm verify optics picture --json checks.json")]
 pub struct Arguments {
-    /// What to verify: a part, or all of them
+    /// What to verify: some of optics, picture, transport, flow and stability, or all of them
     #[arg(default_value = "all", value_name = "PART", value_parser = parts)]
-    parts: Parts,
+    parts: Vec<Parts>,
     /// Run the checks that take longer than minutes too
     #[arg(long)]
     long: bool,
@@ -53,11 +53,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         checks.push(check);
     };
     let mut run = Run { gpu: &gpu, long: arguments.long, report: &mut report };
-    for part in &arguments.parts.0 {
+    let parts: Vec<Part> = arguments.parts.iter().flat_map(|parts| parts.0.iter().copied()).collect();
+    for part in &parts {
         run.part(*part)?;
     }
-    let says_colours = arguments.parts.0.iter().any(|part| matches!(part, Part::Optics | Part::Picture));
-    if says_colours {
+    if parts.iter().any(|part| matches!(part, Part::Optics | Part::Picture)) {
         println!("{PHYSICS_IS_LESS_CERTAIN}");
     }
     if let Some(path) = &arguments.json {
