@@ -94,33 +94,40 @@ pub fn front(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
             let [worst, mean] = colour_error(&points, &probe.measure(gpu, &probes(&points))?);
             let ns = nanoseconds_a_point(gpu, &probe, if smoke { 500 } else { TIMED_FILMS })?;
             report.row(&[f64::from(u8::from(task == BandTask::Everything)), count as f64, ns, worst, mean]);
-            places.push((count, [ns, mean]));
+            places.push(Place { count, ns, errors: [worst, mean] });
         }
-        if let Some(count) = knee(&places) {
-            println!("{name}: the knee is at {count} bands");
+        for (k, error) in ["largest", "mean"].into_iter().enumerate() {
+            if let Some(count) = knee(&places, |place| place.errors[k]) {
+                println!("{name}: the knee of the {error} error is at {count} bands");
+            }
         }
-        series.push(Series { name: name.to_owned(), points: places.into_iter().map(|(_, place)| place).collect() });
+        let points = places.iter().map(|place| [place.ns, place.errors[1]]).collect();
+        series.push(Series { name: name.to_owned(), points });
     }
     report.save()?;
     save_plot("front", ["CPU time of a point, ns", "two walls, mean dE2000"], &series)
 }
 
+/// What a number of bands costs a point, in nanoseconds, and its largest and mean error.
+struct Place {
+    count: usize,
+    ns: f64,
+    errors: [f64; 2],
+}
+
 /// Where a front bends most: farthest below the straight line between its ends, both axes as logarithms. Nothing for fewer than three.
-fn knee(front: &[(usize, [f64; 2])]) -> Option<usize> {
-    let place = |[time, error]: [f64; 2]| [time.ln(), error.ln()];
-    let ([x0, y0], [x1, y1]) = (place(front.first()?.1), place(front.last()?.1));
-    let below = |at: [f64; 2]| {
-        let [x, y] = place(at);
-        y0 + (y1 - y0) * (x - x0) / (x1 - x0) - y
-    };
+fn knee(front: &[Place], error: impl Fn(&Place) -> f64) -> Option<usize> {
+    let (first, last) = (front.first()?, front.last()?);
+    let slope = (error(last) / error(first)).ln() / (last.ns / first.ns).ln();
+    let below = |place: &Place| slope * (place.ns / first.ns).ln() - (error(place) / error(first)).ln();
     let inner = front.get(1..front.len() - 1)?;
-    inner.iter().max_by(|a, b| below(a.1).total_cmp(&below(b.1))).map(|(count, _)| *count)
+    inner.iter().max_by(|a, b| below(a).total_cmp(&below(b))).map(|place| place.count)
 }
 
 /// Two walls at each quality: bands, milliseconds to fit them, and nanoseconds a point; and what a frame of the default scene costs beside
 /// a plain mirror sphere.
 pub fn qualities(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
-    let columns = ["bands", "max_nm", "fit_cpu_ms", "ns_per_point", "max_dE", "mean_dE", "frame_over_mirror"];
+    let columns = ["bands", "max_nm", "fit_cpu_ms", "ns_per_point", "max_dE", "mean_dE", "over_mirror"];
     let mut report = Report::new("qualities", &columns);
     let mut renderer = Renderer::new(gpu);
     let mut series = Vec::new();

@@ -64,7 +64,7 @@ struct Bubble {
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;
 @group(0) @binding(8) var film: texture_2d_array<f32>;
-@group(0) @binding(9) var<uniform> bands: array<Band, 120>;
+@group(0) @binding(9) var<uniform> bands: array<Band, 256>;
 @group(0) @binding(10) var<uniform> film_balance: Balance;
 @group(0) @binding(11) var<storage, read> film_map: array<vec4f>;
 @group(0) @binding(12) var<storage, read> film_tracer: array<f32>;

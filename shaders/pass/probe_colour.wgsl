@@ -18,7 +18,7 @@ struct ProbePoint {
 @group(0) @binding(0) var<uniform> axes: TableAxes;
 @group(0) @binding(1) var table: texture_2d_array<f32>;
 @group(0) @binding(2) var table_sampler: sampler;
-@group(0) @binding(3) var<uniform> bands: array<Band, 120>;
+@group(0) @binding(3) var<uniform> bands: array<Band, 256>;
 @group(0) @binding(4) var<storage, read> points: array<ProbePoint>;
 @group(0) @binding(5) var<storage, read_write> colours: array<vec4f>;
 

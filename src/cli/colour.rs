@@ -22,26 +22,32 @@ use crate::{
 /// Report the colour that a film reflects.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n  soapfilm colour --strip strip.png\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), and linear BT.2020 r,g,b."
+    after_help = "Example:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --thickness 320 --back 500 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n  soapfilm colour --strip strip.png\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall, R0 + T0 R1 T2 with\nthickness_nm, back_nm and exit_nm for 0, 1 and 2. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), and linear BT.2020 r,g,b."
 )]
 pub struct Arguments {
-    /// Thickness in nm
-    #[arg(long, value_name = "NM", value_parser = parse::thickness_nm, requires = "cos", required_unless_present_any = ["points", "strip"])]
+    /// Thickness in nm, of the front wall where there are two
+    #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "cos", required_unless_present_any = ["points", "strip"])]
     thickness: Option<f64>,
     /// Cosine of the angle outside the film
-    #[arg(long, value_name = "C", value_parser = parse::cosine, requires = "thickness")]
+    #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = parse::cosine, requires = "thickness")]
     cos: Option<f64>,
+    /// Thickness in nm of the back wall, seen through the front wall
+    #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "thickness")]
+    back: Option<f64>,
+    /// Thickness in nm of the front wall where light from the back wall leaves through it; without it, that of --thickness
+    #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "back")]
+    exit: Option<f64>,
     /// A CSV file of films
-    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["thickness", "cos"])]
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["thickness", "cos", "back"])]
     points: Option<PathBuf>,
     /// Paint the colours of films from 0 to 1500 nm at normal incidence, a column a nanometre, in place of reporting any
-    #[arg(long, value_name = "FILE.png", conflicts_with_all = ["thickness", "cos", "points", "spectrum", "output"])]
+    #[arg(long, value_name = "FILE.png", conflicts_with_all = ["thickness", "cos", "back", "points", "spectrum", "output"])]
     strip: Option<PathBuf>,
     /// `water`, `water 25C`, `glycerol 30%`, a refractive index, or a CSV file of wavelength_nm,n
-    #[arg(long, value_name = "FILM", default_value = "water")]
+    #[arg(long, value_name = "FILM", default_value = "water", allow_negative_numbers = true)]
     film: String,
     /// Thickness in nm of the layer of soap molecules on each face
-    #[arg(long, value_name = "NM", default_value = "0", value_parser = parse::skin_nm)]
+    #[arg(long, value_name = "NM", default_value = "0", allow_negative_numbers = true, value_parser = parse::skin_nm)]
     skin: f64,
     /// The light: D65, D50, A, E, FL2, FL11, LED, sodium, a black body like `3000 K`, or a CSV file of wavelength_nm,power
     #[arg(long, value_name = "LIGHT", default_value = "D65")]
@@ -68,7 +74,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let film = FilmMaterial { index: load_liquid(&arguments.film, folder)?, skin_nm: arguments.skin };
     let key = OpticsKey { film, illuminant: load_illuminant(&arguments.illuminant, folder)?.into() };
     let points = points(arguments)?;
-    let optics = key.spectra();
+    let thickest_nm = points.films.iter().map(|film| film.walls.thickest_nm()).fold(0.0, f64::max);
+    let optics = key.spectra_to(thickest_nm);
     let colours: Vec<DVec3> = match arguments.quality {
         parse::Quality::Reference => points.films.iter().map(|film| optics.xyz(film.cos_theta, film.walls)).collect(),
         parse::Quality::Gpu(quality) => through_shaders(arguments, &key, quality, &points.films)?,
@@ -111,10 +118,17 @@ fn points(arguments: &Arguments) -> anyhow::Result<Points> {
     }
     let (thickness_nm, cos_theta) =
         arguments.thickness.zip(arguments.cos).context("give --thickness and --cos, or --points")?;
-    Ok(Points {
+    let one = Points {
         header: vec!["thickness_nm".to_owned(), "cos_theta".to_owned()],
         rows: vec![vec![thickness_nm.to_string(), cos_theta.to_string()]],
         films: vec![FilmPoint { cos_theta, walls: Walls::One { thickness_nm } }],
+    };
+    let Some(back_nm) = arguments.back else { return Ok(one) };
+    let exit_nm = arguments.exit.unwrap_or(thickness_nm);
+    Ok(Points {
+        header: [one.header, vec!["back_nm".to_owned(), "exit_nm".to_owned()]].concat(),
+        rows: vec![[thickness_nm, cos_theta, back_nm, exit_nm].map(|value| value.to_string()).to_vec()],
+        films: vec![FilmPoint { cos_theta, walls: Walls::Two { front_nm: thickness_nm, back_nm, exit_nm } }],
     })
 }
 

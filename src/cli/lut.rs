@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{AdapterArguments, parse};
+use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN, parse};
 use crate::{
     input::{load_illuminant, load_liquid},
     output::{ExrPicture, ExrPrimaries, Metadata, write_text},
@@ -99,7 +99,7 @@ fn description(arguments: &Arguments, table: &FilmTable) -> String {
         arguments.illuminant,
         metadata(arguments, table).to_lines()
     );
-    text += "The physics is less certain than the table: 0.001 in the film's index is a mean colour difference of 0.44, a nanometre 0.64.\n";
+    text += &format!("{PHYSICS_IS_LESS_CERTAIN}\n");
     for (language, snippet) in SNIPPETS {
         text += &format!("\n---- {language} ----\n{}", filled(snippet, table));
     }

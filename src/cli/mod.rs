@@ -26,6 +26,9 @@ use crate::{
     input::{LoadError, LoadedScene, load_scene},
 };
 
+/// Said wherever errors of colours are: small ones make the numerics invisible, and are no claim about a real film.
+const PHYSICS_IS_LESS_CERTAIN: &str = "Colours are less certain than their numerics: 0.001 in a film's index is a mean dE2000 of 0.44, a nanometre of its thickness 0.64.";
+
 /// Soap bubbles with correct thin-film interference and a film that flows.
 #[derive(Parser)]
 #[command(

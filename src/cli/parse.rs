@@ -45,10 +45,10 @@ pub fn cosine(text: &str) -> Result<f64, String> {
 /// A thickness in nm.
 pub fn thickness_nm(text: &str) -> Result<f64, String> {
     let value = finite(text)?;
-    if (0.0..=10_000.0).contains(&value) {
+    if (0.0..=30_000.0).contains(&value) {
         Ok(value)
     } else {
-        Err("a thickness lies between 0 and 10000 nm".to_owned())
+        Err("a thickness lies between 0 and 30000 nm".to_owned())
     }
 }
 

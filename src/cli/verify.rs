@@ -5,19 +5,20 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::AdapterArguments;
+use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN};
 use crate::{
+    gpu::Gpu,
     output::write_text,
     verify::{Check, Part, Run},
 };
 
 /// Measure this machine's GPU against the references; fails if a check does
 #[derive(Args)]
-#[command(after_help = "Example:\n  soapfilm verify transport --json checks.json")]
+#[command(after_help = "Example:\n  soapfilm verify\n  soapfilm verify optics picture --json checks.json")]
 pub struct Arguments {
-    /// What to verify: a part, or all of them
+    /// What to verify: some of optics, picture, transport, flow and stability, or all of them
     #[arg(default_value = "all", value_name = "PART", value_parser = parts)]
-    parts: Parts,
+    parts: Vec<Parts>,
     /// Run the checks that take longer than minutes too
     #[arg(long)]
     long: bool,
@@ -52,21 +53,30 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         checks.push(check);
     };
     let mut run = Run { gpu: &gpu, long: arguments.long, report: &mut report };
-    for part in &arguments.parts.0 {
+    let parts: Vec<Part> = arguments.parts.iter().flat_map(|parts| parts.0.iter().copied()).collect();
+    for part in &parts {
         run.part(*part)?;
     }
+    if parts.iter().any(|part| matches!(part, Part::Optics | Part::Picture)) {
+        println!("{PHYSICS_IS_LESS_CERTAIN}");
+    }
     if let Some(path) = &arguments.json {
-        write_text(path, &serde_json::to_string_pretty(&document(&checks))?)?;
+        write_text(path, &serde_json::to_string_pretty(&document(&gpu, &checks))?)?;
     }
     let failed = checks.iter().filter(|check| !check.passed()).count();
     anyhow::ensure!(failed == 0, "{failed} of {} checks failed", checks.len());
     Ok(())
 }
 
-fn document(checks: &[Check]) -> serde_json::Value {
+fn document(gpu: &Gpu, checks: &[Check]) -> serde_json::Value {
     let rows = checks.iter().map(|check| {
         let Check { name, measured, limit } = check;
         json!({ "name": name, "measured": measured, "limit": limit, "passed": check.passed() })
     });
-    json!({ "checks": rows.collect::<Vec<_>>() })
+    json!({
+        "adapter": gpu.adapter_name(),
+        "driver": gpu.driver(),
+        "physics": PHYSICS_IS_LESS_CERTAIN,
+        "checks": rows.collect::<Vec<_>>(),
+    })
 }

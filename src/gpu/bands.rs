@@ -63,12 +63,12 @@ pub struct Bands {
 }
 
 /// Room for bands: what `array<Band, ...>` in the passes that sum over them has.
-pub const MOST_BANDS: usize = 120;
+pub const MOST_BANDS: usize = 256;
 const _: () = assert!(BandsKey::MOST <= MOST_BANDS);
 
-/// Part of the thickness that bands resolve remains of a gap between thicknesses, see `shaders/optics/walls.wgsl`. With more of it the bands no
-/// longer resolve three such steps, with less gaps close that fringes still reach across: the mean error of two walls to 20 and to 30 µm is
-/// 0.16 and 0.18 with a third, 0.14 and 0.18 with this, 0.12 and 0.21 with 0.6.
+/// Part of the thickness that bands resolve that may remain of a gap between thicknesses, see `shaders/optics/walls.wgsl`. With more of it the
+/// bands no longer resolve three such steps, with less gaps close that fringes still reach across. With bands for 14 µm, the mean error of two
+/// walls to 20 and to 30 µm was 0.16 and 0.18 with a third, 0.14 and 0.18 with this, 0.12 and 0.21 with 0.6.
 const GAP: f64 = 0.45;
 
 impl Bands {
@@ -85,7 +85,7 @@ impl Bands {
     /// So many of them, or the light's own wavelengths where those are fewer, that resolve films up to a thickness.
     #[must_use]
     pub fn of_count(gpu: &Gpu, optics: &OpticsKey, task: BandTask, count: usize, resolved_nm: f64) -> Self {
-        let bands = fit_bands(&optics.spectra(), task, count.min(MOST_BANDS), resolved_nm);
+        let bands = fit_bands(&optics.spectra_to(resolved_nm), task, count.min(MOST_BANDS), resolved_nm);
         let mut samples = [BandSample::zeroed(); MOST_BANDS];
         let gap_nm = (GAP * resolved_nm) as f32;
         let sample = |band: &Band| BandSample { gap_nm, ..band.into() };

@@ -112,6 +112,14 @@ pub enum SpectrumError {
         /// Sum over the grid.
         total: f64,
     },
+    /// Power where nobody sees it.
+    #[error(
+        "{file}: cannot be seen: next to all of its power between {FIRST_NM} and {LAST_NM} nm is ultraviolet or infrared"
+    )]
+    Unseen {
+        /// The file.
+        file: String,
+    },
 }
 
 /// A function of wavelength, sampled at 360, 361, …, 780 nm. What the values mean (relative power, reflectance) is the holder's business.

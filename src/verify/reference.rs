@@ -59,7 +59,8 @@ fn radiance_in(
     films: &MovedFilms,
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<DVec3>, ReferenceError> {
-    let (optics, light) = (lighting.bands.optics.spectra(), &lighting.light);
+    let light = &lighting.light;
+    let optics = lighting.bands.optics.spectra_to(lighting.bands.range_nm);
     let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
     let scene = PictureScene {
         size: key.size,

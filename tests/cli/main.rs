@@ -293,6 +293,31 @@ fn colours_come_in_the_promised_columns() {
     assert!((y(0) / truth - 1.0).abs() < 0.002, "{} {truth}", y(0));
 }
 
+/// Two walls by arguments are those of a list, and light leaves through the front wall where it came in unless told otherwise.
+#[test]
+fn two_walls_are_given_as_arguments_too() {
+    let desk = Desk::new();
+    desk.write("points.csv", "thickness_nm,cos_theta,back_nm,exit_nm\n320,0.8,500,320\n320,0.8,500,310\n");
+    let answer = |arguments: &str| {
+        let run = desk.run(&format!("colour {arguments} --quality reference"));
+        assert!(run.success, "{}", run.err);
+        run.out
+    };
+    let list = answer("--points points.csv");
+    let rows: Vec<&str> = list.lines().collect();
+    let one = "--thickness 320 --cos 0.8 --back 500";
+    assert_eq!(answer(one).lines().collect::<Vec<_>>(), [rows[0], rows[1]]);
+    assert_eq!(answer(&format!("{one} --exit 310")).lines().nth(1), Some(rows[2]));
+    for (wrong, told) in [
+        ("--thickness -3 --cos 1", "between 0 and 30000 nm"),
+        ("--thickness 320 --cos -0.1", "between 0 and 1"),
+        ("--thickness 320 --cos 1 --exit 300", "--back"),
+        ("--points points.csv --back 300", "--points"),
+    ] {
+        assert!(desk.refused(&format!("colour {wrong} --quality reference")).contains(told), "{wrong}");
+    }
+}
+
 /// A mistake in a list of films is told with its file and line.
 #[test]
 fn broken_points_are_refused_by_file_and_line() {
@@ -321,6 +346,7 @@ fn broken_spectra_are_refused_by_file_and_line() {
         ("order.csv", "360,1\n700,1\n500,1\n780,1\n", "order.csv, line 3: 500 nm follows 700 nm"),
         ("short.csv", "400,1\n700,1\n", "short.csv: covers 400 to 700 nm"),
         ("zero.csv", "360,0\n780,0\n", "zero.csv: has no usable power"),
+        ("ultraviolet.csv", "360,1\n366,0\n780,0\n", "ultraviolet.csv: cannot be seen"),
         ("empty.csv", "", "empty.csv: holds no data"),
     ] {
         desk.write(file, text);

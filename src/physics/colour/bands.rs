@@ -35,8 +35,9 @@ pub enum BandTask {
 const FILMS: usize = 1500;
 /// Wavelengths that a band may have, nm: beyond them the observer sees too little for one to be worth having.
 const CANDIDATES: std::ops::RangeInclusive<u32> = 384..=716;
-/// Step between them, nm: finer places change the errors by less than a tenth.
-const CANDIDATE_STEP_NM: usize = 2;
+/// Bands from which on they stand as close as their candidates: all of those are then tried that there are, and moving single ones no longer
+/// helps.
+const MANY: usize = 100;
 /// Smallest cosine of the angle of incidence in training.
 const MIN_COS: f64 = 0.04;
 /// Weight of a solution's size against its error, relative to the mean square of the films' reflectance: keeps weights small enough for f32.
@@ -50,9 +51,12 @@ pub fn fit_bands(optics: &FilmOptics, task: BandTask, count: usize, range_nm: f6
         let bands = wavelengths.iter().zip(optics.indices()).zip(responses);
         return bands.map(|((nm, n), response)| Band { wavelength_nm: *nm, index: *n, response }).collect();
     }
-    let candidates: Vec<f64> = CANDIDATES.step_by(CANDIDATE_STEP_NM).map(f64::from).collect();
+    // Finer places change the errors of fewer bands by less than a tenth.
+    let step_nm = if count > MANY { 1 } else { 2 };
+    let candidates: Vec<f64> = CANDIDATES.step_by(step_nm).map(f64::from).collect();
     let fit = Fit::new(&training(optics, task, range_nm, &candidates, &responses), candidates.len());
-    let chosen = fit.exchanged(fit.start(&candidates, count));
+    let start = fit.start(&candidates, count);
+    let chosen = if count > MANY { start } else { fit.exchanged(start) };
     let weights = fit.solve(&chosen);
     let band = |(k, at): (usize, &usize)| Band {
         wavelength_nm: candidates[*at],
@@ -208,7 +212,7 @@ impl Fit {
                 let t = k as f64 / (count - 1).max(1) as f64;
                 1.0 / (t / high + (1.0 - t) / low)
             };
-            let nearest = |nm: f64| ((nm - candidates[0]) / CANDIDATE_STEP_NM as f64).round() as usize;
+            let nearest = |nm: f64| ((nm - candidates[0]) / (candidates[1] - candidates[0])).round() as usize;
             let mut chosen: Vec<usize> = (0..count).map(|k| nearest(nm(k)).min(candidates.len() - 1)).collect();
             // Many bands stand closer than the candidates at the short end.
             for k in 1..count {

@@ -4,7 +4,8 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use crate::physics::spectra::{FIRST_NM, SAMPLES, Spectrum, SpectrumError};
+use super::Observer;
+use crate::physics::spectra::{FIRST_NM, SAMPLES, Spectrum, SpectrumError, wavelength_nm};
 
 const D65: &str = include_str!("../../../assets/spectra/illuminant_d65.csv");
 const D50: &str = include_str!("../../../assets/spectra/illuminant_d50.csv");
@@ -21,6 +22,10 @@ const SECOND_RADIATION_NM_K: f64 = 1.438_776_877e7;
 
 /// Temperatures of black bodies whose light has a shape in f64 and a use: embers to the bluest stars, K.
 const TEMPERATURES_K: std::ops::RangeInclusive<f64> = 800.0..=100_000.0;
+
+/// The least luminous efficiency, of 1 at 555 nm, that a light may have: that of 372 nm and of 775 nm. A mirror shows every light at Y = 1,
+/// and fainter ones would be nothing but XYZ far from any colour.
+const LEAST_SEEN: f64 = 2e-5;
 
 /// A name that is no built-in illuminant's.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -57,10 +62,15 @@ impl Illuminant {
     /// (its two lines alone).
     pub const NAMES: [&str; 8] = ["D65", "D50", "A", "E", "FL2", "FL11", "LED", "sodium"];
 
-    /// A light source of one's own; refuses a spectrum without power in the visible range.
+    /// A light source of one's own; refuses a spectrum without power in the visible range, or with none that is seen.
     pub fn new(name: impl Into<String>, spectrum: Spectrum) -> Result<Self, SpectrumError> {
         let name = name.into();
         spectrum.check_power(&name)?;
+        let observer = Observer::cie_1931_2deg();
+        let seen: f64 = spectrum.iter().enumerate().map(|(i, power)| power * observer.at_nm(wavelength_nm(i)).y).sum();
+        if seen < LEAST_SEEN * spectrum.iter().sum::<f64>() {
+            return Err(SpectrumError::Unseen { file: name });
+        }
         Ok(Self { name, spectrum, lines: Vec::new() })
     }
 
@@ -209,5 +219,13 @@ mod tests {
     fn darkness_is_no_illuminant() {
         let error = Illuminant::new("night", Spectrum::constant(0.0)).expect_err("dark");
         assert!(error.to_string().starts_with("night: has no usable power"), "{error}");
+        let lamp = |points: &[(f64, f64)]| Illuminant::new("lamp", Spectrum::from_points(points));
+        let unseen = [[(360.0, 1.0), (365.0, 0.0)], [(776.0, 0.0), (780.0, 1.0)]].map(|points| lamp(&points));
+        for light in unseen {
+            assert!(light.expect_err("unseen").to_string().starts_with("lamp: cannot be seen"));
+        }
+        assert!(
+            lamp(&[(390.0, 0.0), (395.0, 1.0), (400.0, 0.0)]).is_ok() && lamp(&[(720.0, 0.0), (780.0, 1.0)]).is_ok()
+        );
     }
 }

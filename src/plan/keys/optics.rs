@@ -27,10 +27,16 @@ impl PartialEq for OpticsKey {
 }
 
 impl OpticsKey {
-    /// The film and the light with all their spectra.
+    /// The film and the light with all their spectra, on the grid of whole nanometres.
     #[must_use]
     pub fn spectra(&self) -> FilmOptics {
         FilmOptics::new(self.film.clone(), &self.illuminant)
+    }
+
+    /// The same as fine as films up to a thickness need, see [`FilmOptics::resolving`].
+    #[must_use]
+    pub fn spectra_to(&self, thickest_nm: f64) -> FilmOptics {
+        FilmOptics::resolving(self.film.clone(), &self.illuminant, thickest_nm)
     }
 }
 
@@ -101,43 +107,49 @@ pub struct BandsKey {
 }
 
 impl BandsKey {
-    /// Bands at most: what a uniform buffer has room for.
-    pub const MOST: usize = 120;
+    /// Bands at most: what the smallest uniform buffers have room for.
+    pub const MOST: usize = 256;
+    /// Bands at most where there is no table: with more of them, a table and fewer bands are as good and cheaper.
+    const MOST_ALONE: usize = 120;
 
     /// What the bands are summed for.
     #[must_use]
     pub fn task(&self) -> BandTask {
-        // Thicker films have single walls from the table at every quality, for more bands than there are would be needed.
-        let is_enough = self.quality == Quality::Spectral && self.wanted() <= Self::MOST;
-        if is_enough { BandTask::Everything } else { BandTask::CrossTerms }
+        if self.needs_table() { BandTask::CrossTerms } else { BandTask::Everything }
     }
 
     /// Whether single walls come from a table.
     #[must_use]
     pub fn needs_table(&self) -> bool {
-        self.task() == BandTask::CrossTerms
+        self.quality != Quality::Spectral || self.wanted(self.measured()) > Self::MOST_ALONE
     }
 
     /// How many there are.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.wanted().min(Self::MOST)
+        let alone = self.wanted(self.measured()).min(Self::MOST_ALONE);
+        alone.max(self.wanted(self.measured_beside_table()).min(Self::MOST))
     }
 
     /// Thickness, in nm, up to which as many as there is room for resolve the products' fringes.
     #[must_use]
     pub fn resolved_nm(&self) -> f64 {
-        // Where single walls come from a table, more bands than standard's are of no use.
-        let measured = self.measured().min(if self.needs_table() { 13.0 } else { f64::MAX });
-        Self::MOST as f64 / measured * TableKey::MIN_RANGE_NM
+        let measured = if self.needs_table() { self.measured_beside_table() } else { self.measured() };
+        // A fiftieth less than measured is no less good, and makes it 30 µm.
+        1.02 * Self::MOST as f64 / measured * TableKey::MIN_RANGE_NM
     }
 
-    /// How many would do.
-    fn wanted(&self) -> usize {
-        (self.measured() * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
+    /// How many would do where so many do for 1500 nm: thicker films have more fringes, and need as many more.
+    fn wanted(&self, measured: f64) -> usize {
+        (measured * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
     }
 
-    /// How many do for 1500 nm; thicker films have more fringes, and need as many more.
+    /// How many do for 1500 nm where single walls come from a table: more than standard's are of little use.
+    fn measured_beside_table(&self) -> f64 {
+        self.measured().min(13.0)
+    }
+
+    /// How many do for 1500 nm.
     fn measured(&self) -> f64 {
         match self.quality {
             Quality::Fast => 6.0,
