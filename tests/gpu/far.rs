@@ -3,9 +3,10 @@
 use glam::{DVec2, DVec3};
 use soapfilm::{
     gpu::Renderer,
-    physics::colour::{BT2020, ciede2000, xyz_to_lab},
+    input::LoadedScene,
+    physics::colour::{BT2020, Lab, ciede2000, xyz_to_lab},
     plan::Want,
-    scene::{Backdrop, Camera, FilmStateName, Flow},
+    scene::{Backdrop, Camera, FilmStateName, Flow, Scene},
     verify::reference,
 };
 
@@ -17,56 +18,150 @@ const FOV_Y_DEG: f64 = 9.0;
 const DIAMETERS: [f64; 3] = [10.0, 20.0, 40.0];
 
 /// The picture with each bubble's samples and filter as given.
-fn drawn(renderer: &mut Renderer, want: &Want, samples: Option<u32>, filtered: bool) -> Vec<DVec3> {
+fn drawn(renderer: &mut Renderer, want: &Want, samples: u32, filtered: bool) -> Vec<DVec3> {
     let mut want = want.clone();
     for bubble in &mut want.picture.draw.bubbles {
-        (bubble.samples, bubble.filtered) = (samples.unwrap_or(bubble.samples), filtered);
+        (bubble.samples, bubble.filtered) = (samples, filtered);
     }
     radiance(renderer, &want)
 }
 
-/// Colour differences (CIEDE2000) of the pixels whose middle the bubble covers, the truth's brightest at Y = 1.
-fn differences(want: &Want, truth: &[DVec3], seen: &[DVec3]) -> Vec<f64> {
+/// The picture with three times as many samples along a pixel's side.
+fn truth(renderer: &mut Renderer, want: &Want) -> Vec<DVec3> {
+    drawn(renderer, want, 3 * want.picture.draw.bubbles[0].samples, false)
+}
+
+/// Pixels whose middle the bubble covers.
+fn covered(want: &Want) -> Vec<usize> {
     let key = &want.picture.draw;
     let bubble = &key.bubbles[0];
     let offset = bubble.centre_m - key.camera.eye_m;
-    let covered = |k: usize| {
-        let position = DVec2::new((k as u32 % SIZE[0]) as f64 + 0.5, (k as u32 / SIZE[0]) as f64 + 0.5);
+    let is_covered = |k: &usize| {
+        let position = DVec2::new((*k as u32 % SIZE[0]) as f64 + 0.5, (*k as u32 / SIZE[0]) as f64 + 0.5);
         let ray = reference::camera(&key.camera).ray(SIZE, position);
         offset.reject_from_normalized(ray).length() < bubble.radius_m
     };
-    let to_xyz = BT2020.to_xyz();
-    let brightest = truth.iter().map(|pixel| (to_xyz * *pixel).y).fold(f64::MIN_POSITIVE, f64::max);
-    let lab = |pixel: &DVec3| xyz_to_lab(to_xyz * *pixel / brightest, to_xyz * DVec3::ONE);
-    (0..truth.len()).filter(|k| covered(*k)).map(|k| ciede2000(lab(&truth[k]), lab(&seen[k]))).collect()
+    (0..(SIZE[0] * SIZE[1]) as usize).filter(is_covered).collect()
 }
 
-/// A far bubble, sorted from 300 to 3000 nm, moved by parts of a pixel, against 16 x 16 samples of each pixel: nothing sparkles, and
-/// filtering the thickness over each sample brings it nearer. (Patches much finer than pixels stay further off, filtered or not.)
-#[test]
-fn far_bubbles_do_not_sparkle() {
-    let Some(mut renderer) = renderer() else { return };
+/// Y of a picture's brightest pixel.
+fn brightest(picture: &[DVec3]) -> f64 {
+    picture.iter().map(|pixel| (BT2020.to_xyz() * *pixel).y).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// A pixel's colour where that Y is white's.
+fn lab(pixel: DVec3, brightest: f64) -> Lab {
+    xyz_to_lab(BT2020.to_xyz() * pixel / brightest, BT2020.to_xyz() * DVec3::ONE)
+}
+
+/// Colour differences (CIEDE2000) of the pixels that the bubble covers, the truth's brightest at Y = 1.
+fn differences(want: &Want, truth: &[DVec3], seen: &[DVec3]) -> Vec<f64> {
+    let white = brightest(truth);
+    covered(want).into_iter().map(|k| ciede2000(lab(truth[k], white), lab(seen[k], white))).collect()
+}
+
+/// Looks at a bubble of the default size from where it is so many pixels across; returns what a pixel spans there, in m.
+fn step_back(scene: &mut Scene, diameter: f64) -> f64 {
+    let pixel_m = 0.1 / diameter;
+    let distance_m = pixel_m * f64::from(SIZE[1]) / (2.0 * (0.5 * FOV_Y_DEG).to_radians().tan());
+    scene.camera = Camera { distance_m, fov_y_deg: FOV_Y_DEG, elevation_deg: 0.0, ..Camera::default() };
+    pixel_m
+}
+
+/// A film sorted from 300 to 3000 nm.
+fn sorted() -> LoadedScene {
     let mut loaded = load("default");
     loaded.scene.motion.flow = Flow::Rest;
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
     let film = &mut loaded.scene.bubbles[0].film;
     (film.state, film.thickness_nm, film.stratification, film.cells) = (FilmStateName::Rest, 1170.0, 1.15, 128);
+    loaded
+}
+
+/// A far bubble, sorted from 300 to 3000 nm and moved by parts of a pixel.
+#[test]
+fn far_bubbles_do_not_sparkle() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = sorted();
     for diameter in DIAMETERS {
-        let pixel_m = 0.1 / diameter;
-        let distance_m = pixel_m * f64::from(SIZE[1]) / (2.0 * (0.5 * FOV_Y_DEG).to_radians().tan());
-        loaded.scene.camera = Camera { distance_m, fov_y_deg: FOV_Y_DEG, elevation_deg: 0.0, ..Camera::default() };
-        let mut errors = [Vec::new(), Vec::new()];
+        let pixel_m = step_back(&mut loaded.scene, diameter);
+        let mut errors = Vec::new();
         for tenths in [0.0, 3.0, 7.0] {
             loaded.scene.bubbles[0].center_m = [0.0, 0.0, 0.1 * tenths * pixel_m];
             let want = still(&loaded, SIZE, 0.0);
-            let truth = drawn(&mut renderer, &want, Some(16), false);
-            for (filtered, errors) in [false, true].into_iter().zip(&mut errors) {
-                errors.extend(differences(&want, &truth, &drawn(&mut renderer, &want, None, filtered)));
+            errors.extend(differences(&want, &truth(&mut renderer, &want), &radiance(&mut renderer, &want)));
+        }
+        let (mean, most) = mean_and_max(errors);
+        eprintln!("measured: sorted film, {diameter} pixels across: dE2000 mean {mean:.3}, max {most:.3}");
+        assert!(mean <= 0.2 && most <= 3.0, "{diameter}: {mean} {most}");
+    }
+}
+
+/// Where a pixel is one sample and spans more than a cell, filtering the thickness over it brings the picture nearer.
+#[test]
+fn filtered_thickness_is_nearer_to_the_truth() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = sorted();
+    step_back(&mut loaded.scene, 60.0);
+    let want = still(&loaded, SIZE, 0.0);
+    let truth = drawn(&mut renderer, &want, 12, false);
+    let [plain, filtered] = [false, true]
+        .map(|filtered| mean_and_max(differences(&want, &truth, &drawn(&mut renderer, &want, 1, filtered))));
+    eprintln!("measured: one sample a pixel: dE2000 {plain:.3?} plain, {filtered:.3?} filtered");
+    assert!(filtered.0 <= 0.9 * plain.0, "{filtered:?} {plain:?}");
+}
+
+/// Frames of a bubble that drifts across the picture, and how far it does from one to the next, in pixels.
+const FRAMES: u32 = 6;
+const DRIFT_PIXELS: [f64; 2] = [0.31, 0.17];
+
+/// What changes from frame to frame, in CIELAB: the mean of the truth's changes; mean and maximum of what the device's differ from them.
+#[derive(Debug)]
+struct Changes {
+    truth: f64,
+    excess: f64,
+    most: f64,
+}
+
+fn changes(renderer: &mut Renderer, loaded: &mut LoadedScene, diameter: f64, time_s: f64) -> Changes {
+    let pixel_m = step_back(&mut loaded.scene, diameter);
+    let (mut before, mut white) = (None, None);
+    let (mut truths, mut excesses) = (Vec::new(), Vec::new());
+    for frame in 0..FRAMES {
+        let [right, up] = DRIFT_PIXELS.map(|pixels| f64::from(frame) * pixels * pixel_m);
+        loaded.scene.bubbles[0].center_m = [0.0, right, up];
+        let want = still(loaded, SIZE, time_s);
+        let pictures = [truth(renderer, &want), radiance(renderer, &want)];
+        let white = *white.get_or_insert(brightest(&pictures[0]));
+        let colours = pictures.map(|picture| picture.into_iter().map(|pixel| lab(pixel, white)).collect::<Vec<_>>());
+        if let Some(before) = before.replace(colours.clone()) {
+            for k in covered(&want) {
+                let [truth, seen] = [0, 1].map(|which| change(&before[which][k], &colours[which][k]));
+                truths.push(truth.length());
+                excesses.push(seen.distance(truth));
             }
         }
-        let [plain, filtered] = errors.map(mean_and_max);
-        eprintln!("measured: {diameter} pixels across: dE2000 {plain:.3?} plain, {filtered:.3?} filtered");
-        assert!(filtered.0 <= 0.2 && filtered.1 <= 3.0, "{diameter}: {filtered:?}");
-        assert!(filtered.0 <= plain.0, "{diameter}: {filtered:?} is no better than {plain:?}");
+    }
+    let (excess, most) = mean_and_max(excesses);
+    Changes { truth: mean_and_max(truths).0, excess, most }
+}
+
+fn change(from: &Lab, to: &Lab) -> DVec3 {
+    DVec3::new(to.l - from.l, to.a - from.a, to.b - from.b)
+}
+
+/// Freshly blown, and a second later, when gravity has drawn the patches out.
+#[test]
+fn far_blown_bubbles_change_as_they_must() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = load("default");
+    loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
+    for time_s in [0.0, 1.0] {
+        for diameter in DIAMETERS {
+            let changes = changes(&mut renderer, &mut loaded, diameter, time_s);
+            eprintln!("measured: {time_s} s, {diameter} pixels across: {changes:.3?} from frame to frame");
+            let Changes { truth, excess, most } = changes;
+            assert!(excess <= 0.1 * truth && most <= 20.0, "{time_s} s, {diameter}: {changes:?}");
+        }
     }
 }
