@@ -25,6 +25,13 @@ fn view_ray(view: View, position: vec2f) -> vec3f {
     return normalize(view_plane(view, position));
 }
 
+// Where a direction from the eye is in the picture.
+fn clip_position(view: View, ray: vec3f) -> vec4f {
+    let half = 0.5 * view.pixel_height * vec2f(view.width, view.height);
+    let depth = dot(ray, view.forward);
+    return vec4f(dot(ray, view.right) / half.x, dot(ray, view.up) / half.y, 0.5 * depth, depth);
+}
+
 // Angle that one pixel spans along a ray: the geometric mean of its two directions.
 fn pixel_angle(view: View, ray: vec3f) -> f32 {
     let cosine = dot(ray, view.forward);

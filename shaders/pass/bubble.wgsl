@@ -1,17 +1,18 @@
 // One ring of a bubble's disc: an exact sphere traced at each pixel. Front reflection, transmission, back wall, inner reflections, each
 // wall with the thickness at its own hit.
 
-import package::camera::view::{View, pixel_angle, view_plane};
+import package::camera::view::{View, clip_position, pixel_angle, view_plane};
 import package::film::control::{Balance, balanced};
 import package::film::hole::{HOLE_MERIDIANS, Rim, TAU, angle_from, meridian_of, mixed, pierced};
 import package::film::shown::film_at;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
 import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::band::Band;
-import package::optics::film_colour::{FILTERED, POLARISED, film_reflection};
+import package::optics::film_colour::{FILTERED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{BANDS, EVERYTHING, FURTHER, Hits, INNER, Walls, band_radiance, resolved};
 import package::sphere::lookup::{map_at, tracer_at};
+import package::sphere::path::{Path, footprint, polarisation_along};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
 // 1: the film has one thickness everywhere, and no field is read.
@@ -85,7 +86,7 @@ fn ring(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     let turn = TAU * f32((index >> 1u) % SIDES) / f32(SIDES);
     let edge = select(bubble.inner, bubble.outer, (index & 1u) == 1u);
     let ray = edge.x * to_centre + edge.y * (cos(turn) * right + sin(turn) * up);
-    return clip_position(from_round(ray));
+    return clip_position(view, from_round(ray));
 }
 
 // A vector of the world where the bubble is round.
@@ -102,13 +103,6 @@ fn from_round(vector: vec3f) -> vec3f {
         return vector;
     }
     return bubble.stretch * vector;
-}
-
-// Where a direction from the eye is in the picture.
-fn clip_position(ray: vec3f) -> vec4f {
-    let half = 0.5 * view.pixel_height * vec2f(view.width, view.height);
-    let depth = dot(ray, view.forward);
-    return vec4f(dot(ray, view.right) / half.x, dot(ray, view.up) / half.y, 0.5 * depth, depth);
 }
 
 // The whole picture: what a bubble covers from inside.
@@ -169,47 +163,6 @@ fn backdrop(direction: vec3f, footprint: f32) -> vec3f {
 
 fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
     return environment_radiance(environment, environment_sampler, light, direction, footprint);
-}
-
-// A ray and the great circle that all its hits lie on. With the unit sphere at the origin a hit at normal n under direction v has
-// v . n = -+cos_theta, a chord has the length 2 cos_theta, and every reflection turns the ray by the same angle. An ellipsoid is met where
-// it is round, and turns rays by its true normals; the angle at the film is the mean of those at the first two walls.
-struct Path {
-    direction: vec3f,
-    // The direction where the bubble is round.
-    round: vec3f,
-    // Foot of the perpendicular from the centre on the ray there: |foot| = sin theta.
-    foot: vec3f,
-    // Half of a chord there.
-    half_chord: f32,
-    cos_theta: f32,
-    // Angle that the sample spans.
-    pixel: f32,
-    // Rate at which theta turns as the ray turns, radians a radian.
-    theta_rate: f32,
-    // sin of the angle between the ray and the direction to the centre.
-    sin_view: f32,
-}
-
-// Footprint of a reflected direction: its spread in the plane of incidence, where the sphere's curvature widens it, and across,
-// where it turns about the axis through the centre. The geometric mean, but no finer than a quarter of the wider one.
-fn footprint(path: Path, direction: vec3f, turns: f32) -> f32 {
-    let along = path.pixel * abs(1.0 + turns * path.theta_rate);
-    let to_centre = normalize(bubble.centre_m - view.eye_m);
-    let across = path.pixel * length(cross(direction, to_centre)) / max(path.sin_view, 1e-6);
-    return max(sqrt(along * across), 0.25 * max(along, across));
-}
-
-// Shares of s and p light that a polariser leaves: their fields stand across the plane of incidence and in it.
-fn polarisation_along(path: Path) -> vec2f {
-    if (POLARISED == 0u) {
-        return vec2f(0.5);
-    }
-    let across = cross(path.direction, to_round(path.foot));
-    let s = dot(light.polariser, across);
-    let p = dot(light.polariser, cross(path.direction, across));
-    // Straight through the middle s and p are the same.
-    return (vec2f(s * s, p * p) + 5e-13) / (s * s + p * p + 1e-12);
 }
 
 // A ray inside that heads for the wall at a point of the unit sphere.
@@ -306,7 +259,7 @@ fn first_hits(path: Path, is_inside: bool, behind: vec3f) -> FourHits {
 
 // What is seen along a ray: see optics/walls.wgsl.
 fn film_radiance(path: Path, is_inside: bool) -> vec3f {
-    let polarisation = polarisation_along(path);
+    let polarisation = polarisation_along(path, light.polariser);
     let behind = backdrop(path.direction, path.pixel);
     let first = first_hits(path, is_inside, behind);
     var walls: Walls;
@@ -381,6 +334,8 @@ fn path_along(direction: vec3f, width: f32) -> Path {
         width * pixel_angle(view, direction),
         distance * cos_view / max(cos_theta, 1e-3),
         length(foot) / distance,
+        normalize(bubble.centre_m - view.eye_m),
+        cross(direction, to_round(foot)),
     );
 }
 

@@ -69,6 +69,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
     "sphere/cubed",
     "sphere/halo",
     "sphere/lookup",
+    "sphere/path",
     "sphere/silhouette",
 ];
 

@@ -1,0 +1,46 @@
+// The path of a ray through a bubble: what all of its hits have in common.
+
+import package::optics::film_colour::POLARISED;
+
+// A ray and the great circle that all its hits lie on. With the unit sphere at the origin a hit at normal n under direction v has
+// v . n = -+cos_theta, a chord has the length 2 cos_theta, and every reflection turns the ray by the same angle. An ellipsoid is met where
+// it is round, and turns rays by its true normals; the angle at the film is the mean of those at the first two walls.
+struct Path {
+    direction: vec3f,
+    // The direction where the bubble is round.
+    round: vec3f,
+    // Foot of the perpendicular from the centre on the ray there: |foot| = sin theta.
+    foot: vec3f,
+    // Half of a chord there.
+    half_chord: f32,
+    cos_theta: f32,
+    // Angle that the sample spans.
+    pixel: f32,
+    // Rate at which theta turns as the ray turns, radians a radian.
+    theta_rate: f32,
+    // sin of the angle between the ray and the direction to the centre.
+    sin_view: f32,
+    // Unit vector from the eye to the centre.
+    to_centre: vec3f,
+    // Across the plane of incidence, not of unit length: zero straight through the middle.
+    across: vec3f,
+}
+
+// Footprint of a reflected direction: its spread in the plane of incidence, where the sphere's curvature widens it, and across,
+// where it turns about the axis through the centre. The geometric mean, but no finer than a quarter of the wider one.
+fn footprint(path: Path, direction: vec3f, turns: f32) -> f32 {
+    let along = path.pixel * abs(1.0 + turns * path.theta_rate);
+    let across = path.pixel * length(cross(direction, path.to_centre)) / max(path.sin_view, 1e-6);
+    return max(sqrt(along * across), 0.25 * max(along, across));
+}
+
+// Shares of s and p light that a polariser leaves which passes fields along a direction: theirs stand across the plane of incidence and in it.
+fn polarisation_along(path: Path, polariser: vec3f) -> vec2f {
+    if (POLARISED == 0u) {
+        return vec2f(0.5);
+    }
+    let s = dot(polariser, path.across);
+    let p = dot(polariser, cross(path.direction, path.across));
+    // Straight through the middle s and p are the same.
+    return (vec2f(s * s, p * p) + 5e-13) / (s * s + p * p + 1e-12);
+}
