@@ -37,7 +37,7 @@ const FILMS: usize = 1500;
 const CANDIDATES: std::ops::RangeInclusive<u32> = 384..=716;
 /// Bands from which on they stand as close as their candidates: all of those are then tried that there are, and moving single ones no longer
 /// helps.
-const MANY: usize = 100;
+const MANY: usize = 120;
 /// Smallest cosine of the angle of incidence in training.
 const MIN_COS: f64 = 0.04;
 /// Weight of a solution's size against its error, relative to the mean square of the films' reflectance: keeps weights small enough for f32.
