@@ -10,6 +10,8 @@ struct Control {
     ticks_remapped: u32,
     // What evaporation has left in black film, at which it ends, as a mean over the sphere in nm.
     spared_nm: f32,
+    // What has left the film at its rim, as a mean over the film in nm.
+    drained_nm: f32,
 }
 
 // From a field's departure from a film's level to what is made of it: d + offset + slope d, which restores the amount of liquid, and the

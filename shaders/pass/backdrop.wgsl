@@ -2,6 +2,7 @@
 
 import package::camera::view::{View, view_ray, pixel_angle};
 import package::light::environment::{Light, backdrop_radiance};
+import package::light::water::{crossing, upward};
 
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var<uniform> light: Light;
@@ -16,6 +17,6 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 @fragment
 fn backdrop(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let ray = view_ray(view, position.xy);
-    let behind = backdrop_radiance(environment, environment_sampler, light, ray, pixel_angle(view, ray));
-    return vec4f(light.seen * behind, 1.0);
+    let behind = backdrop_radiance(environment, environment_sampler, light, upward(ray), pixel_angle(view, ray));
+    return vec4f(light.seen * (crossing(1.0, ray.z, ray) * behind), 1.0);
 }

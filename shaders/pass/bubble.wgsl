@@ -6,6 +6,7 @@ import package::film::control::{Balance, balanced};
 import package::film::hole::{HOLE_MERIDIANS, Rim, TAU, angle_from, meridian_of, mixed, pierced};
 import package::film::shown::film_at;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
+import package::light::water::{crossing, upward};
 import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::band::Band;
 import package::optics::film_colour::{FILTERED, film_reflection};
@@ -27,6 +28,8 @@ override OUTLINE: u32;
 override STRETCHED: u32;
 // 1: the bubble bursts, and its film has a hole.
 override BURST: u32;
+// 1: the film ends at a ring.
+override ON_RING: u32;
 
 // Mirrors `BubbleUniform` in src/gpu/draw.rs.
 struct Bubble {
@@ -54,6 +57,8 @@ struct Bubble {
     skins_nm: f32,
     // Cells along a panel's edge of the film's map.
     map_cells: u32,
+    // Height of the ring that the film ends at, over the radius.
+    rim_z: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -126,7 +131,11 @@ fn film_through_map(direction: vec3f) -> f32 {
 }
 
 // Thickness at a point of the unit sphere.
-fn thickness_nm(point: vec3f) -> f32 {
+fn thickness_nm(place: vec3f) -> f32 {
+    if (ON_RING == 1u && place.z < bubble.rim_z) {
+        return 0.0;
+    }
+    let point = upward(place);
     var thickness_nm = bubble.thickness_nm;
     if (UNIFORM_FILM == 0u) {
         let direction = bubble.to_film * point;
@@ -158,11 +167,16 @@ fn optical_nm(direction: vec3f) -> f32 {
 }
 
 fn backdrop(direction: vec3f, footprint: f32) -> vec3f {
-    return backdrop_radiance(environment, environment_sampler, light, direction, footprint);
+    return backdrop_radiance(environment, environment_sampler, light, upward(direction), footprint);
+}
+
+// What stands beside the bubble: the backdrop, or what the bath mirrors of it.
+fn beside(direction: vec3f, footprint: f32) -> vec3f {
+    return crossing(1.0, direction.z, direction) * backdrop(direction, footprint);
 }
 
 fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
-    return environment_radiance(environment, environment_sampler, light, direction, footprint);
+    return environment_radiance(environment, environment_sampler, light, upward(direction), footprint);
 }
 
 // A ray inside that heads for the wall at a point of the unit sphere.
@@ -194,17 +208,35 @@ fn mirrored(path: Path, front: vec3f) -> vec3f {
     return path.direction + 2.0 * path.cos_theta * front;
 }
 
-// How far a ray was followed inside: where it heads now, how often it was reflected, and the light from there.
+// How far a ray was followed inside: where it heads now, how often it was reflected, what a bath on the way there leaves of light, and the
+// light from there.
 struct Followed {
     hop: Hop,
     reflections: f32,
+    left: f32,
     light: vec3f,
 }
 
 fn followed(path: Path, before: Followed) -> Followed {
     let hop = reflected(before.hop, 2.0 * path.half_chord);
     let reflections = before.reflections + 1.0;
-    return Followed(hop, reflections, surroundings(hop.direction, footprint(path, hop.direction, -2.0 * reflections)));
+    let left = before.left * crossing(before.hop.point.z, hop.point.z, hop.direction);
+    let light = surroundings(hop.direction, footprint(path, hop.direction, -2.0 * reflections));
+    return Followed(hop, reflections, left, left * crossing(hop.point.z, hop.direction.z, hop.direction) * light);
+}
+
+// What a bath leaves of light between the eye and the front wall.
+fn left_before(path: Path) -> f32 {
+    return crossing(view.eye_m.z - bubble.centre_m.z, path.foot.z - path.half_chord * path.round.z, path.direction);
+}
+
+// The ray straight through, which heads for the back wall.
+fn straight_through(path: Path, is_inside: bool) -> Followed {
+    let back = path.foot + path.half_chord * path.round;
+    let start_z = select(path.foot.z - path.half_chord * path.round.z, view.eye_m.z - bubble.centre_m.z, is_inside);
+    let left = select(left_before(path), 1.0, is_inside) * crossing(start_z, back.z, path.direction);
+    let light = crossing(back.z, path.direction.z, path.direction) * backdrop(path.direction, path.pixel);
+    return Followed(Hop(back, path.direction), 0.0, left, left * light);
 }
 
 // Width of the thicknesses that a sample spans, in nm: the change of the path in the film from pixel to pixel, which angles have a part in.
@@ -241,8 +273,8 @@ fn four_hits(path: Path, at: Followed) -> FourHits {
 }
 
 // The first four hits: the front wall, which there is none of from inside the bubble, and three inside.
-fn first_hits(path: Path, is_inside: bool, behind: vec3f) -> FourHits {
-    let at = Followed(Hop(path.foot + path.half_chord * path.round, path.direction), 0.0, behind);
+fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
+    let behind = at.light;
     let a = followed(path, at);
     let b = followed(path, a);
     let c = followed(path, b);
@@ -252,7 +284,8 @@ fn first_hits(path: Path, is_inside: bool, behind: vec3f) -> FourHits {
         let front = path.foot - path.half_chord * path.round;
         let direction = mirrored(path, front);
         walls_nm.x = optical_nm(front);
-        steps[0] = surroundings(direction, footprint(path, direction, 2.0)) - behind;
+        let left = left_before(path) * crossing(front.z, direction.z, direction);
+        steps[0] = left * surroundings(direction, footprint(path, direction, 2.0)) - behind;
     }
     return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), c);
 }
@@ -260,8 +293,9 @@ fn first_hits(path: Path, is_inside: bool, behind: vec3f) -> FourHits {
 // What is seen along a ray: see optics/walls.wgsl.
 fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     let polarisation = polarisation_along(path, light.polariser);
-    let behind = backdrop(path.direction, path.pixel);
-    let first = first_hits(path, is_inside, behind);
+    let through = straight_through(path, is_inside);
+    let behind = through.light;
+    let first = first_hits(path, is_inside, through);
     var walls: Walls;
     walls.first = first.hits;
     var last = first.last;
@@ -371,7 +405,7 @@ fn sample_radiance(position: vec2f, width: f32) -> vec3f {
     // Not only where it is covered: derivatives need the neighbours.
     let radiance = bubble_radiance(edge.inside, width);
     let ray = normalize(plane);
-    return mix(light.seen * backdrop(ray, pixel_angle(view, ray)), radiance, edge.coverage);
+    return mix(light.seen * beside(ray, pixel_angle(view, ray)), radiance, edge.coverage);
 }
 
 // The mean over a grid of samples in a pixel.
@@ -399,7 +433,7 @@ fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
 fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let plane = view_plane(view, position.xy);
     let edge = outline(plane, 1.0);
-    let behind = light.seen * backdrop(normalize(plane), view.pixel_height);
+    let behind = light.seen * beside(normalize(plane), view.pixel_height);
     if (edge.coverage <= 0.0) {
         return vec4f(behind, 1.0);
     }

@@ -4,8 +4,6 @@
 import package::film::control::{Balance, Control, is_finite};
 import package::sphere::cubed::padded_index;
 
-const SPHERE: f32 = 12.566370614;
-
 // Mirrors `ConserveUniform` in src/gpu/conserve.rs.
 struct Conserve {
     cells: u32,
@@ -20,10 +18,12 @@ struct Conserve {
     bounded: u32,
     // What is added to corrected values.
     level: f32,
+    // Solid angle of the film.
+    film_area: f32,
 }
 
 @group(0) @binding(0) var<uniform> conserve: Conserve;
-// Solid angles of a panel's cells; the panels are alike.
+// Solid angles of a panel's cells, for the panels are alike; of all panels' where a film has a rim.
 @group(0) @binding(1) var<storage, read> areas: array<f32>;
 @group(0) @binding(2) var<storage, read> field: array<f32>;
 @group(0) @binding(3) var<storage, read_write> partial_sums: array<f32, 256>;
@@ -55,7 +55,7 @@ fn sum_parts(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
         let j = i32(place / conserve.cells);
         let value = field[padded_index(cell / panel_cells, i, j, conserve.cells)];
         if (is_finite(value)) {
-            sum += areas[place] * ((value - conserve.mean) - conserve.mean_rest);
+            sum += areas[cell % arrayLength(&areas)] * ((value - conserve.mean) - conserve.mean_rest);
         }
     }
     let total = workgroup_sum(sum, local);
@@ -78,23 +78,32 @@ fn sum_of_parts(local: u32) -> f32 {
 fn count_spared(@builtin(local_invocation_index) local: u32) {
     let excess = sum_of_parts(local);
     if (local == 0u) {
-        control.spared_nm = excess / SPHERE;
+        control.spared_nm = excess / conserve.film_area + control.drained_nm;
+    }
+}
+
+// Takes what the field lacks for what has left it.
+@compute @workgroup_size(256)
+fn count_drained(@builtin(local_invocation_index) local: u32) {
+    let excess = sum_of_parts(local);
+    if (local == 0u) {
+        control.drained_nm = control.spared_nm - excess / conserve.film_area;
     }
 }
 
 @compute @workgroup_size(256)
 fn balance_sum(@builtin(local_invocation_index) local: u32) {
-    let excess = sum_of_parts(local) - control.spared_nm * SPHERE;
+    let excess = sum_of_parts(local) - (control.spared_nm - control.drained_nm) * conserve.film_area;
     if (local != 0u) {
         return;
     }
     if (conserve.bounded == 0u) {
-        balance = Balance(-excess / SPHERE, 0.0, conserve.level);
+        balance = Balance(-excess / conserve.film_area, 0.0, conserve.level);
         return;
     }
     // Liquid is taken in proportion to what stands above the lower bound, or given in proportion to what is missing to the upper one.
     let bound = select(conserve.high, conserve.low, excess > 0.0);
-    let room = abs(conserve.mean - bound) * SPHERE + abs(excess);
+    let room = abs(conserve.mean - bound) * conserve.film_area + abs(excess);
     let part = select(0.0, clamp(abs(excess) / room, 0.0, 1.0), room > 0.0);
     balance = Balance(part * bound, -part, conserve.level);
 }

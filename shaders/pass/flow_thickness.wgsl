@@ -2,11 +2,14 @@
 // film's map.
 
 import package::film::control::Control;
+import package::sphere::cap::{Cap, image};
 import package::sphere::cubed::{HALO, padded_index, panel_direction};
-import package::sphere::lookup::{healed, map_at_cell, tracer_at};
+import package::sphere::lookup::{healed, map_at, map_at_cell, tracer_at};
 
 // 0: there is no map, and the tracer is where it is.
 override HAS_MAP: u32;
+// 1: the film ends at a rim, beyond which is the image of what is within.
+override HAS_RIM: u32;
 
 // Mirrors `ThicknessUniform` in src/gpu/film/free.rs.
 struct Thickness {
@@ -20,6 +23,9 @@ struct Thickness {
     offset_nm: f32,
     level_nm: f32,
     black_nm: f32,
+    // Where the film ends: see `Cap`.
+    rim_z: f32,
+    inversion: f32,
 }
 
 @group(0) @binding(0) var<uniform> thickness: Thickness;
@@ -53,7 +59,13 @@ fn flow_thickness(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     var origin = normalize(panel_direction(id.z, vec2f(tangents[id.x + HALO], tangents[id.y + HALO])));
-    if (HAS_MAP == 1u) {
+    let is_image = HAS_RIM == 1u && origin.z < thickness.rim_z;
+    if (is_image) {
+        origin = image(Cap(thickness.rim_z, thickness.inversion), origin);
+        if (HAS_MAP == 1u) {
+            origin = map_at(0u, origin, thickness.map_cells).xyz;
+        }
+    } else if (HAS_MAP == 1u) {
         origin = map_at_cell(0u, id + vec3u(HALO, HALO, 0u), thickness.cells, origin, thickness.map_cells).xyz;
     }
     let departure = tracer_at(origin, thickness.tracer_cells);

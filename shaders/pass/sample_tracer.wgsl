@@ -2,8 +2,9 @@
 // Shown, it is what the picture colours; settled, it is a remap. One invocation a cell, halo included.
 
 import package::film::control::Control;
+import package::sphere::cap::{Cap, image};
 import package::sphere::cubed::{HALO, cell_place, panel_direction};
-import package::sphere::lookup::{map_at_cell, healed, tracer_at};
+import package::sphere::lookup::{healed, map_at, map_at_cell, tracer_at};
 
 // What the map's fourth number means: see `Gathered` in src/gpu/sample_tracer.rs.
 override GATHERED: u32;
@@ -18,6 +19,8 @@ override ON_MAP_GRID: u32;
 override ON_TRACER_GRID: u32;
 // 0: there is no map, and the tracer is where it is.
 override HAS_MAP: u32;
+// 1: the film ends at a rim, beyond which is the image of what is within.
+override HAS_RIM: u32;
 
 // Mirrors `SampleUniform` in src/gpu/sample_tracer.rs.
 struct Sample {
@@ -25,6 +28,9 @@ struct Sample {
     cells: u32,
     map_cells: u32,
     tracer_cells: u32,
+    // Where the film ends: see `Cap`.
+    rim_z: f32,
+    inversion: f32,
 }
 
 @group(0) @binding(0) var<uniform> sample: Sample;
@@ -69,8 +75,15 @@ fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
             origin = map_at_cell(0u, id, sample.cells, x, sample.map_cells);
         }
     }
+    let is_image = HAS_RIM == 1u && x.z < sample.rim_z;
+    if (is_image) {
+        origin = vec4f(image(Cap(sample.rim_z, sample.inversion), x), 0.0);
+        if (HAS_MAP == 1u) {
+            origin = map_at(0u, origin.xyz, sample.map_cells);
+        }
+    }
     var value: f32;
-    if (HAS_MAP == 0u && ON_TRACER_GRID == 1u) {
+    if (HAS_MAP == 0u && !is_image && ON_TRACER_GRID == 1u) {
         value = tracer[place];
     } else {
         value = with_gathered(tracer_at(origin.xyz, sample.tracer_cells), origin.w);

@@ -16,7 +16,7 @@ use super::{
 use crate::{
     input::LoadedScene,
     plan::Resources,
-    scene::{Film, Light, Motion, MotionChange, Scene},
+    scene::{Bubble, Film, Light, Motion, MotionChange, Scene},
 };
 
 /// What a file is wanted for.
@@ -173,7 +173,31 @@ impl Model {
 
     /// Changes the motion from now on, which is an event in the scene's history.
     pub fn change_motion(&mut self, change: MotionChange) {
-        history::record(&mut self.scene, self.clock.tick, change);
+        let mut changed = self.scene.clone();
+        history::record(&mut changed, self.clock.tick, change);
+        self.take_over(changed);
+    }
+
+    /// Makes a bubble end at something else, or regenerate otherwise, and blows it anew.
+    pub fn change_end(&mut self, index: usize, end: impl FnOnce(&mut Bubble)) {
+        let mut changed = self.scene.clone();
+        let Some(bubble) = changed.bubbles.get_mut(index) else { return };
+        end(bubble);
+        if changed != self.scene && self.take_over(changed) {
+            self.clock.reset();
+        }
+    }
+
+    /// Takes over an edited scene, or says why there can be no such scene; tells whether it did.
+    fn take_over(&mut self, scene: Scene) -> bool {
+        match scene.validate() {
+            Ok(()) => self.scene = scene,
+            Err(error) => {
+                self.messages.problem(error.to_string());
+                return false;
+            }
+        }
+        true
     }
 
     /// Puts another film on a bubble. All films share an index; another beginning of one is another beginning of all.

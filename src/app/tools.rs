@@ -5,7 +5,7 @@ use glam::{DQuat, DVec2, DVec3};
 use super::history;
 use crate::{
     plan::{centre_path, film_turn},
-    scene::{Blow, Change, Drag, Event, Prick, Scene, Stir},
+    scene::{Blow, Boundary, Bubble, Change, Drag, Event, Prick, Scene, Stir},
 };
 
 /// What the pointer is used for.
@@ -165,7 +165,7 @@ impl Grip {
         self.tick = tick;
         if self.tool == Tool::Drag {
             let held_m = scene.camera.eye() + self.depth_m * ray(scene, self.place);
-            return Some(drag(self.bubble, held_m + self.to_centre_m));
+            return Some(drag(scene, self.bubble, held_m + self.to_centre_m));
         }
         let aim = aim(scene, tick, self.place).filter(|aim| aim.bubble == self.bubble && tick > since)?;
         let before = std::mem::replace(&mut self.at, aim.at());
@@ -200,8 +200,13 @@ fn prick(aim: &Aim) -> Change {
     Change::Prick(Prick { bubble: aim.bubble, at: rounded(aim.at()) })
 }
 
-fn drag(bubble: usize, to_m: DVec3) -> Change {
-    Change::Drag(Drag { bubble, to_m: rounded(to_m.clamp(DVec3::splat(-1000.0), DVec3::splat(1000.0))) })
+/// A bubble on a bath stays on it.
+fn drag(scene: &Scene, bubble: usize, to_m: DVec3) -> Change {
+    let mut to_m = rounded(to_m.clamp(DVec3::splat(-1000.0), DVec3::splat(1000.0)));
+    if let Some(Bubble { boundary: Boundary::Bath, center_m, .. }) = scene.bubbles.get(bubble) {
+        to_m[2] = center_m[2];
+    }
+    Change::Drag(Drag { bubble, to_m })
 }
 
 /// To a ten-thousandth, finer than any pointer: numbers that a saved scene shows are short.

@@ -29,12 +29,14 @@ pub struct ConserveUniform {
     pub bounded: u32,
     /// What is added to corrected values.
     pub level: f32,
+    /// Solid angle of the film.
+    pub film_area: f32,
 }
 
 /// What must be conserved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Target {
-    /// Mean over the sphere.
+    /// Mean over the film.
     pub mean: f64,
     /// Bounds that corrected values must keep, if any.
     pub bounds: Option<[f32; 2]>,
@@ -84,6 +86,17 @@ pub fn count_spared(
     summed(recorder, name, target, sum, groups, ("count_spared", &[]))
 }
 
+/// Records the two passes that take what a field lacks for what has left it: see [`conserve`].
+pub fn count_drained(
+    recorder: &mut Recorder<'_>,
+    name: &'static str,
+    target: Target,
+    sum: &Sum<'_>,
+    groups: [Groups<'_>; 2],
+) -> Result<(), GpuError> {
+    summed(recorder, name, target, sum, groups, ("count_drained", &[]))
+}
+
 /// Sums a field's departure from its target, and gives the sum to an entry point with buffers of its own besides.
 fn summed(
     recorder: &mut Recorder<'_>,
@@ -106,6 +119,7 @@ fn summed(
             high,
             bounded: u32::from(target.bounds.is_some()),
             level: target.level,
+            film_area: sum.grid.film_area as f32,
         },
     );
     let key = |entry| ComputeKey { pass: "conserve", entry, constants: vec![] };

@@ -98,6 +98,9 @@ pub struct BubbleUniform {
     pub skins_nm: f32,
     /// Cells along a panel's edge of the film's map.
     pub map_cells: u32,
+    /// Height of the ring that the film ends at, over the radius.
+    pub rim_z: f32,
+    pad: [f32; 3],
 }
 
 /// What a draw reads that other passes left.
@@ -153,7 +156,7 @@ impl DrawPass {
             vertex: "cover",
             fragment: "backdrop",
             format: radiance_format(key.full_precision),
-            constants: vec![],
+            constants: vec![("ON_BATH", u32::from(key.on_bath))],
         };
         let pipeline = gpu.pipelines.render(gpu, &backdrop_key)?;
         let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &shared);
@@ -258,6 +261,8 @@ fn ring_pipeline(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey, ring: &
             ("FILTERED", u32::from(bubble.filtered)),
             ("STRETCHED", u32::from(bubble.stretch != DMat3::IDENTITY)),
             ("BURST", u32::from(bubble.hole.is_some())),
+            ("ON_BATH", u32::from(key.on_bath)),
+            ("ON_RING", u32::from(bubble.cap.is_some() && !key.on_bath)),
             ("HOLE_MERIDIANS", HOLE_MERIDIANS as u32),
             ("INNER", ring.inner_reflections),
             // A film in a scene is moved as a flow map where it is looked up through one, and always limited.
@@ -336,5 +341,7 @@ fn bubble_uniform(film: &FilmMaterial, bubble: &BubbleKey, ring: &Ring, shown: &
         extra_nm: film.equivalent_extra_nm() as f32,
         skins_nm: (2.0 * film.skin_nm).max(1e-3) as f32,
         map_cells: shown.map_cells,
+        rim_z: bubble.cap.map_or(-2.0, |cap| cap.rim_z as f32),
+        pad: [0.0; 3],
     }
 }

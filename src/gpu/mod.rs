@@ -13,6 +13,7 @@ pub mod correct_error;
 pub mod decide_remap;
 pub mod device;
 pub mod diffuse;
+pub mod drain;
 pub mod draw;
 pub mod environment;
 pub mod film;

@@ -4,11 +4,11 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{
     GpuError,
-    film::Grid,
+    film::{Grid, rim_numbers},
     pipelines::ComputeKey,
     timing::{Groups, Recorder},
 };
-use crate::physics::transport::Scheme;
+use crate::physics::{film::Cap, transport::Scheme};
 
 /// What a map's fourth number means: see `GATHERED` in `shaders/pass/sample_tracer.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,7 +33,11 @@ pub struct SampleUniform {
     pub map_cells: u32,
     /// The same of the tracer.
     pub tracer_cells: u32,
-    pad: u32,
+    /// Height of the rim that the film ends at.
+    pub rim_z: f32,
+    /// The inversion in it.
+    pub inversion: f32,
+    pad: [u32; 3],
 }
 
 /// What a sampling reads and writes.
@@ -44,6 +48,8 @@ pub struct Sampling<'a> {
     pub limiter: bool,
     /// What the map has gathered.
     pub gathered: Gathered,
+    /// Where the film ends, if anywhere.
+    pub cap: Option<Cap>,
     /// The grid that is written.
     pub grid: &'a Grid,
     /// The map, if there is one.
@@ -65,9 +71,10 @@ pub fn sample_tracer(
     sampling: &Sampling<'_>,
     groups: Groups<'_>,
 ) -> Result<(), GpuError> {
-    let Sampling { scheme, limiter, gathered, grid, map, map_cells, .. } = *sampling;
+    let Sampling { scheme, limiter, gathered, cap, grid, map, map_cells, .. } = *sampling;
     let (tracer, tracer_cells) = sampling.tracer;
-    let uniform = SampleUniform { cells: grid.cells, map_cells, tracer_cells, pad: 0 };
+    let [rim_z, inversion] = rim_numbers(cap);
+    let uniform = SampleUniform { cells: grid.cells, map_cells, tracer_cells, rim_z, inversion, pad: [0; 3] };
     let uniform = recorder.gpu.uniform("sample", &uniform);
     let constants = vec![
         ("TAPS", scheme.taps()),
@@ -76,6 +83,7 @@ pub fn sample_tracer(
         ("ON_MAP_GRID", u32::from(grid.cells == map_cells)),
         ("ON_TRACER_GRID", u32::from(grid.cells == tracer_cells)),
         ("HAS_MAP", u32::from(map.is_some())),
+        ("HAS_RIM", u32::from(cap.is_some())),
     ];
     let resources = [
         uniform.as_entire_binding(),

@@ -66,6 +66,8 @@ impl Case {
             },
             map_coarsening: 1,
             coarse_flow: false,
+            cap: None,
+            drop_rad: None,
         }
     }
 

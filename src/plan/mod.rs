@@ -14,9 +14,9 @@ use std::{fmt, ops::Range};
 
 pub use checkpoints::Checkpoints;
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw,
-    FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, RestingFilm, TableKey,
-    TonemapKey, range_nm,
+    BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmEnd, FilmKey,
+    FlowLaw, FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, RestingFilm,
+    TableKey, TonemapKey, range_nm,
 };
 pub use want::{Lamp, Resources, Shot, WantError, centre_path, film_key, film_turn, want};
 

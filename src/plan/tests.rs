@@ -13,6 +13,7 @@ use crate::{
     physics::{
         colour::{Gamut, Illuminant},
         environment::CubeMap,
+        film::Cap,
     },
     scene::{Blow, Bubble, Change, Drag, Event, FilmStateName, Flow, MotionChange, Scene, Stir, preset},
 };
@@ -132,6 +133,34 @@ fn a_film_at_rest_is_never_stepped() {
         assert!(!passes.contains(&"step_field"), "tick {tick}: {passes:?}");
     }
     assert_eq!(between((&scene, 7), (&scene, 70_000)), [] as [&str; 0]);
+}
+
+#[test]
+fn films_that_end_nowhere_know_of_no_end() {
+    let field = |scene: &Scene| match wanted(scene, 4, Pace::Whole).picture.draw.bubbles[0].film.clone() {
+        FilmKey::Field(field) => field,
+        FilmKey::Uniform(_) => panic!("a film that flows"),
+    };
+    let free = preset("default").unwrap();
+    assert_eq!(field(&free).end, None);
+    assert!(!wanted(&free, 4, Pace::Whole).picture.draw.on_bath);
+    let bath = preset("bath").unwrap();
+    let draw = wanted(&bath, 4, Pace::Whole).picture.draw;
+    assert!(draw.on_bath && draw.bubbles[0].cap == Some(Cap::HEMISPHERE) && field(&bath).regeneration().is_some());
+    let mut drained = bath.clone();
+    drained.bubbles[0].regeneration = 0.0;
+    assert_eq!(field(&drained).regeneration(), None);
+    let drop = field(&preset("drop").unwrap());
+    assert!(drop.cap().is_none() && drop.end.unwrap().drop_rad.unwrap() < 0.3);
+}
+
+#[test]
+fn nothing_is_seen_from_below_a_bath() {
+    let mut scene = preset("bath").unwrap();
+    scene.camera.elevation_deg = -30.0;
+    let error = want(&scene, &resources(), &shot(0, Pace::Whole)).unwrap_err();
+    assert_eq!(error, WantError::BelowBath);
+    assert!(error.to_string().contains("raise `elevation_deg`"));
 }
 
 #[test]

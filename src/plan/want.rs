@@ -5,8 +5,8 @@ use std::{collections::BTreeMap, sync::Arc};
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::{
-    BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmKey, FlowLaw, FlowSegment,
-    FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, PushKey, TableKey, TonemapKey, Want,
+    BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmEnd, FilmKey, FlowLaw,
+    FlowSegment, FreeFlow, LightKey, Lighting, Moment, OpticsKey, Pace, PushKey, TableKey, TonemapKey, Want,
     keys::evaporated_nm,
     lives::{Life, life, since},
     range_nm,
@@ -17,15 +17,16 @@ use crate::{
         colour::{Gamut, Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
         film::{
-            InitialFilm, Push,
-            properties::{air_drag, evaporation_rate},
+            Cap, InitialFilm, Push, Regeneration,
+            properties::{DENSITY, VISCOSITY, air_drag, evaporation_rate},
         },
         flow::{AIR_DRAG, FlowForces},
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
         transport::Scheme,
     },
     scene::{
-        Backdrop, Blow, Bubble, Change, Film, FilmIndexName, FilmStateName, Flow, Motion, Scene, Stir, TransportScheme,
+        Backdrop, Blow, Boundary, Bubble, Change, Film, FilmIndexName, FilmStateName, Flow, Motion, Scene, Stir,
+        TransportScheme,
     },
 };
 
@@ -76,6 +77,9 @@ pub enum WantError {
         "bubbles of different films cannot share one picture: set the same `index` and `skin_nm` in every [bubble.film]"
     )]
     MixedFilms,
+    /// A camera that cannot see the bubbles for the bath.
+    #[error("the camera is below the bath that the bubbles stand on: raise `elevation_deg` or `target_m` in [camera]")]
+    BelowBath,
     /// An index that no film has.
     #[error(transparent)]
     Index(#[from] FilmIndexError),
@@ -84,6 +88,10 @@ pub enum WantError {
 /// What a shot of a scene needs.
 pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, WantError> {
     let camera = camera(scene, shot.size);
+    let bath_m = scene.bubbles.iter().find(|bubble| bubble.boundary == Boundary::Bath).map(|bubble| bubble.center_m[2]);
+    if bath_m.is_some_and(|height_m| camera.eye_m.z <= height_m) {
+        return Err(WantError::BelowBath);
+    }
     let mut bubbles: Vec<BubbleKey> = scene
         .bubbles
         .iter()
@@ -105,6 +113,7 @@ pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, W
         lighting: lighting(&own, light),
         lamps: resources.lamps.iter().map(|lamp| lighting(lamp, lamp_light(scene, lamp, light))).collect(),
         bubbles,
+        on_bath: bath_m.is_some(),
     };
     let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
     let balances = scene.view.white_balance && !resources.illuminant.is_monochromatic();
@@ -210,7 +219,9 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     let centre_m = centre_path(scene, index, bubble).at(ticks * scene.motion.tick_s).place_m;
     let radius_m = bubble.radius_mm * 1e-3;
     let life = life(scene, index, shot.moment)?;
-    let stretch = shape(scene, index, bubble, &life).stretch();
+    // The bath holds a bubble's foot, and its oscillation is that of no sphere.
+    let is_held = bubble.boundary == Boundary::Bath;
+    let stretch = if is_held { DMat3::IDENTITY } else { shape(scene, index, bubble, &life).stretch() };
     let bounds = bounds(camera, shot.size, centre_m, radius_m * reach(stretch))?;
     let distance = centre_m.distance(camera.eye_m).max(radius_m);
     let radius_pixels = radius_m / distance / camera.pixel_height_m;
@@ -232,12 +243,13 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
             FilmKey::Field(_) => DMat3::from_quat(film_turn(scene, life.born as f64 + ticks).inverse()),
         },
         thinned_nm: evaporated_nm(&rates, scene.motion.tick_s, ticks),
-        samples: samples(radius_pixels),
+        samples: samples(radius_pixels).max(if bubble.boundary == Boundary::Ring { RING_SAMPLES } else { 1 }),
         // The edge of a hole is no thickness between others.
         filtered: life.hole.is_none() && is_filtered(&film, radius_pixels),
         magnified: is_magnified(&film, radius_m, radius_pixels, centre_m.distance(camera.eye_m)),
         film,
         hole: life.hole,
+        cap: cap(bubble),
     })
 }
 
@@ -281,6 +293,9 @@ fn scheme(motion: &Motion) -> Scheme {
     }
 }
 
+/// Samples along a pixel's side of a film that ends on a ring: its edge is not smoothed otherwise.
+const RING_SAMPLES: u32 = 2;
+
 /// Samples along a pixel's side: bubbles of few pixels need more, for their film and their reflections are finer than a pixel. About as many
 /// rays meet every such bubble, 50 000 to 80 000, a quarter of what a bubble takes that fills a picture of 1280 x 720.
 fn samples(radius_pixels: f64) -> u32 {
@@ -317,6 +332,35 @@ pub(super) fn initial_film(bubble: &Bubble, generation: u32) -> InitialFilm {
     }
 }
 
+/// Where the film of a bubble ends, if anything lies beyond.
+fn cap(bubble: &Bubble) -> Option<Cap> {
+    match bubble.boundary {
+        Boundary::Free | Boundary::Drop => None,
+        Boundary::Bath => Some(Cap::HEMISPHERE),
+        Boundary::Ring => Some(Cap::above(bubble.rim_deg.to_radians())),
+    }
+}
+
+/// What the film of a bubble that was blown after so many others ends at, unless it is free.
+fn film_end(bubble: &Bubble, generation: u32) -> Option<FilmEnd> {
+    let rim_deg = match bubble.boundary {
+        Boundary::Free => return None,
+        Boundary::Bath => 90.0,
+        Boundary::Ring | Boundary::Drop => bubble.rim_deg,
+    };
+    let regeneration = || Regeneration {
+        rim: rim_deg.to_radians(),
+        radius: bubble.patch_mm / bubble.radius_mm,
+        amount: bubble.regeneration,
+        seed: fold_seed(bubble.film.seed.wrapping_add(generation.into())),
+    };
+    Some(FilmEnd {
+        cap: cap(bubble),
+        drop_rad: (bubble.boundary == Boundary::Drop).then(|| (180.0 - rim_deg).to_radians()),
+        regeneration: (bubble.regeneration > 0.0).then(regeneration),
+    })
+}
+
 fn film(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) -> FilmKey {
     let initial = initial_film(bubble, life.generation);
     if let InitialFilm::Uniform { thickness_nm } = initial {
@@ -328,6 +372,7 @@ fn film(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) -> FilmKey {
     let mut key = FieldKey {
         cells: bubble.film.cells,
         initial,
+        end: film_end(bubble, life.generation).map(Box::new),
         tick_s: scene.motion.tick_s,
         scheme: scheme(&scene.motion),
         remap_ticks: scene.motion.remap_ticks,
@@ -489,6 +534,8 @@ fn free_flow(motion: &Motion, radius_m: f64) -> FreeFlow {
             viscosity: 1e-6 * motion.viscosity_mm2_s / radius_m.powi(2),
         },
         diffusion: 1e-6 * motion.diffusion_mm2_s / radius_m.powi(2),
+        // ρ/12μ, for thickness in nm.
+        drainage: 1e-18 * motion.drainage * DENSITY / (12.0 * VISCOSITY),
         draught: motion.strength,
         seed: fold_seed(motion.seed),
     }

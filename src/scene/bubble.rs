@@ -10,6 +10,9 @@ const MIN_FLOWING_NM: f64 = 1.0;
 /// γ = 25 mN/m.
 const ROUND_MM: f64 = 1000.0;
 
+/// Colatitude of the lowest ring, degrees: below, the image of the film beyond its rim is finer than the flow's cells.
+const LOWEST_RING_DEG: f64 = 150.0;
+
 /// A spherical bubble: one `[[bubble]]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -18,13 +21,30 @@ pub struct Bubble {
     pub center_m: [f64; 3],
     /// Radius, mm; 0.1 ..= 5000. Default: 50.
     pub radius_mm: f64,
+    /// What the film ends at. Default: `free`, at nothing.
+    pub boundary: Boundary,
+    /// Colatitude of the rim of a film on a `ring` or that carries a `drop`, degrees; 30 ..= 175, on a ring to 150 at most. That of a film
+    /// on a bath is 90. Default: 120.
+    pub rim_deg: f64,
+    /// Factor on how many thin patches rise from the rim of a film that has one; 0 ..= 10. Default: 1.
+    pub regeneration: f64,
+    /// Radius of these patches, mm; 0.1 ..= 100, at most a quarter of the bubble's where they rise. Default: 3.
+    pub patch_mm: f64,
     /// The film at tick 0.
     pub film: Film,
 }
 
 impl Default for Bubble {
     fn default() -> Self {
-        Self { center_m: [0.0; 3], radius_mm: 50.0, film: Film::default() }
+        Self {
+            center_m: [0.0; 3],
+            radius_mm: 50.0,
+            boundary: Boundary::Free,
+            rim_deg: 120.0,
+            regeneration: 1.0,
+            patch_mm: 3.0,
+            film: Film::default(),
+        }
     }
 }
 
@@ -41,8 +61,33 @@ impl Bubble {
     pub(super) fn check(&self) -> Checked {
         check::all_in_range("center_m", self.center_m, check::POSITION_M)?;
         check::in_range("radius_mm", self.radius_mm, 0.1..=5000.0)?;
+        check::in_range("rim_deg", self.rim_deg, 30.0..=175.0)?;
+        if self.boundary == Boundary::Ring && self.rim_deg > LOWEST_RING_DEG {
+            let reason = format!("is {}; a ring's must be within 30 ..= {LOWEST_RING_DEG}", self.rim_deg);
+            return Err(Fault::new("rim_deg", reason));
+        }
+        check::in_range("regeneration", self.regeneration, 0.0..=10.0)?;
+        check::in_range("patch_mm", self.patch_mm, 0.1..=100.0)?;
+        if self.boundary != Boundary::Free && self.regeneration > 0.0 && self.patch_mm > 0.25 * self.radius_mm {
+            let reason = format!("is {}, which is more than a quarter of the bubble's radius", self.patch_mm);
+            return Err(Fault::new("patch_mm", reason));
+        }
         self.film.check().map_err(|fault| fault.inside("film"))
     }
+}
+
+/// What a film ends at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Boundary {
+    /// Nothing: it is all around.
+    Free,
+    /// A bath of liquid, on which the bubble is a hemisphere.
+    Bath,
+    /// A ring: a cap of film above a circle of latitude.
+    Ring,
+    /// A drop that hangs at its bottom and lets no film through.
+    Drop,
 }
 
 /// The film of a bubble at tick 0: `[bubble.film]`.

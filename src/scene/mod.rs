@@ -18,7 +18,7 @@ mod preset;
 #[cfg(test)]
 mod tests;
 
-pub use bubble::{Bubble, Film, FilmIndexName, FilmStateName};
+pub use bubble::{Boundary, Bubble, Film, FilmIndexName, FilmStateName};
 pub use camera::Camera;
 pub use error::{Problem, SceneError};
 pub use event::{Blow, Change, Drag, Event, MotionChange, Prick, Stir};
@@ -127,7 +127,40 @@ impl Scene {
         self.view.check().map_err(|fault| fault.inside("view"))?;
         self.motion.check().map_err(|fault| fault.inside("motion"))?;
         check::each("event", &self.events, |event| event.check(self.bubbles.len()))?;
+        self.check_boundaries()?;
         self.check_order()
+    }
+
+    /// A bath is one plane that all bubbles stand on, and films that end somewhere do not turn that end away.
+    fn check_boundaries(&self) -> Checked {
+        let mut baths = self.bubbles.iter().filter(|bubble| bubble.boundary == Boundary::Bath);
+        if let Some(first) = baths.next() {
+            let stands = |bubble: &Bubble| (bubble.boundary, bubble.center_m[2]) == (first.boundary, first.center_m[2]);
+            if let Some(other) = self.bubbles.iter().position(|bubble| !stands(bubble)) {
+                let reason = "is not on the bath that others stand on; give all bubbles `boundary = \"bath\"` and the same height";
+                return Err(Fault::new("boundary", reason).inside_item("bubble", other));
+            }
+            let lifts =
+                |event: &Event| matches!(&event.change, Change::Drag(drag) if drag.to_m[2] != first.center_m[2]);
+            if let Some(event) = self.events.iter().position(lifts) {
+                let reason = format!("takes a bubble off its bath; end at its height, {}", first.center_m[2]);
+                return Err(Fault::new("to_m", reason).inside_item("event", event));
+            }
+        }
+        let ends = self.bubbles.iter().any(|bubble| bubble.boundary != Boundary::Free);
+        let turns_over = |motion: &Motion| motion.spin_deg_s[..2] != [0.0; 2];
+        let ticks = std::iter::once(0).chain(self.events.iter().map(|event| event.tick));
+        if ends && ticks.clone().map(|tick| self.motion_at(tick)).any(|motion| turns_over(&motion)) {
+            let reason =
+                "turns films that have a rim over; only a turn about the vertical, [0, 0, z], leaves it in place";
+            return Err(Fault::new("spin_deg_s", reason).inside("motion"));
+        }
+        let prescribed = |motion: &Motion| !matches!(motion.flow, Flow::Free | Flow::Rest);
+        if ends && ticks.map(|tick| self.motion_at(tick)).any(|motion| prescribed(&motion)) {
+            let reason = "would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone";
+            return Err(Fault::new("flow", reason).inside("motion"));
+        }
+        Ok(())
     }
 
     fn check_order(&self) -> Checked {

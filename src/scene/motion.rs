@@ -26,6 +26,8 @@ pub struct Motion {
     pub viscosity_mm2_s: f64,
     /// How fast differences of thickness spread within the film, mm²/s; 0 ..= 1000. Default: 0.5.
     pub diffusion_mm2_s: f64,
+    /// Factor on the drainage of a free film between surfaces that do not move, which takes hours at 1; 0 ..= 10000. Default: 0.
+    pub drainage: f64,
     /// Turn of all films as a whole, degrees a second about the three axes of the world; -3600 ..= 3600. Default: [0, 0, 0].
     pub spin_deg_s: [f64; 3],
     /// What evaporates from the whole film, nm of thickness a second, down to 10 nm of black film; 0 ..= 1000. Default: 0.
@@ -61,6 +63,7 @@ impl Default for Motion {
             air_drag: 0.0,
             viscosity_mm2_s: 100.0,
             diffusion_mm2_s: 0.5,
+            drainage: 0.0,
             spin_deg_s: [0.0; 3],
             evaporation_nm_s: 0.0,
             humidity: 1.0,
@@ -91,6 +94,7 @@ impl Motion {
         check::in_range("air_drag", self.air_drag, 0.0..=10.0)?;
         check::in_range("viscosity_mm2_s", self.viscosity_mm2_s, 0.0..=1e6)?;
         check::in_range("diffusion_mm2_s", self.diffusion_mm2_s, 0.0..=1000.0)?;
+        check::in_range("drainage", self.drainage, 0.0..=1e4)?;
         check::in_range("remap_ticks", self.remap_ticks, 1..=1000)?;
         check::in_range("speed", self.speed, 0.01..=100.0)
     }

@@ -8,7 +8,7 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 20] = presets![
+const PRESETS: [(&str, &str); 23] = presets![
     "default",
     "fresh",
     "bands",
@@ -17,6 +17,9 @@ const PRESETS: [(&str, &str); 20] = presets![
     "bursting",
     "stirred",
     "glycerol",
+    "bath",
+    "ring",
+    "drop",
     "weightless",
     "giant",
     "windows",

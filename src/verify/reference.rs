@@ -66,13 +66,14 @@ fn radiance_in(
         size: key.size,
         camera: camera(&key.camera),
         optics: &optics,
-        spheres: key.bubbles.iter().map(|bubble| sphere(bubble, films)).collect::<Result<_, _>>()?,
+        spheres: key.bubbles.iter().map(|bubble| sphere(bubble, key.on_bath, films)).collect::<Result<_, _>>()?,
         surroundings: &surroundings,
         backdrop: match light.backdrop {
             BackdropKey::Environment => None,
             BackdropKey::Colour(radiance) => Some(radiance),
         },
         polariser: light.polariser,
+        on_bath: key.on_bath,
         samples: key.bubbles.iter().map(|bubble| bubble.samples).fold(SAMPLES, u32::max),
     };
     Ok(scene.radiance(progress))
@@ -99,7 +100,7 @@ fn turned(light: &LightKey, direction: DVec3) -> DVec3 {
     DVec3::new(cos * direction.x + sin * direction.y, cos * direction.y - sin * direction.x, direction.z)
 }
 
-fn sphere<'a>(key: &BubbleKey, films: &'a MovedFilms) -> Result<FilmSphere<'a>, ReferenceError> {
+fn sphere<'a>(key: &BubbleKey, on_bath: bool, films: &'a MovedFilms) -> Result<FilmSphere<'a>, ReferenceError> {
     let field: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match &key.film {
         FilmKey::Field(_) if needs_device(key) => {
             let film = films.get(&key.index).ok_or(ReferenceError::NotMoved(key.index))?;
@@ -115,8 +116,13 @@ fn sphere<'a>(key: &BubbleKey, films: &'a MovedFilms) -> Result<FilmSphere<'a>, 
             Box::new(move |direction| film.value(direction))
         }
     };
-    let (to_film, thinned_nm) = (key.to_film, key.thinned_nm);
+    let (to_film, thinned_nm, cap) = (key.to_film, key.thinned_nm, key.cap);
     let film_nm = move |direction: DVec3| {
+        let direction = match cap {
+            Some(cap) if on_bath => cap.folded(direction),
+            Some(cap) if !cap.contains(direction) => return 0.0,
+            _ => direction,
+        };
         let thickness_nm = field(direction);
         (thickness_nm - thinned_nm).max(thickness_nm.min(BLACK_FILM_NM))
     };

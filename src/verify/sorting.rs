@@ -140,6 +140,8 @@ impl Sorting {
             remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: 120 },
             map_coarsening: self.map_coarsening,
             coarse_flow: true,
+            cap: None,
+            drop_rad: None,
         }
     }
 }

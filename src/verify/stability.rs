@@ -233,6 +233,8 @@ fn field(run: &Run<'_>, cells: usize, initial: impl Fn(DVec3) -> f64 + Sync) -> 
         remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: 20 },
         map_coarsening: 1,
         coarse_flow: true,
+        cap: None,
+        drop_rad: None,
     };
     let mut field = Field::new(run.gpu, sphere, rules)?;
     let mut recorder = Recorder::new(run.gpu);

@@ -12,9 +12,13 @@ use soapfilm::{
         conserve::ConserveUniform,
         decide_remap::DecideUniform,
         diffuse::DiffuseUniform,
+        drain::{DrainUniform, PatchValue},
         draw::{BubbleUniform, LightUniform, ViewUniform},
         film::{BalanceBlock, ControlBlock, GustsUniform, PushesUniform, RemapArguments, ThicknessUniform},
-        flow::{CoarseLevel, CoarseUniform, CombineUniform, FlowMeasures, FlowUniform, SolveUniform},
+        flow::{
+            CoarseLevel, CoarseUniform, CombineUniform, FlowMeasures, FlowUniform, HoldUniform, ImageUniform,
+            SolveUniform,
+        },
         open_hole::{OpenHoleUniform, RimValue},
         probe_colour::ProbePoint,
         sample_tracer::SampleUniform,
@@ -59,7 +63,7 @@ fn picture_mirrors() -> Vec<Mirror> {
         } },
         mirror! { Bubble = BubbleUniform {
             centre_m, radius_m, inner, outer, thickness_nm, cells, tracer_cells, thinned_nm, to_film,
-            stretch, unstretch, black_nm, extra_nm, skins_nm, map_cells
+            stretch, unstretch, black_nm, extra_nm, skins_nm, map_cells, rim_z
         } },
         mirror! { TableAxes = TableAxes { size, max_thickness_nm, index } },
         mirror! { Bake = BakeUniform { axes, first_row } },
@@ -78,18 +82,23 @@ fn picture_mirrors() -> Vec<Mirror> {
 /// What moves a film.
 fn film_mirrors() -> Vec<Mirror> {
     vec![
+        mirror! { Patch = PatchValue { middle_thickness, age } },
+        mirror! { Drain = DrainUniform {
+            gravity, flux, cells, thinned_level_nm, black_nm, drop_cos, rim_z, inversion, patch_radius,
+            patches_count, patches
+        } },
         mirror! { Compose = ComposeUniform { cells, step_cells } },
-        mirror! { Sample = SampleUniform { cells, map_cells, tracer_cells } },
+        mirror! { Sample = SampleUniform { cells, map_cells, tracer_cells, rim_z, inversion } },
         mirror! { Blacken = BlackenUniform { cells, level_nm, thinned_level_nm, black_nm, onset_nm, rate } },
-        mirror! { Conserve = ConserveUniform { cells, parts, mean, mean_rest, low, high, bounded, level } },
+        mirror! { Conserve = ConserveUniform { cells, parts, mean, mean_rest, low, high, bounded, level, film_area } },
         mirror! { Decide = DecideUniform {
             cells, cell_angle, error_limit, ticks, latest_ticks, tracer_groups, sum_groups, map_groups
         } },
         mirror! { Arguments = RemapArguments { tracer_groups, sum_groups, one_group, map_groups } },
-        mirror! { Control = ControlBlock { ticks_since_remap, remaps, distortion, healed, ticks_remapped, spared_nm } },
+        mirror! { Control = ControlBlock { ticks_since_remap, remaps, distortion, healed, ticks_remapped, spared_nm, drained_nm } },
         mirror! { Balance = BalanceBlock { offset, slope, level } },
         mirror! { Diffuse = DiffuseUniform { cells, stage, rate, most, before, earlier } },
-        mirror! { Thickness = ThicknessUniform { cells, map_cells, tracer_cells, reference_nm, offset_nm, level_nm, black_nm } },
+        mirror! { Thickness = ThicknessUniform { cells, map_cells, tracer_cells, reference_nm, offset_nm, level_nm, black_nm, rim_z, inversion } },
         mirror! { Step = StepUniform {
             frame, moments, turn_rad_s, dt_s, cells, waves_count, vortices_count, waves, vortices
         } },
@@ -103,6 +112,8 @@ fn film_mirrors() -> Vec<Mirror> {
 /// What solves its flow, and what drives it.
 fn flow_mirrors() -> Vec<Mirror> {
     vec![
+        mirror! { Hold = HoldUniform { cells, rim, inner } },
+        mirror! { Image = ImageUniform { rim_z, inversion, cells } },
         mirror! { Flow = FlowUniform { gravity, dt_s, drag, air_drag, min_air_speed, cell_angle, cells } },
         mirror! { Measures = FlowMeasures { zeta_mean, guess_mean, max_speed, unusable } },
         mirror! { Combine = CombineUniform { first, second, mean } },

@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod boundaries;
 mod bursting;
 mod far;
 mod flow;

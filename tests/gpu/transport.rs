@@ -31,6 +31,8 @@ const RULES: Rules = Rules {
     remap: remap(20),
     map_coarsening: 1,
     coarse_flow: true,
+    cap: None,
+    drop_rad: None,
 };
 
 const fn remap(latest_ticks: u32) -> RemapRule {

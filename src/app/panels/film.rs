@@ -5,13 +5,20 @@ use egui::Ui;
 use super::widgets::{choice, group, seed, slider};
 use crate::{
     app::model::Model,
-    scene::{Film, FilmIndexName, FilmStateName},
+    scene::{Boundary, Bubble, Film, FilmIndexName, FilmStateName},
 };
 
 const STATES: [(FilmStateName, &str, &str); 3] = [
     (FilmStateName::Uniform, "uniform", "One thickness everywhere; nothing flows"),
     (FilmStateName::Rest, "rest", "Sorted by gravity: thin above, thick below"),
     (FilmStateName::Blown, "blown", "Freshly blown: random patches, not yet sorted"),
+];
+
+const BOUNDARIES: [(Boundary, &str, &str); 4] = [
+    (Boundary::Free, "free", "A whole bubble in the air"),
+    (Boundary::Bath, "bath", "Half a bubble that stands on water"),
+    (Boundary::Ring, "ring", "A dome of film on a ring, open below"),
+    (Boundary::Drop, "drop", "A whole bubble with a drop hanging at its bottom"),
 ];
 
 /// Cells along a panel's edge that the panel offers.
@@ -38,9 +45,36 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     slider(ui, "Radius", &mut bubble.radius_mm, 0.1..=5000.0, "Radius of the bubble", |slider| {
         slider.logarithmic(true).suffix(" mm").max_decimals(1)
     });
-    let mut film = bubble.film.clone();
+    let (mut film, mut ended) = (bubble.film.clone(), bubble.clone());
+    end(ui, &mut ended);
     edit(ui, &mut film);
     model.change_film(model.selected, film);
+    let Bubble { boundary, rim_deg, regeneration, patch_mm, .. } = ended;
+    model.change_end(model.selected, |bubble| {
+        (bubble.boundary, bubble.rim_deg) = (boundary, rim_deg);
+        (bubble.regeneration, bubble.patch_mm) = (regeneration, patch_mm);
+    });
+}
+
+/// What the film ends at, and what comes from there.
+fn end(ui: &mut Ui, bubble: &mut Bubble) {
+    choice(ui, "Boundary", &mut bubble.boundary, &BOUNDARIES);
+    if bubble.boundary == Boundary::Free {
+        return;
+    }
+    if bubble.boundary != Boundary::Bath {
+        let lowest = if bubble.boundary == Boundary::Ring { 150.0 } else { 175.0 };
+        bubble.rim_deg = bubble.rim_deg.min(lowest);
+        let help = "Where the film ends: the angle from the top";
+        slider(ui, "Rim", &mut bubble.rim_deg, 30.0..=lowest, help, |slider| slider.suffix("°").max_decimals(0));
+    }
+    let help = "How many thin patches rise from the rim";
+    slider(ui, "Regeneration", &mut bubble.regeneration, 0.0..=10.0, help, |slider| slider.max_decimals(1));
+    let most_mm = 0.25 * bubble.radius_mm.clamp(0.4, 400.0);
+    bubble.patch_mm = bubble.patch_mm.min(most_mm);
+    slider(ui, "Patches", &mut bubble.patch_mm, 0.1..=most_mm, "Radius of these patches", |slider| {
+        slider.logarithmic(true).suffix(" mm").max_decimals(1)
+    });
 }
 
 fn edit(ui: &mut Ui, film: &mut Film) {

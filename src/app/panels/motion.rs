@@ -40,6 +40,10 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     slider(ui, "Speed", speed, 0.01..=100.0, "Film time that passes in a second", |slider| {
         slider.logarithmic(true).suffix("x").max_decimals(2)
     });
+    let help = "Factor on drainage between surfaces that do not move, which takes hours at 1";
+    slider(ui, "Drainage", &mut model.scene.motion.drainage, 0.0..=1e4, help, |slider| {
+        slider.logarithmic(true).smallest_positive(1.0).max_decimals(0)
+    });
     choice(ui, "Scheme", &mut model.scene.motion.scheme, &SCHEMES);
     events(ui, model);
 }

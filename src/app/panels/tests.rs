@@ -9,7 +9,7 @@ use crate::{
         model::{Model, Request, Target, tests::model},
         tools::Tool,
     },
-    scene::{Backdrop, Change, FilmStateName, Flow, Scene, TransportScheme},
+    scene::{Backdrop, Boundary, Change, FilmStateName, Flow, Scene, TransportScheme},
 };
 
 struct State {
@@ -43,6 +43,22 @@ fn click(window: &mut Harness<'static, State>, name: &str) {
 fn set_slider(window: &mut Harness<'static, State>, name: &str, value: f64) {
     window.get_by_role_and_label(Role::Slider, name).set_value_accesskit(value);
     window.run();
+}
+
+#[test]
+fn films_end_where_the_panel_says_and_only_where_they_can() {
+    let mut window = window();
+    window.get_by_label("bath").click();
+    window.run();
+    let model = &window.state().model;
+    assert_eq!((model.scene.bubbles[0].boundary, model.clock.tick), (Boundary::Bath, 0));
+    set_slider(&mut window, "Regeneration", 4.0);
+    assert_eq!(window.state().model.scene.bubbles[0].regeneration, 4.0);
+    window.get_by_label("stirred").click();
+    window.run();
+    let model = &mut window.state_mut().model;
+    assert_ne!(model.motion().flow, Flow::Stirred, "no prescribed flow keeps within a rim");
+    assert!(model.messages.at(0.0).iter().any(|message| message.text.contains("across a rim")));
 }
 
 #[test]

@@ -22,6 +22,8 @@ pub struct ControlBlock {
     pub ticks_remapped: u32,
     /// What evaporation has left in black film, at which it ends, as a mean over the sphere in nm.
     pub spared_nm: f32,
+    /// What has left the film at its rim, as a mean over the film in nm.
+    pub drained_nm: f32,
 }
 
 /// See `shaders/film/control.wgsl`.

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{
     super::{Gpu, GpuError, flow::FlowSolver, pipelines::ComputeKey, timing::Recorder, trace_step::Step},
-    Field,
+    Field, rim_numbers,
 };
 use crate::physics::{
     film::{FrozenFlow, FrozenPush, FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Push},
@@ -29,6 +29,10 @@ pub struct ThicknessUniform {
     pub level_nm: f32,
     /// Thickness at which evaporation ends, less the reference, nm.
     pub black_nm: f32,
+    /// Height of the rim that the film ends at.
+    pub rim_z: f32,
+    /// The inversion in it.
+    pub inversion: f32,
 }
 
 /// See `shaders/pass/flow_gusts.wgsl`.
@@ -104,7 +108,10 @@ impl FreeMotion {
 
     /// A flow whose state is yet to come.
     pub(super) fn empty(gpu: &Gpu, field: &Field) -> Self {
-        Self { solver: FlowSolver::new(gpu, field.flow_grid().cells) }
+        let mut solver = FlowSolver::new(gpu, field.flow_grid().cells);
+        solver.end_at(gpu, field.rules.cap);
+        solver.hold(gpu, field.rules.drop_rad);
+        Self { solver }
     }
 
     /// The flow.
@@ -141,6 +148,7 @@ impl FreeMotion {
     fn feel(&self, recorder: &mut Recorder<'_>, field: &Field, around: &Surroundings<'_>) -> Result<(), GpuError> {
         let flow = field.flow_grid();
         let (level_nm, reference_nm) = (f64::from(field.level), around.reference_nm());
+        let [rim_z, inversion] = rim_numbers(field.rules.cap);
         let uniform = ThicknessUniform {
             cells: flow.cells,
             map_cells: field.map_grid().cells,
@@ -149,6 +157,8 @@ impl FreeMotion {
             offset_nm: (level_nm - around.thinned_nm - reference_nm) as f32,
             level_nm: (level_nm - reference_nm) as f32,
             black_nm: (around.black_nm - reference_nm) as f32,
+            rim_z,
+            inversion,
         };
         let uniform = recorder.gpu.uniform("flow thickness", &uniform);
         let map = field.kept_map();
@@ -162,7 +172,12 @@ impl FreeMotion {
             self.solver.log_thickness(),
         ];
         // Cubic and limited: a thickness must stay positive, and the flow's cells are too wide for more.
-        let constants = vec![("HAS_MAP", u32::from(map.is_some())), ("TAPS", 4), ("LIMITER", 1)];
+        let constants = vec![
+            ("HAS_MAP", u32::from(map.is_some())),
+            ("HAS_RIM", u32::from(field.rules.cap.is_some())),
+            ("TAPS", 4),
+            ("LIMITER", 1),
+        ];
         let key = ComputeKey { pass: "flow_thickness", entry: "flow_thickness", constants };
         recorder.compute("step_flow", &key, &bound.map(wgpu::Buffer::as_entire_binding), flow.cell_groups().into())
     }

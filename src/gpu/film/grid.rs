@@ -3,7 +3,17 @@
 use std::sync::OnceLock;
 
 use super::super::{Gpu, flow::halo_entries};
-use crate::physics::sphere::{CubedSphere, HALO};
+use crate::physics::{
+    film::Cap,
+    sphere::{CubedSphere, HALO},
+};
+
+/// What passes know of a cap, see `shaders/sphere/cap.wgsl`: the height of the rim and the inversion. All directions are above the rim of a
+/// film that has none.
+#[must_use]
+pub fn rim_numbers(cap: Option<Cap>) -> [f32; 2] {
+    cap.map_or([-2.0, 1.0], |cap| [cap.rim_z as f32, cap.inversion as f32])
+}
 
 /// A grid and the tables of it that passes read.
 pub struct Grid {
@@ -13,16 +23,27 @@ pub struct Grid {
     pub cells: u32,
     /// tan(α) of each cell coordinate of an edge, halo included.
     pub tangents: wgpu::Buffer,
-    /// Solid angles of a panel's cells.
+    /// Solid angles of a panel's cells; of all panels' where the film has a rim, beyond which there is none.
     pub areas: wgpu::Buffer,
     halo: OnceLock<wgpu::Buffer>,
+    /// Solid angle of the film.
+    pub film_area: f64,
 }
 
 impl Grid {
-    pub(super) fn new(gpu: &Gpu, sphere: CubedSphere) -> Self {
+    pub(super) fn new(gpu: &Gpu, sphere: CubedSphere, cap: Option<Cap>) -> Self {
         let n = sphere.n();
-        let areas: Vec<f32> = (0..n * n).map(|cell| sphere.cell_area(cell % n, cell / n) as f32).collect();
+        let (areas, film_area) = match cap {
+            None => ((0..n * n).map(|cell| sphere.cell_area(cell % n, cell / n)).collect(), 4.0 * std::f64::consts::PI),
+            Some(cap) => {
+                let areas = film_areas(sphere, cap);
+                let sum = areas.iter().sum();
+                (areas, sum)
+            }
+        };
+        let areas: Vec<f32> = areas.into_iter().map(|area| area as f32).collect();
         Self {
+            film_area,
             sphere,
             cells: n as u32,
             tangents: gpu.storage("tangents", &sphere.edge_tangents()),
@@ -59,6 +80,13 @@ impl Grid {
     pub fn cell_groups(&self) -> [u32; 3] {
         [self.cells.div_ceil(64), self.cells, 6]
     }
+}
+
+/// Solid angles of film in all cells, in the grid's order.
+#[must_use]
+pub fn film_areas(sphere: CubedSphere, cap: Cap) -> Vec<f64> {
+    let part = |cell| cap.part_of_cell(sphere.cell_direction(cell), sphere.cell_angle());
+    sphere.areas().iter().enumerate().map(|(cell, area)| area * part(cell)).collect()
 }
 
 /// What pictures read of a film: a layer a panel, halo included.

@@ -21,7 +21,7 @@ mod rest;
 
 pub use control::{BalanceBlock, Control, ControlBlock, RemapArguments};
 pub use free::{FreeMotion, GustsUniform, PushesUniform, Surroundings, ThicknessUniform};
-pub use grid::{FilmTexture, Grid};
+pub use grid::{FilmTexture, Grid, film_areas, rim_numbers};
 pub use moving::{LawInForce, MovingFilm, rules};
 
 use rayon::prelude::*;
@@ -30,10 +30,11 @@ use super::{
     Gpu, GpuError,
     blacken::{BlackFilm, BlackeningLaw},
     compose_map::{Composition, compose_map},
-    conserve::{Sum, Target, conserve, count_spared, parts},
+    conserve::{Sum, Target, conserve, count_drained, count_spared, parts},
     correct_error::correct_error,
     decide_remap::{RemapRule, decide_remap},
     diffuse::Diffusion,
+    drain::DrainLaw,
     read_film::read_film,
     readback::Readback,
     reset_map::reset_map,
@@ -43,7 +44,7 @@ use super::{
     timing::{Groups, Recorder},
     trace_step::{Step, trace_step},
 };
-use crate::physics::{sphere::CubedSphere, transport::Scheme};
+use crate::physics::{film::Cap, sphere::CubedSphere, transport::Scheme};
 
 /// Name of the passes that move a film.
 const STEP: &str = "step_field";
@@ -67,6 +68,10 @@ pub struct Rules {
     pub map_coarsening: u32,
     /// Whether steps may be traced on a coarser grid, as smooth flows may.
     pub coarse_flow: bool,
+    /// Where the film ends, if anywhere. Beyond stands its image, which nothing shows or counts.
+    pub cap: Option<Cap>,
+    /// Angular radius of the drop at its bottom, if there is one, radians.
+    pub drop_rad: Option<f64>,
 }
 
 impl Rules {
@@ -112,6 +117,8 @@ pub struct Field {
     diffusion: Option<Diffusion>,
     /// What makes thin film black at remaps, if any is thin enough.
     black: Option<BlackFilm>,
+    /// How film leaves at its rim at remaps, if it does, and the longest time between two of them, ticks.
+    drain: Option<(DrainLaw, u32)>,
 }
 
 /// What [`Field::plant`] spoils.
@@ -182,11 +189,12 @@ impl Field {
     /// An empty field. Fails where the scheme's tracer would be too fine.
     pub fn new(gpu: &Gpu, sphere: CubedSphere, rules: Rules) -> Result<Self, GpuError> {
         let tracer = rules.scheme.tracer_grid(sphere).map_err(|error| GpuError::Refused(error.to_string()))?;
-        let film = Grid::new(gpu, sphere);
-        let fine = (tracer != sphere).then(|| Grid::new(gpu, tracer));
+        let grid = |sphere| Grid::new(gpu, sphere, rules.cap);
+        let film = grid(sphere);
+        let fine = (tracer != sphere).then(|| grid(tracer));
         let map_sphere = CubedSphere::new(sphere.n().div_ceil(rules.map_coarsening.max(1) as usize));
-        let smooth = map_sphere.ok().filter(|map| *map != sphere).map(|map| Grid::new(gpu, map));
-        let coarse = flow_sphere(sphere).filter(|_| rules.coarse_flow).map(|sphere| Grid::new(gpu, sphere));
+        let smooth = map_sphere.ok().filter(|map| *map != sphere).map(grid);
+        let coarse = flow_sphere(sphere).filter(|_| rules.coarse_flow).map(grid);
         let scalars = |label| fine.as_ref().unwrap_or(&film).field(gpu, label, 4);
         Ok(Self {
             step_map: coarse.as_ref().unwrap_or(&film).field(gpu, "step map", 16),
@@ -204,6 +212,7 @@ impl Field {
             targets: [Target::default(); 2],
             diffusion: None,
             black: None,
+            drain: None,
             rules,
             film,
             fine,
@@ -212,7 +221,7 @@ impl Field {
         })
     }
 
-    /// Its mean over the sphere, which is kept.
+    /// Its mean over the film, which is kept.
     #[must_use]
     pub fn mean(&self) -> f64 {
         f64::from(self.level) + self.targets[0].mean
@@ -251,13 +260,27 @@ impl Field {
         }
     }
 
+    /// From now on film leaves by a law, at remaps which are so many ticks apart at most; or not at all. Schemes without a map lose none.
+    pub fn drain(&mut self, law: Option<(DrainLaw, u32)>) {
+        if law.is_some() {
+            // The film does not stay as thick, or as thin, as it was seeded.
+            self.targets.iter_mut().for_each(|target| target.bounds = None);
+        }
+        self.drain = law;
+    }
+
     /// When the map is remapped.
     fn remap_rule(&self) -> RemapRule {
         let latest_ticks = self.diffusion.as_ref().map_or(u32::MAX, Diffusion::latest_ticks);
         // Errors count in cells of the film, whatever those of the map.
         RemapRule {
             error_limit_cells: self.rules.remap.error_limit_cells / self.rules.map_coarsening.max(1) as f32,
-            latest_ticks: self.rules.remap.latest_ticks.min(latest_ticks),
+            latest_ticks: self
+                .drain
+                .as_ref()
+                .map_or(u32::MAX, |(_, most)| *most)
+                .min(self.rules.remap.latest_ticks)
+                .min(latest_ticks),
         }
     }
 
@@ -275,13 +298,13 @@ impl Field {
         recorder: &mut Recorder<'_>,
         value: impl Fn(glam::DVec3) -> f64 + Sync,
     ) -> Result<(), GpuError> {
-        let gpu = recorder.gpu;
+        let (gpu, cap) = (recorder.gpu, self.rules.cap);
         // A density in a wind that diverges is multiplied on the way, as departures must not be.
         let has_level = self.rules.gathered != Gathered::LogArea;
-        self.level = if has_level { mean_of(self.film.sphere, &value) as f32 } else { 0.0 };
+        self.level = if has_level { mean_of(self.film.sphere, cap, &value) as f32 } else { 0.0 };
         let departure = |direction| value(direction) - f64::from(self.level);
-        let film = Seeded::new(self.film.sphere, &departure);
-        let tracer = self.fine.as_ref().map(|grid| Seeded::new(grid.sphere, &departure));
+        let film = Seeded::new(self.film.sphere, cap, &departure);
+        let tracer = self.fine.as_ref().map(|grid| Seeded::new(grid.sphere, cap, &departure));
         let tracer = tracer.as_ref().unwrap_or(&film);
         gpu.upload(&self.tracer, &tracer.values);
         self.targets = [(&film, self.level), (tracer, 0.0)].map(|(seeded, level)| {
@@ -289,7 +312,7 @@ impl Field {
             Target { mean: seeded.mean, bounds, level }
         });
         self.control.reset(gpu, self.level);
-        self.black = None;
+        (self.black, self.drain) = (None, None);
         self.has_moved = false;
         self.ticks_since_decision = 0;
         self.diffusion = None;
@@ -357,10 +380,28 @@ impl Field {
             diffusion.record(recorder, self.tracer_grid(), &self.control, &self.sampled, &self.tracer)?;
         }
         self.settle(recorder, [due.sum_groups(), due.one_group(), due.tracer_groups()])?;
+        if let Some((law, _)) = &self.drain {
+            self.lose(recorder, law)?;
+        }
         if let Some(black) = &self.black {
             self.blacken(recorder, black)?;
         }
         reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())
+    }
+
+    /// Lets film leave at the rim, and counts it.
+    fn lose(&self, recorder: &mut Recorder<'_>, law: &DrainLaw) -> Result<(), GpuError> {
+        let (grid, due) = (self.tracer_grid(), &self.control);
+        law.record(recorder, (grid, self.rules.cap, self.level), due, [&self.tracer, &self.sampled])?;
+        let sum = Sum {
+            grid,
+            field: &self.sampled,
+            partial_sums: &due.partial_sums,
+            balance: &due.tracer_balance,
+            control: &due.block,
+        };
+        count_drained(recorder, STEP, self.targets[1], &sum, [due.sum_groups(), due.one_group()])?;
+        self.settle(recorder, [due.sum_groups(), due.one_group(), due.tracer_groups()])
     }
 
     /// Lets thin film collapse to black film: evaporation has ended where it is black, and what collapsing film loses goes to the film
@@ -422,11 +463,12 @@ impl Field {
         [from, to]: [&wgpu::Buffer; 2],
         groups: Groups<'_>,
     ) -> Result<(), GpuError> {
-        let Rules { scheme, limiter, gathered, .. } = self.rules;
+        let Rules { scheme, limiter, gathered, cap, .. } = self.rules;
         let sampling = Sampling {
             scheme,
             limiter,
             gathered,
+            cap,
             grid,
             map,
             map_cells: self.map_grid().cells,
@@ -503,11 +545,19 @@ impl Field {
 }
 
 /// Mean of a function over a grid's cells; 0 where it is no number.
-fn mean_of(sphere: CubedSphere, value: &(impl Fn(glam::DVec3) -> f64 + Sync)) -> f64 {
-    let weighted =
-        sphere.areas().into_par_iter().enumerate().map(|(cell, area)| area * value(sphere.cell_direction(cell)));
+fn mean_of(sphere: CubedSphere, cap: Option<Cap>, value: &(impl Fn(glam::DVec3) -> f64 + Sync)) -> f64 {
+    let (areas, film_area) = areas_of(sphere, cap);
+    let weighted = areas.into_par_iter().enumerate().map(|(cell, area)| area * value(sphere.cell_direction(cell)));
     let sum: f64 = weighted.collect::<Vec<_>>().into_iter().sum();
-    if sum.is_finite() { sum / (4.0 * std::f64::consts::PI) } else { 0.0 }
+    if sum.is_finite() { sum / film_area } else { 0.0 }
+}
+
+/// Solid angles of film in all cells, and of the film.
+fn areas_of(sphere: CubedSphere, cap: Option<Cap>) -> (Vec<f64>, f64) {
+    let Some(cap) = cap else { return (sphere.areas(), 4.0 * std::f64::consts::PI) };
+    let areas = film_areas(sphere, cap);
+    let sum = areas.iter().sum();
+    (areas, sum)
 }
 
 /// A function's values by padded index, and what must be kept of them.
@@ -518,18 +568,19 @@ struct Seeded {
 }
 
 impl Seeded {
-    fn new(sphere: CubedSphere, value: &(impl Fn(glam::DVec3) -> f64 + Sync)) -> Self {
+    fn new(sphere: CubedSphere, cap: Option<Cap>, value: &(impl Fn(glam::DVec3) -> f64 + Sync)) -> Self {
+        let folded = |x| cap.map_or(x, |cap| cap.folded(x));
         let values: Vec<f32> = (0..sphere.padded_len())
             .into_par_iter()
-            .map(|index| value(sphere.padded_direction(index)) as f32)
+            .map(|index| value(folded(sphere.padded_direction(index))) as f32)
             .collect();
         let place = |cell: usize| {
             let (panel, i, j) = sphere.cell(cell);
             sphere.padded_index(panel, i as isize, j as isize)
         };
-        let mass: f64 =
-            sphere.areas().iter().enumerate().map(|(cell, area)| area * f64::from(values[place(cell)])).sum();
+        let (areas, film_area) = areas_of(sphere, cap);
+        let mass: f64 = areas.iter().enumerate().map(|(cell, area)| area * f64::from(values[place(cell)])).sum();
         let range = values.iter().fold([f32::MAX, f32::MIN], |[low, high], v| [low.min(*v), high.max(*v)]);
-        Self { mean: mass / (4.0 * std::f64::consts::PI), range, values }
+        Self { mean: mass / film_area, range, values }
     }
 }

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::{
     super::{
-        Gpu, GpuError, blacken::BlackeningLaw, decide_remap::RemapRule, flow::FlowSolver, sample_tracer::Gathered,
-        timing::Recorder, trace_step::Step,
+        Gpu, GpuError, blacken::BlackeningLaw, decide_remap::RemapRule, drain::DrainLaw, flow::FlowSolver,
+        sample_tracer::Gathered, timing::Recorder, trace_step::Step,
     },
     Field, FreeMotion, Rules, Surroundings,
     checkpoint::Checkpoint,
@@ -14,7 +14,7 @@ use super::{
 use crate::{
     physics::{
         film::{
-            InitialFilm, PrescribedFlow,
+            InitialFilm, Patch, PrescribedFlow,
             properties::{BLACK_FILM_COLLAPSE, BLACK_FILM_ONSET},
         },
         flow::FlowForces,
@@ -132,6 +132,7 @@ impl MovingFilm {
         let end = tick as f64 + f64::from(ticks);
         field.diffuse(recorder.gpu, free.diffusion, key.tick_s);
         field.collapse(recorder.gpu, key.has_black_film(end).then(|| blackening(key, end)));
+        field.drain(draining(key, free, end));
         let motion = match motion {
             Some(motion) => motion,
             None => motion.insert(FreeMotion::new(recorder, field)?),
@@ -193,7 +194,36 @@ pub fn rules(key: &FieldKey) -> Rules {
         remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: key.remap_ticks },
         map_coarsening: if key.cells < FINE_CELLS { 1 } else { 2 },
         coarse_flow: true,
+        cap: key.cap(),
+        drop_rad: key.end.as_ref().and_then(|end| end.drop_rad),
     }
+}
+
+/// The longest time between two remaps of a film that regenerates: patches are seen when they have risen by a part of their size.
+const REGENERATION_S: f64 = 0.1;
+/// Angle from the lowest point of a film within which what drains is in the drop, where nothing else says how large that is: 5°.
+const DROP_RAD: f64 = 0.0873;
+
+/// How film leaves at its rim until a time in ticks, if it does, and how often it must.
+fn draining(key: &FieldKey, free: &FreeFlow, ticks: f64) -> Option<(DrainLaw, u32)> {
+    if key.regeneration().is_none() && free.drainage == 0.0 {
+        return None;
+    }
+    let most = key.regeneration().map_or(f64::from(key.remap_ticks), |_| REGENERATION_S / key.tick_s).max(1.0);
+    // A remap that is due comes with a step's end.
+    let window = most + free.ticks_a_step(key.tick_s) as f64;
+    let patches = key.patches_during(ticks - window, ticks);
+    let aged = |patch: Patch| (patch.middle, patch.thickness, (ticks - patch.time_s / key.tick_s).max(0.0) as u32);
+    let law = DrainLaw {
+        gravity: free.forces.gravity,
+        flux: free.drainage * key.tick_s,
+        thinned_nm: key.thinned_nm(ticks),
+        black_nm: BLACK_FILM_NM,
+        drop_rad: if key.cap().is_some() { 0.0 } else { rules(key).drop_rad.unwrap_or(DROP_RAD) },
+        patch_radius: key.regeneration().map_or(1.0, |regeneration| regeneration.radius),
+        patches: patches.into_iter().map(aged).collect(),
+    };
+    Some((law, most as u32))
 }
 
 /// How the film collapses at a time in ticks.

@@ -2,17 +2,24 @@
 //! [`physics::flow`](crate::physics::flow), for the equations and the order of a step.
 
 mod checkpoint;
+mod hold;
+mod image;
 mod multigrid;
 
 use bytemuck::{Pod, Zeroable};
 
 pub use checkpoint::FlowCheckpoint;
+use hold::FlowHold;
+pub use hold::HoldUniform;
+use image::FlowImage;
+pub use image::ImageUniform;
 pub(super) use multigrid::halo_entries;
 pub use multigrid::{CoarseLevel, CoarseUniform, SolveUniform};
 use multigrid::{Multigrid, System};
 
 use super::{Gpu, GpuError, pipelines::ComputeKey, timing::Recorder};
 use crate::physics::{
+    film::Cap,
     flow::{BACKTRACE_ITERATIONS, FlowForces, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES},
     sphere::CubedSphere,
 };
@@ -110,6 +117,10 @@ impl FlowGrid {
 pub struct FlowSolver {
     grid: FlowGrid,
     multigrid: Multigrid,
+    /// What stands for the film beyond a rim, if it has one.
+    image: Option<FlowImage>,
+    /// What holds the film at its bottom, if anything does.
+    drop: Option<FlowHold>,
     zeta: wgpu::Buffer,
     log_thickness: wgpu::Buffer,
     forcing: wgpu::Buffer,
@@ -153,6 +164,8 @@ impl FlowSolver {
                 halo: gpu.storage("flow halo", &halo_entries(sphere)),
             },
             multigrid: Multigrid::new(gpu, sphere),
+            image: None,
+            drop: None,
             zeta: field("vorticity"),
             log_thickness: field("ln h"),
             forcing: field("forcing"),
@@ -168,6 +181,23 @@ impl FlowSolver {
             measures: buffer(gpu, "flow measures", size_of::<FlowMeasures>() as u64),
             has_history: false,
         }
+    }
+
+    /// From the next seed on the film ends at the rim of a cap, across which nothing flows; or nowhere.
+    pub fn end_at(&mut self, gpu: &Gpu, cap: Option<Cap>) {
+        if self.image.as_ref().map(|image| image.cap) != cap {
+            self.image = cap.map(|cap| FlowImage::new(gpu, &self.grid, cap));
+        }
+    }
+
+    /// From the next step on a drop of an angular radius in radians hangs at the bottom, through which nothing flows; or none.
+    pub fn hold(&mut self, gpu: &Gpu, radius: Option<f64>) {
+        self.drop = radius.map(|radius| FlowHold::new(gpu, &self.grid, radius));
+    }
+
+    /// Makes vorticity beyond the rim, if there is one, the image of that within.
+    fn reflect(&self, recorder: &mut Recorder<'_>, zeta: &wgpu::Buffer) -> Result<(), GpuError> {
+        self.image.as_ref().map_or(Ok(()), |image| image.reflect(recorder, &self.grid, zeta))
     }
 
     /// The grid.
@@ -221,6 +251,7 @@ impl FlowSolver {
         for cleared in [&self.psi, &self.psi_before, &self.measures] {
             recorder.encoder().clear_buffer(cleared, 0, None);
         }
+        self.reflect(recorder, &self.zeta)?;
         let system = System { shift: 0.0, gain: 1.0, source: &self.zeta };
         self.multigrid.cycles(recorder, &self.grid, &system, &self.psi, Self::FIRST_CYCLES)?;
         let still = self.uniform(recorder.gpu, 0.0, &FlowForces::default());
@@ -287,13 +318,15 @@ impl FlowSolver {
         grid.fill_halo(recorder, &self.pushed)?;
         let traced = [uniform, &grid.tangents, &self.velocity_ahead, &self.pushed, &self.moved, &self.half_step];
         grid.run(recorder, ("flow_trace", "trace_vorticity"), BACKTRACE, &traced, grid.groups())?;
+        self.reflect(recorder, &self.moved)?;
         let zeta = match forces.viscous_stage(dt_s) {
             None => &self.moved,
             Some(stage) => self.viscous(recorder, stage)?,
         };
         self.combine(recorder, [(2.0, &self.psi), (-1.0, &self.psi_before)], -1.0, &self.psi_next)?;
         let system = System { shift: 0.0, gain: 1.0, source: zeta };
-        self.multigrid.cycles(recorder, grid, &system, &self.psi_next, POISSON_CYCLES)
+        self.multigrid.cycles(recorder, grid, &system, &self.psi_next, POISSON_CYCLES)?;
+        self.drop.as_ref().map_or(Ok(()), |drop| drop.stop(recorder, grid, zeta, &self.psi_next))
     }
 
     /// Carries ln h along the velocity for `dt_s` seconds on the flow's own grid. For a film whose thickness lives here too.
@@ -318,6 +351,7 @@ impl FlowSolver {
         self.combine(recorder, [(2.0, once), (-1.0, moved)], 0.0, twice)?;
         self.multigrid.cycles(recorder, grid, &system(once), twice, VISCOUS_CYCLES)?;
         self.combine(recorder, [(1.0 + root, twice), (-root, once)], 0.0, &self.pushed)?;
+        self.reflect(recorder, &self.pushed)?;
         Ok(&self.pushed)
     }
 

@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
+use super::bath::crossing;
 use crate::physics::{
     colour::{FilmOptics, daylight_scale, responses},
     optics::{Polarised, amplitudes},
@@ -42,12 +43,13 @@ impl<'a> LightPath<'a> {
     }
 
     /// Follows a ray (a unit vector) from an eye in units of the radius, the bubble's centre at the origin and stretched by a symmetric
-    /// matrix; nothing if it misses.
+    /// matrix, or standing on a bath; nothing if it misses.
     pub fn trace(
         &self,
         eye: DVec3,
         ray: DVec3,
         stretch: DMat3,
+        on_bath: bool,
         thickness_nm: &dyn Fn(DVec3) -> f64,
     ) -> Option<Arrivals> {
         let is_round = stretch == DMat3::IDENTITY;
@@ -67,7 +69,10 @@ impl<'a> LightPath<'a> {
             Hits::on_ellipsoid([foot - cos_theta * round, foot + cos_theta * round], ray, to_round, inner)
         };
         let thickness_nm: Vec<f64> = hits.points.iter().map(|point| thickness_nm(*point)).collect();
-        let factors = self.factors(&hits.cosines, &thickness_nm, inside, self.polarisation(to_round * foot, ray));
+        let mut factors = self.factors(&hits.cosines, &thickness_nm, inside, self.polarisation(to_round * foot, ray));
+        if on_bath {
+            factors.dim(&hits, eye, ray, inside);
+        }
         let first = usize::from(inside);
         let reflected = hits.directions.into_iter().zip(factors.reflected).skip(first).collect();
         Some(Arrivals { straight: factors.straight, reflected })
@@ -135,6 +140,25 @@ impl Factors {
             let exit = if k == last { None } else { walls.next() }.unwrap_or(Polarised { s: 0.0, p: 0.0 });
             *factor += response * (s * (1.0 - exit.s) + p * (1.0 - exit.p));
             (s, p) = (s * exit.s, p * exit.p);
+        }
+    }
+}
+
+impl Factors {
+    /// Takes from each direction what a bath on the way does: see `bath.rs`.
+    fn dim(&mut self, hits: &Hits, eye: DVec3, ray: DVec3, inside: bool) {
+        let leaving = |point: DVec3, direction: DVec3| crossing(point.z, direction.z, direction);
+        let (front, back) = (hits.points[0], hits.points[1]);
+        let entered = crossing(eye.z, front.z, ray);
+        self.reflected[0] *= entered * leaving(front, hits.directions[0]);
+        let mut left = if inside { crossing(eye.z, back.z, ray) } else { entered * crossing(front.z, back.z, ray) };
+        self.straight *= left * leaving(back, ray);
+        for (k, factor) in self.reflected.iter_mut().enumerate().skip(1) {
+            let (point, direction) = (hits.points[k], hits.directions[k]);
+            // The chord on from a point of the sphere.
+            let next = point - 2.0 * point.dot(direction) * direction;
+            left *= crossing(point.z, next.z, direction);
+            *factor *= left * leaving(next, direction);
         }
     }
 }

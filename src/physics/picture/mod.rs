@@ -16,6 +16,7 @@
 //! What is and is not exact: the products of walls are formed at each wavelength of the light, and only their sum becomes a colour. RGB
 //! surroundings stand for spectra (see [`Uplift`](super::colour::Uplift)), so that coloured light too is the full spectral answer. Rays are straight (refraction shifts them by less than the film's thickness). A bubble behind another is not seen through it.
 
+mod bath;
 mod light_path;
 mod view;
 
@@ -55,6 +56,8 @@ pub struct PictureScene<'a> {
     /// Direction along which the electric field passes a polariser before the camera. The light that it takes from unpolarised light is
     /// given back.
     pub polariser: Option<DVec3>,
+    /// Whether the bubbles stand on a bath at the height of their centres, above which is the eye; see `bath.rs`.
+    pub on_bath: bool,
     /// Samples along each side of a pixel, 1 or more. Pixels near an outline take more.
     pub samples: u32,
 }
@@ -113,14 +116,16 @@ impl PictureScene<'_> {
     fn sample(&self, paths: &LightPath, seen: DMat3, ray: DVec3) -> DVec3 {
         let hit = self.spheres.iter().rev().find_map(|sphere| {
             let eye = (self.camera.eye_m - sphere.centre_m) / sphere.radius_m;
-            paths.trace(eye, ray, sphere.stretch, &*sphere.thickness_nm)
+            paths.trace(eye, ray, sphere.stretch, self.on_bath, &*sphere.thickness_nm)
         });
-        let behind = || self.backdrop.unwrap_or_else(|| (self.surroundings)(ray));
+        let surroundings =
+            |direction| (self.surroundings)(if self.on_bath { bath::upward(direction) } else { direction });
+        let behind = || self.backdrop.unwrap_or_else(|| surroundings(ray));
         match hit {
+            None if self.on_bath => seen * (bath::crossing(1.0, ray.z, ray) * behind()),
             None => seen * behind(),
             Some(arrivals) => {
-                let reflected =
-                    arrivals.reflected.iter().map(|(direction, colour)| *colour * (self.surroundings)(*direction));
+                let reflected = arrivals.reflected.iter().map(|(direction, colour)| *colour * surroundings(*direction));
                 arrivals.straight * behind() + reflected.sum::<DVec3>()
             }
         }

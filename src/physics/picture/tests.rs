@@ -33,8 +33,18 @@ fn radiance(
 ) -> Vec<DVec3> {
     let optics = FilmOptics::new(FilmIndex::Water, illuminant);
     let spheres = vec![sphere(thickness_nm)];
-    PictureScene { size: SIZE, camera, optics: &optics, spheres, surroundings, backdrop, polariser: None, samples: 1 }
-        .radiance(&|| ())
+    PictureScene {
+        size: SIZE,
+        camera,
+        optics: &optics,
+        spheres,
+        surroundings,
+        backdrop,
+        polariser: None,
+        on_bath: false,
+        samples: 1,
+    }
+    .radiance(&|| ())
 }
 
 fn middle(pixels: &[DVec3]) -> DVec3 {
@@ -106,7 +116,8 @@ fn a_polariser_takes_the_reflection_at_brewsters_angle() {
     let paths = |axis| LightPath::new(&optics, axis);
     // The foot of a ray at Brewster's angle: sin θ = n / √(1 + n²) = 0.8.
     let (eye, ray) = (DVec3::new(4.0, 0.8, 0.0), DVec3::NEG_X);
-    let front = |axis| paths(axis).trace(eye, ray, DMat3::IDENTITY, &|_| 300.0).unwrap().reflected[0].1 * DVec3::ONE;
+    let front =
+        |axis| paths(axis).trace(eye, ray, DMat3::IDENTITY, false, &|_| 300.0).unwrap().reflected[0].1 * DVec3::ONE;
     let (unpolarised, s, p) = (front(None), front(Some(DVec3::Z)), front(Some(DVec3::Y)));
     assert!(p.max_element() < 1e-12 && (s - 2.0 * unpolarised).abs().max_element() < 1e-12, "{s} {p} {unpolarised}");
 }
@@ -123,6 +134,7 @@ fn the_nearer_bubble_hides_the_farther() {
             surroundings: &|_| DVec3::ONE,
             backdrop: Some(DVec3::ZERO),
             polariser: None,
+            on_bath: false,
             samples: 1,
         };
         middle(&scene.radiance(&|| ()))

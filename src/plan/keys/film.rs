@@ -6,7 +6,10 @@ use glam::DVec3;
 
 use crate::physics::{
     bubble::CentrePath,
-    film::{InitialFilm, PrescribedFlow, Push, properties::BLACK_FILM_ONSET},
+    film::{
+        Cap, InitialFilm, PATCH_THICKNESS, Patch, PrescribedFlow, Push, Regeneration, patch_speed,
+        properties::BLACK_FILM_ONSET,
+    },
     flow::FlowForces,
     sphere::CubedSphere,
     transport::Scheme,
@@ -93,6 +96,8 @@ pub struct FreeFlow {
     pub forces: FlowForces,
     /// Diffusion of thickness, rad²/s.
     pub diffusion: f64,
+    /// Times gravity and the cube of a thickness in nm, the flux of drainage, nm rad/s; 0 for none.
+    pub drainage: f64,
     /// Factor on the speed of the draught around the film.
     pub draught: f64,
     /// Which of all draughts.
@@ -107,12 +112,29 @@ impl FreeFlow {
         Self { forces: FlowForces { gravity, ..self.forces }, ..self }
     }
 
+    /// How fast patches of a mean thickness rise from a rim, rad/s.
+    #[must_use]
+    pub fn patch_speed(&self, regeneration: &Regeneration) -> f64 {
+        let FlowForces { gravity, drag, viscosity, .. } = self.forces;
+        let lack = 1.0 - 0.5 * (PATCH_THICKNESS[0] + PATCH_THICKNESS[1]);
+        let slope = gravity.z.abs() * regeneration.rim.sin();
+        patch_speed(lack, regeneration.radius, slope, viscosity, drag)
+    }
+
     /// The longest step of the flow in seconds: a quarter of a radian of the fastest wave of buoyancy in film whose ln h changes by 1 a
     /// radian, at which film with 60 times as steep changes is still stable.
     #[must_use]
     pub fn longest_step_s(&self) -> f64 {
         const LONGEST_S: f64 = 1.0 / 30.0;
         (0.25 / self.forces.gravity.length().sqrt()).min(LONGEST_S)
+    }
+}
+
+impl FreeFlow {
+    /// Ticks in a step of the film.
+    #[must_use]
+    pub fn ticks_a_step(&self, tick_s: f64) -> u64 {
+        (self.longest_step_s() / tick_s).max(1.0) as u64
     }
 }
 
@@ -144,7 +166,7 @@ impl FlowLaw {
             Self::Sloshing { strength, .. } | Self::Draught { strength, .. } | Self::Stirred { strength, .. } => {
                 strength
             }
-            Self::Free(free) => return (free.longest_step_s() / tick_s).max(1.0) as u64,
+            Self::Free(free) => return free.ticks_a_step(tick_s),
         };
         // At strength 1 the fastest vortices turn by a quarter of a radian in 0.1 s, where a Runge-Kutta step errs by 1e-5 of that; the
         // swings of 2 s and more are followed by its three moments.
@@ -190,6 +212,17 @@ impl PushKey {
     }
 }
 
+/// What a film ends at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmEnd {
+    /// The cap that it is, if there is nothing below a rim.
+    pub cap: Option<Cap>,
+    /// Angular radius of the drop at its bottom, if there is one, radians.
+    pub drop_rad: Option<f64>,
+    /// How it regenerates at its rim, if it does.
+    pub regeneration: Option<Regeneration>,
+}
+
 /// A film whose thickness varies: how it began, what drove it, and the moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldKey {
@@ -197,6 +230,8 @@ pub struct FieldKey {
     pub cells: u32,
     /// Thickness at tick 0.
     pub initial: InitialFilm,
+    /// What it ends at, unless it is free.
+    pub end: Option<Box<FilmEnd>>,
     /// Length of a tick in seconds.
     pub tick_s: f64,
     /// How the liquid is moved.
@@ -216,6 +251,18 @@ pub struct FieldKey {
 }
 
 impl FieldKey {
+    /// The cap that the film is, if there is nothing below a rim.
+    #[must_use]
+    pub fn cap(&self) -> Option<Cap> {
+        self.end.as_ref().and_then(|end| end.cap)
+    }
+
+    /// How it regenerates at its rim, if it does.
+    #[must_use]
+    pub fn regeneration(&self) -> Option<Regeneration> {
+        self.end.as_ref().and_then(|end| end.regeneration)
+    }
+
     /// The same film at another moment.
     #[must_use]
     pub fn at(&self, moment: Moment) -> Self {
@@ -243,7 +290,19 @@ impl FieldKey {
     /// Whether any of the film may be thin enough to collapse to black film, at a time in ticks.
     #[must_use]
     pub fn has_black_film(&self, ticks: f64) -> bool {
-        self.initial.range_nm().0 - self.thinned_nm(ticks) < 1e9 * BLACK_FILM_ONSET
+        let drains = matches!(self.law(ticks as u64), FlowLaw::Free(free) if free.drainage > 0.0);
+        drains
+            || self.regeneration().is_some()
+            || self.initial.range_nm().0 - self.thinned_nm(ticks) < 1e9 * BLACK_FILM_ONSET
+    }
+
+    /// Patches that leave the film's rim between two times in ticks, under the law at the later one.
+    #[must_use]
+    pub fn patches_during(&self, from_ticks: f64, to_ticks: f64) -> Vec<Patch> {
+        let FlowLaw::Free(free) = self.law(to_ticks as u64) else { return Vec::new() };
+        let Some(regeneration) = self.regeneration() else { return Vec::new() };
+        let rate = regeneration.rate_1_s(free.patch_speed(&regeneration));
+        regeneration.patches(rate, from_ticks * self.tick_s, to_ticks * self.tick_s).collect()
     }
 
     /// What pushes the film in a step between two times in ticks.
@@ -321,8 +380,8 @@ impl FieldKey {
     /// Whether both began alike and are moved in the same way: then they differ in their moments and in what drove them alone.
     #[must_use]
     pub fn is_same_film(&self, other: &Self) -> bool {
-        (self.cells, self.initial, self.tick_s, self.scheme, self.remap_ticks)
-            == (other.cells, other.initial, other.tick_s, other.scheme, other.remap_ticks)
+        (self.cells, self.initial, &self.end, self.tick_s, self.scheme, self.remap_ticks)
+            == (other.cells, other.initial, &other.end, other.tick_s, other.scheme, other.remap_ticks)
     }
 
     /// Whether anything that shaped the other film up to its moment is different in this one.

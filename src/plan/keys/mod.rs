@@ -6,7 +6,7 @@ mod picture;
 mod rest;
 
 pub use film::{
-    BLACK_FILM_NM, FieldKey, FilmKey, FlowLaw, FlowSegment, FreeFlow, HoleKey, Moment, OpenHoleKey, PushKey,
+    BLACK_FILM_NM, FieldKey, FilmEnd, FilmKey, FlowLaw, FlowSegment, FreeFlow, HoleKey, Moment, OpenHoleKey, PushKey,
     evaporated_nm, thins_at_tick,
 };
 pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};

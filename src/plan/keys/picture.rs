@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{BandsKey, FilmKey, HoleKey, OpenHoleKey, TableKey};
-use crate::physics::{colour::Gamut, environment::CubeMap};
+use crate::physics::{colour::Gamut, environment::CubeMap, film::Cap};
 
 /// The light around the bubbles.
 #[derive(Clone, Debug)]
@@ -53,6 +53,8 @@ pub struct BubbleKey {
     pub film: FilmKey,
     /// The hole in it, while it bursts.
     pub hole: Option<HoleKey>,
+    /// Where the film ends, if it does: on a bath, beside its image in the bath.
+    pub cap: Option<Cap>,
 }
 
 impl BubbleKey {
@@ -122,6 +124,8 @@ pub struct DrawKey {
     pub lamps: Vec<Lighting>,
     /// The bubbles that can be seen, farthest first.
     pub bubbles: Vec<BubbleKey>,
+    /// Whether they stand on a bath, which is a mirror of water at the height of their centres.
+    pub on_bath: bool,
 }
 
 /// Light of one illuminant, and what the films' optics in it need.

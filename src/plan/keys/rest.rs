@@ -15,7 +15,8 @@ pub struct RestingFilm {
 
 impl FieldKey {
     /// The law of a step in which nothing but gravity acts on the film, so that it may come to rest and stays there. It may thin, for that
-    /// moves nothing, but not turn black. What spreads thickness stands for motions smaller than cells, and ends with the flow.
+    /// moves nothing, but not turn black, drain or regenerate. What spreads thickness stands for motions smaller than cells, and ends with
+    /// the flow.
     #[must_use]
     pub fn undisturbed(&self, step: &Range<u64>) -> Option<FreeFlow> {
         // In radii a second squared: less than what rounding does to gravity.
@@ -23,6 +24,8 @@ impl FieldKey {
         let FlowLaw::Free(free) = self.law(step.start) else { return None };
         let (from, to) = (step.start as f64, step.end as f64);
         let is_left_alone = free.draught == 0.0
+            && free.drainage == 0.0
+            && self.regeneration().is_none()
             && !self.has_black_film(to)
             && self.pushes_during(from, to).is_empty()
             && self.acceleration_during(from, to).length() < STEADY;

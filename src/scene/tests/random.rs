@@ -21,11 +21,18 @@ fn film() -> impl Strategy<Value = Film> {
 }
 
 fn bubble() -> impl Strategy<Value = Bubble> {
-    (prop::array::uniform3(-1e3..1e3), 0.1..5e3, film()).prop_map(|(center_m, radius_mm, film)| Bubble {
-        center_m,
-        radius_mm,
-        film,
-    })
+    let rim = (30.0..175.0, 0.0..10.0, 0.1..100.0);
+    (prop::array::uniform3(-1e3..1e3), 0.1..5e3, rim, film()).prop_map(
+        |(center_m, radius_mm, (rim_deg, regeneration, patch_mm), film)| Bubble {
+            center_m,
+            radius_mm,
+            boundary: Boundary::Free,
+            rim_deg,
+            regeneration,
+            patch_mm,
+            film,
+        },
+    )
 }
 
 fn camera() -> impl Strategy<Value = Camera> {
@@ -102,7 +109,7 @@ fn flow() -> impl Strategy<Value = Flow> {
 fn motion() -> impl Strategy<Value = Motion> {
     let spins = (spin(), 0.0..1000.0, scheme());
     let ends = (0.0..1.0, 0.0..10.0, 0.0..1e6, 1.0..1e4, 0.0..1e6);
-    let forces = (gravity(), 0.0..1000.0, 0.0..10.0, 0.0..1e6, 0.0..1000.0);
+    let forces = (gravity(), 0.0..1000.0, 0.0..10.0, 0.0..1e6, 0.0..1000.0, 0.0..1e4);
     (1e-4..0.1, flow(), 0.0..10.0, any::<u64>(), spins, forces, ends, 1u32..=1000, 0.01..100.0).prop_map(
         |(tick_s, flow, strength, seed, (spin_deg_s, evaporation_nm_s, scheme), forces, ends, remap_ticks, speed)| {
             Motion {
@@ -115,6 +122,7 @@ fn motion() -> impl Strategy<Value = Motion> {
                 air_drag: forces.2,
                 viscosity_mm2_s: forces.3,
                 diffusion_mm2_s: forces.4,
+                drainage: forces.5,
                 spin_deg_s,
                 evaporation_nm_s,
                 humidity: ends.0,

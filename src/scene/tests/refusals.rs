@@ -46,7 +46,10 @@ fn unknown_keys_name_the_nearest_known_one() {
             "[[bubble]]\n[[bubble]]\nradius = 3",
             "4: unknown key `radius` in [[bubble]] number 2; did you mean `radius_mm`?",
         ),
-        ("[[bubble]]\nqqq = 3", "3: unknown key `qqq` in [[bubble]]; known here: `center_m`, `film`, `radius_mm`"),
+        (
+            "[[bubble]]\nqqq = 3",
+            "3: unknown key `qqq` in [[bubble]]; known here: `boundary`, `center_m`, `film`, `patch_mm`, `radius_mm`, `regeneration`, `rim_deg`",
+        ),
         (
             "[[event]]\nkind = \"stir\"\nvelocity = 2",
             "4: unknown key `velocity` in [[event]]; did you mean `velocity_m_s`?",
@@ -151,6 +154,40 @@ fn values_lie_in_their_range() {
     ]);
     let crowd = with_version(&"[[bubble]]\n".repeat(43));
     assert_eq!(refusal(&crowd), "s.toml:2: `bubble` is a list of 43; at most 42 are allowed");
+}
+
+#[test]
+fn films_end_where_they_can() {
+    assert_refused(&[
+        (
+            "[[bubble]]\nboundary = \"pond\"",
+            "3: `boundary` in [[bubble]] is wrong: unknown word `pond`, expected one of `free`, `bath`, `ring`, `drop`",
+        ),
+        (
+            "[[bubble]]\nboundary = \"ring\"\nrim_deg = 160",
+            "4: `rim_deg` in [[bubble]] is 160; a ring's must be within 30 ..= 150",
+        ),
+        (
+            "[[bubble]]\nboundary = \"bath\"\nradius_mm = 5",
+            "2: `patch_mm` in [[bubble]] is 3, which is more than a quarter of the bubble's radius",
+        ),
+        (
+            "[[bubble]]\nboundary = \"bath\"\n[[bubble]]\ncenter_m = [0, 1, 0]",
+            "4: `boundary` in [[bubble]] number 2 is not on the bath that others stand on; give all bubbles `boundary = \"bath\"` and the same height",
+        ),
+        (
+            "[[bubble]]\nboundary = \"ring\"\n[motion]\nspin_deg_s = [1, 0, 0]",
+            "5: `spin_deg_s` in [motion] turns films that have a rim over; only a turn about the vertical, [0, 0, z], leaves it in place",
+        ),
+        (
+            "[[bubble]]\nboundary = \"bath\"\n[motion]\nflow = \"stirred\"",
+            "5: `flow` in [motion] would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone",
+        ),
+        (
+            "[[bubble]]\nboundary = \"bath\"\n[[event]]\nkind = \"drag\"\nto_m = [0, 0, 1]",
+            "6: `to_m` in [[event]] takes a bubble off its bath; end at its height, 0",
+        ),
+    ]);
 }
 
 #[test]

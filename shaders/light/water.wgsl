@@ -1,0 +1,27 @@
+// The surface of a bath, a level mirror at the height of the bubbles' centres. It turns up what would go down, and dims it: a ray that goes
+// on straight into the mirrored world sees the same. The water itself is dark. The f64 truth is src/physics/picture/bath.rs.
+
+import package::optics::airy::surface_reflectance;
+
+// 1: there is a bath.
+override ON_BATH: u32;
+
+// Refractive index of the water.
+const WATER_INDEX: f32 = 1.333;
+
+// What is left of light that goes from one height to another along a direction, both counted from the bath's level. Of both polarisations
+// alike.
+fn crossing(from_z: f32, to_z: f32, direction: vec3f) -> f32 {
+    if (ON_BATH == 0u || from_z * to_z >= 0.0) {
+        return 1.0;
+    }
+    return 0.5 * dot(surface_reflectance(WATER_INDEX, abs(direction.z)), vec2f(1.0));
+}
+
+// The direction of the world that one of the mirrored world is.
+fn upward(direction: vec3f) -> vec3f {
+    if (ON_BATH == 0u) {
+        return direction;
+    }
+    return vec3f(direction.xy, abs(direction.z));
+}

@@ -1,0 +1,111 @@
+//! Lets film leave at its rim: drainage, and thin patches in place of thicker film.
+
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+
+use super::{
+    GpuError,
+    film::{Control, Grid, rim_numbers},
+    pipelines::ComputeKey,
+    timing::Recorder,
+};
+use crate::physics::film::Cap;
+
+/// Patches that one pass takes.
+pub const MAX_PATCHES: usize = 64;
+
+/// See `shaders/pass/drain.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct PatchValue {
+    /// Middle, and thickness over that of the film around.
+    pub middle_thickness: [f32; 4],
+    /// Ticks since it left.
+    pub age: u32,
+    pad: [u32; 3],
+}
+
+/// See `shaders/pass/drain.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct DrainUniform {
+    /// Gravity over the radius, 1/s².
+    pub gravity: [f32; 3],
+    /// Times it and the cube of a thickness in nm, the flux of drainage in a tick, nm rad.
+    pub flux: f32,
+    /// Cells along a panel's edge.
+    pub cells: u32,
+    /// What the tracer departs from less what has evaporated, nm.
+    pub thinned_level_nm: f32,
+    /// Thickness of black film, which does not drain, nm.
+    pub black_nm: f32,
+    /// Cosine of the angle from the lowest point within which what drains is in the drop.
+    pub drop_cos: f32,
+    /// Height of the rim.
+    pub rim_z: f32,
+    /// The inversion in it.
+    pub inversion: f32,
+    /// Radius of a patch, radians.
+    pub patch_radius: f32,
+    /// Patches in use.
+    pub patches_count: u32,
+    /// Patches; those in use come first.
+    pub patches: [PatchValue; MAX_PATCHES],
+}
+
+/// How film leaves at its rim, now.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DrainLaw {
+    /// Gravity over the radius, 1/s².
+    pub gravity: DVec3,
+    /// Times it and the cube of a thickness in nm, the flux of drainage in a tick, nm rad.
+    pub flux: f64,
+    /// What has evaporated, nm.
+    pub thinned_nm: f64,
+    /// Thickness of black film, nm.
+    pub black_nm: f64,
+    /// Angle from the lowest point within which what drains is in the drop, radians; 0 where film drains over a rim.
+    pub drop_rad: f64,
+    /// Radius of a patch, radians.
+    pub patch_radius: f64,
+    /// Patches of the last ticks: middle, thickness over that around, and ticks since they left.
+    pub patches: Vec<(DVec3, f64, u32)>,
+}
+
+impl DrainLaw {
+    fn uniform(&self, grid: &Grid, cap: Option<Cap>, level_nm: f32) -> DrainUniform {
+        let [rim_z, inversion] = rim_numbers(cap);
+        let mut uniform = DrainUniform {
+            gravity: self.gravity.as_vec3().to_array(),
+            flux: self.flux as f32,
+            cells: grid.cells,
+            thinned_level_nm: (f64::from(level_nm) - self.thinned_nm) as f32,
+            black_nm: self.black_nm as f32,
+            drop_cos: if self.drop_rad > 0.0 { self.drop_rad.cos() as f32 } else { 2.0 },
+            rim_z,
+            inversion,
+            patch_radius: self.patch_radius as f32,
+            patches_count: self.patches.len().min(MAX_PATCHES) as u32,
+            patches: [PatchValue::zeroed(); MAX_PATCHES],
+        };
+        for (slot, (middle, thickness, age)) in uniform.patches.iter_mut().zip(&self.patches) {
+            slot.middle_thickness = middle.extend(*thickness).as_vec4().to_array();
+            slot.age = *age;
+        }
+        uniform
+    }
+
+    /// If a remap is due, lets film leave the tracer, which departs from a level in nm, into another buffer, for the ticks since the last one.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        (grid, cap, level_nm): (&Grid, Option<Cap>, f32),
+        control: &Control,
+        [tracer, drained]: [&wgpu::Buffer; 2],
+    ) -> Result<(), GpuError> {
+        let uniform = recorder.gpu.uniform("drain", &self.uniform(grid, cap, level_nm));
+        let bound = [&uniform, &grid.tangents, &control.block, tracer, drained].map(wgpu::Buffer::as_entire_binding);
+        let key = ComputeKey { pass: "drain", entry: "drain_film", constants: vec![("TAPS", 4), ("LIMITER", 1)] };
+        recorder.compute("step_field", &key, &bound, control.tracer_groups())
+    }
+}
