@@ -354,7 +354,7 @@ fn a_bath_looks_as_its_f64_twin_does() {
     for preset in ["bath", "ring"] {
         let mut loaded = load(preset);
         loaded.scene.bubbles[0].film.state = soapfilm::scene::FilmStateName::Rest;
-        let want = still(&loaded, [96, 54], 0.0);
+        let want = still(&loaded, [64, 36], 0.0);
         let found = radiance(&mut renderer, &want);
         let truth = reference::radiance(&want.picture.draw, &Default::default(), &|| ()).unwrap();
         let brightest = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);

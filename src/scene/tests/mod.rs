@@ -212,6 +212,27 @@ fn bubbles_too_large_to_be_round_are_warned_of() {
     assert!(warnings.len() == 1 && warnings[0].contains("number 2") && warnings[0].contains("1500"), "{warnings:?}");
 }
 
+/// Real films: of 20 to 2000 mm²/s with their surfaces, up to 3 µm thick, on bubbles from a centimetre to a metre, in gravity no stronger
+/// than the Earth's, losing 100 nm a second at most, drawn with patches of millimetres.
+#[test]
+fn presets_have_constants_of_real_films() {
+    for name in preset_names() {
+        let scene = preset(name).unwrap();
+        let ticks = std::iter::once(0).chain(scene.events.iter().map(|event| event.tick));
+        for motion in ticks.map(|tick| scene.motion_at(tick)) {
+            assert!((20.0..=2000.0).contains(&motion.viscosity_mm2_s), "{name}");
+            assert!(glam::DVec3::from(motion.gravity_m_s2).length() < 9.9, "{name}");
+            assert!(motion.evaporation_nm_s <= 100.0 && motion.air_drag <= 1.0 && motion.diffusion_mm2_s <= 1.0, "{name}");
+            assert!(motion.drainage <= 1.0 && motion.drag_1_s <= 20.0, "{name}");
+        }
+        for bubble in &scene.bubbles {
+            assert!((10.0..=1000.0).contains(&bubble.radius_mm), "{name}");
+            assert!((0.0..=3000.0).contains(&bubble.film.thickness_nm) && bubble.film.skin_nm <= 3.0, "{name}");
+            assert!((1.0..=10.0).contains(&bubble.patch_mm) && bubble.regeneration <= 2.0, "{name}");
+        }
+    }
+}
+
 #[test]
 fn no_bubbles_is_not_the_default_bubble() {
     let empty = Scene::from_toml("version = 1\nbubble = []", "s.toml").unwrap();
