@@ -25,3 +25,15 @@ fn upward(direction: vec3f) -> vec3f {
     }
     return vec3f(direction.xy, abs(direction.z));
 }
+
+// Height that water climbs at a wall, sqrt(2 gamma / (rho g)), m, and what is left of light that passes its foot.
+const MENISCUS_M: f32 = 0.00226;
+const MENISCUS_LEFT: f32 = 0.2;
+
+// What the meniscus leaves of light at a height over the radius, for a radius in m.
+fn past_meniscus(z: f32, radius_m: f32) -> f32 {
+    if (ON_BATH == 0u) {
+        return 1.0;
+    }
+    return mix(MENISCUS_LEFT, 1.0, smoothstep(0.0, MENISCUS_M / radius_m, abs(z)));
+}

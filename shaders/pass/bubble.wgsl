@@ -6,7 +6,7 @@ import package::film::control::{Balance, balanced};
 import package::film::hole::{HOLE_MERIDIANS, Rim, TAU, angle_from, meridian_of, mixed, pierced};
 import package::film::shown::film_at;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
-import package::light::water::{crossing, upward};
+import package::light::water::{crossing, past_meniscus, upward};
 import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::band::Band;
 import package::optics::film_colour::{FILTERED, film_reflection};
@@ -220,21 +220,24 @@ struct Followed {
 fn followed(path: Path, before: Followed) -> Followed {
     let hop = reflected(before.hop, 2.0 * path.half_chord);
     let reflections = before.reflections + 1.0;
-    let left = before.left * crossing(before.hop.point.z, hop.point.z, hop.direction);
+    let left = before.left * crossing(before.hop.point.z, hop.point.z, hop.direction)
+        * past_meniscus(hop.point.z, bubble.radius_m);
     let light = surroundings(hop.direction, footprint(path, hop.direction, -2.0 * reflections));
     return Followed(hop, reflections, left, left * crossing(hop.point.z, hop.direction.z, hop.direction) * light);
 }
 
-// What a bath leaves of light between the eye and the front wall.
+// What a bath leaves of light between the eye and beyond the front wall.
 fn left_before(path: Path) -> f32 {
-    return crossing(view.eye_m.z - bubble.centre_m.z, path.foot.z - path.half_chord * path.round.z, path.direction);
+    let front_z = path.foot.z - path.half_chord * path.round.z;
+    return crossing(view.eye_m.z - bubble.centre_m.z, front_z, path.direction) * past_meniscus(front_z, bubble.radius_m);
 }
 
 // The ray straight through, which heads for the back wall.
 fn straight_through(path: Path, is_inside: bool) -> Followed {
     let back = path.foot + path.half_chord * path.round;
     let start_z = select(path.foot.z - path.half_chord * path.round.z, view.eye_m.z - bubble.centre_m.z, is_inside);
-    let left = select(left_before(path), 1.0, is_inside) * crossing(start_z, back.z, path.direction);
+    let left = select(left_before(path), 1.0, is_inside) * crossing(start_z, back.z, path.direction)
+        * past_meniscus(back.z, bubble.radius_m);
     let light = crossing(back.z, path.direction.z, path.direction) * backdrop(path.direction, path.pixel);
     return Followed(Hop(back, path.direction), 0.0, left, left * light);
 }

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::bath::crossing;
+use super::bath::{crossing, past_meniscus};
 use crate::physics::{
     colour::{FilmOptics, daylight_scale, responses},
     optics::{Polarised, amplitudes},
@@ -43,13 +43,13 @@ impl<'a> LightPath<'a> {
     }
 
     /// Follows a ray (a unit vector) from an eye in units of the radius, the bubble's centre at the origin and stretched by a symmetric
-    /// matrix, or standing on a bath; nothing if it misses.
+    /// matrix, or of a radius in m and standing on a bath; nothing if it misses.
     pub fn trace(
         &self,
         eye: DVec3,
         ray: DVec3,
         stretch: DMat3,
-        on_bath: bool,
+        on_bath: Option<f64>,
         thickness_nm: &dyn Fn(DVec3) -> f64,
     ) -> Option<Arrivals> {
         let is_round = stretch == DMat3::IDENTITY;
@@ -70,8 +70,8 @@ impl<'a> LightPath<'a> {
         };
         let thickness_nm: Vec<f64> = hits.points.iter().map(|point| thickness_nm(*point)).collect();
         let mut factors = self.factors(&hits.cosines, &thickness_nm, inside, self.polarisation(to_round * foot, ray));
-        if on_bath {
-            factors.dim(&hits, eye, ray, inside);
+        if let Some(radius_m) = on_bath {
+            factors.dim(&hits, (eye, ray), inside, radius_m);
         }
         let first = usize::from(inside);
         let reflected = hits.directions.into_iter().zip(factors.reflected).skip(first).collect();
@@ -146,18 +146,20 @@ impl Factors {
 
 impl Factors {
     /// Takes from each direction what a bath on the way does: see `bath.rs`.
-    fn dim(&mut self, hits: &Hits, eye: DVec3, ray: DVec3, inside: bool) {
+    fn dim(&mut self, hits: &Hits, (eye, ray): (DVec3, DVec3), inside: bool, radius_m: f64) {
+        let past = |point: DVec3| past_meniscus(point.z, radius_m);
         let leaving = |point: DVec3, direction: DVec3| crossing(point.z, direction.z, direction);
         let (front, back) = (hits.points[0], hits.points[1]);
-        let entered = crossing(eye.z, front.z, ray);
+        let entered = crossing(eye.z, front.z, ray) * past(front);
         self.reflected[0] *= entered * leaving(front, hits.directions[0]);
         let mut left = if inside { crossing(eye.z, back.z, ray) } else { entered * crossing(front.z, back.z, ray) };
+        left *= past(back);
         self.straight *= left * leaving(back, ray);
         for (k, factor) in self.reflected.iter_mut().enumerate().skip(1) {
             let (point, direction) = (hits.points[k], hits.directions[k]);
             // The chord on from a point of the sphere.
             let next = point - 2.0 * point.dot(direction) * direction;
-            left *= crossing(point.z, next.z, direction);
+            left *= crossing(point.z, next.z, direction) * past(next);
             *factor *= left * leaving(next, direction);
         }
     }

@@ -116,7 +116,7 @@ impl PictureScene<'_> {
     fn sample(&self, paths: &LightPath, seen: DMat3, ray: DVec3) -> DVec3 {
         let hit = self.spheres.iter().rev().find_map(|sphere| {
             let eye = (self.camera.eye_m - sphere.centre_m) / sphere.radius_m;
-            paths.trace(eye, ray, sphere.stretch, self.on_bath, &*sphere.thickness_nm)
+            paths.trace(eye, ray, sphere.stretch, self.on_bath.then_some(sphere.radius_m), &*sphere.thickness_nm)
         });
         let surroundings =
             |direction| (self.surroundings)(if self.on_bath { bath::upward(direction) } else { direction });

@@ -117,7 +117,7 @@ fn a_polariser_takes_the_reflection_at_brewsters_angle() {
     // The foot of a ray at Brewster's angle: sin θ = n / √(1 + n²) = 0.8.
     let (eye, ray) = (DVec3::new(4.0, 0.8, 0.0), DVec3::NEG_X);
     let front =
-        |axis| paths(axis).trace(eye, ray, DMat3::IDENTITY, false, &|_| 300.0).unwrap().reflected[0].1 * DVec3::ONE;
+        |axis| paths(axis).trace(eye, ray, DMat3::IDENTITY, None, &|_| 300.0).unwrap().reflected[0].1 * DVec3::ONE;
     let (unpolarised, s, p) = (front(None), front(Some(DVec3::Z)), front(Some(DVec3::Y)));
     assert!(p.max_element() < 1e-12 && (s - 2.0 * unpolarised).abs().max_element() < 1e-12, "{s} {p} {unpolarised}");
 }

@@ -222,7 +222,10 @@ fn presets_have_constants_of_real_films() {
         for motion in ticks.map(|tick| scene.motion_at(tick)) {
             assert!((20.0..=2000.0).contains(&motion.viscosity_mm2_s), "{name}");
             assert!(glam::DVec3::from(motion.gravity_m_s2).length() < 9.9, "{name}");
-            assert!(motion.evaporation_nm_s <= 100.0 && motion.air_drag <= 1.0 && motion.diffusion_mm2_s <= 1.0, "{name}");
+            assert!(
+                motion.evaporation_nm_s <= 100.0 && motion.air_drag <= 1.0 && motion.diffusion_mm2_s <= 1.0,
+                "{name}"
+            );
             assert!(motion.drainage <= 1.0 && motion.drag_1_s <= 20.0, "{name}");
         }
         for bubble in &scene.bubbles {
