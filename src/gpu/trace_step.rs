@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DMat3;
 
-use super::{GpuError, film::Grid, flow::BACKTRACE, pipelines::ComputeKey, timing::Recorder};
+use super::{GpuError, film::Grid, pipelines::ComputeKey, timing::Recorder};
 use crate::physics::{
     film::{FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow},
     transport::{PERIOD, Wind, WindKind},
@@ -187,7 +187,7 @@ pub fn trace_step(
         Step::Solved(velocity, dt_s) => {
             let uniform = SolvedUniform { dt_s: *dt_s as f32, cells: grid.cells, pad: [0; 2] };
             let uniform = recorder.gpu.uniform("solved step", &uniform);
-            let key = ComputeKey { pass: "trace_flow", entry: "trace_flow", constants: BACKTRACE.to_vec() };
+            let key = ComputeKey { pass: "trace_flow", entry: "trace_flow", constants: vec![] };
             let velocity = velocity.as_entire_binding();
             recorder.compute(name, &key, &[uniform.as_entire_binding(), tangents, velocity, step_map], groups)
         }

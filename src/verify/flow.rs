@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Run, sorting};
+use super::{Run, phenomena, sorting};
 use crate::{
     gpu::{
         GpuError,
@@ -22,7 +22,8 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     poisson(run)?;
     decay(run)?;
     sloshing(run)?;
-    sorting::run(run)
+    sorting::run(run)?;
+    phenomena::run(run)
 }
 
 /// Measures a case, if there is one.

@@ -5,6 +5,7 @@ mod extremes;
 mod flow;
 pub mod interaction;
 mod optics;
+mod phenomena;
 mod picture;
 mod random;
 pub mod reference;

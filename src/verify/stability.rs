@@ -223,7 +223,7 @@ fn long(run: &mut Run<'_>) -> Result<(), GpuError> {
     )
 }
 
-fn field(run: &Run<'_>, cells: usize, initial: impl Fn(DVec3) -> f64 + Sync) -> Result<Field, GpuError> {
+pub(super) fn field(run: &Run<'_>, cells: usize, initial: impl Fn(DVec3) -> f64 + Sync) -> Result<Field, GpuError> {
     let sphere = CubedSphere::new(cells).map_err(|error| GpuError::Refused(error.to_string()))?;
     let rules = Rules {
         scheme: Scheme::Map,

@@ -42,7 +42,6 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
         ("POLARISED", vec![0.0, 1.0]),
         ("EVERYTHING", vec![0.0, 1.0]),
         ("BANDS", vec![13.0]),
-        ("BACKTRACE_ITERATIONS", vec![f64::from(soapfilm::gpu::flow::BACKTRACE[0].1)]),
         ("SWEEP", vec![0.0, 1.0, 2.0]),
     ])
 }

@@ -20,7 +20,7 @@ use multigrid::{Multigrid, System};
 use super::{Gpu, GpuError, pipelines::ComputeKey, timing::Recorder};
 use crate::physics::{
     film::Cap,
-    flow::{BACKTRACE_ITERATIONS, FlowForces, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES},
+    flow::{FlowForces, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES},
     sphere::CubedSphere,
 };
 
@@ -72,9 +72,6 @@ pub struct CombineUniform {
     pub mean: f32,
     pad: f32,
 }
-
-/// Constants of passes that trace: see `shaders/flow/backtrace.wgsl`.
-pub const BACKTRACE: &[(&str, u32)] = &[("BACKTRACE_ITERATIONS", BACKTRACE_ITERATIONS as u32)];
 
 /// What the passes over the finest grid share.
 struct FlowGrid {
@@ -317,7 +314,7 @@ impl FlowSolver {
         grid.run(recorder, ("flow_force", "flow_force"), &[], &forced, grid.groups())?;
         grid.fill_halo(recorder, &self.pushed)?;
         let traced = [uniform, &grid.tangents, &self.velocity_ahead, &self.pushed, &self.moved, &self.half_step];
-        grid.run(recorder, ("flow_trace", "trace_vorticity"), BACKTRACE, &traced, grid.groups())?;
+        grid.run(recorder, ("flow_trace", "trace_vorticity"), &[], &traced, grid.groups())?;
         self.reflect(recorder, &self.moved)?;
         let zeta = match forces.viscous_stage(dt_s) {
             None => &self.moved,
@@ -334,7 +331,7 @@ impl FlowSolver {
         let uniform = self.uniform(recorder.gpu, dt_s, &FlowForces::default());
         self.grid.fill_halo(recorder, &self.log_thickness)?;
         let traced = [&uniform, &self.grid.tangents, &self.velocity, &self.log_thickness, &self.pushed];
-        self.grid.run(recorder, ("flow_trace", "trace_tracer"), BACKTRACE, &traced, self.grid.groups())?;
+        self.grid.run(recorder, ("flow_trace", "trace_tracer"), &[], &traced, self.grid.groups())?;
         std::mem::swap(&mut self.log_thickness, &mut self.pushed);
         Ok(())
     }

@@ -11,7 +11,7 @@
 //! The thickness then moves from t to t + dt with the velocity of ψ(t + ½dt): waves of buoyancy keep their amplitude for ever
 //! (Störmer-Verlet).
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::{multigrid::Multigrid, operators::turned_gradient};
 #[cfg(doc)]
@@ -24,8 +24,6 @@ pub const POISSON_CYCLES: usize = 2;
 pub const VISCOUS_CYCLES: usize = 1;
 /// Length of each of the two stages of the viscous rule, over the step's: 1 − 1/√2.
 pub const VISCOUS_STAGE: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
-/// Improvements of the velocity at the middle of a backtrace; each multiplies its error by about dt |∇u| / 2.
-pub const BACKTRACE_ITERATIONS: usize = 3;
 /// ν dt beyond which nothing is left but solid rotation, in rad²: more would only magnify the discretisation's error in that.
 const MAX_VISCOUS_STEP: f64 = 2.0;
 
@@ -240,11 +238,23 @@ pub fn advected(
     PaddedField::from_cells(field.grid(), halo, |cell| {
         let x = field.grid().cell_direction(cell);
         let middle = |u: DVec3| (x - 0.5 * dt * u).normalize();
-        let u = (0..BACKTRACE_ITERATIONS).fold(at[cell], |u, _| velocity.bicubic(middle(u)));
+        let next = |u: DVec3| velocity.bicubic(middle(u));
+        let (once, twice) = (next(at[cell]), next(next(at[cell])));
+        let u = next(extrapolated(x, [at[cell], once, twice]));
         // The origin is x reflected at the middle: a symmetric step along a great circle.
         let middle = middle(u);
         field.bicubic(2.0 * x.dot(middle) * middle - x)
     })
+}
+
+/// Where three iterates lead to in the end, in the tangent plane at `x`: Aitken's extrapolation, with vectors for complex numbers. It is
+/// exact within an eddy, whose turn by more than a radian in a step the iteration alone would not follow: it would spiral outwards.
+fn extrapolated(x: DVec3, [first, second, third]: [DVec3; 3]) -> DVec3 {
+    let (before, last) = (second - first, third - second);
+    let ratio = DVec2::new(before.dot(last), x.dot(before.cross(last))) / before.length_squared().max(1e-30);
+    // Next to 1 it says nothing.
+    let rest = (DVec2::X - ratio).length_squared().max(0.25);
+    third + ((ratio.x - ratio.length_squared()) * last + ratio.y * x.cross(last)) / rest
 }
 
 #[cfg(test)]
