@@ -90,7 +90,7 @@ impl MovingFilm {
             submit(recorder)?;
             if let (Some((tick, law)), Some(motion)) = (asking, &self.motion) {
                 let rest = RestingFilm { since_tick: tick, law };
-                self.watch.watch(gpu, motion.flow(), rest, key.resting_speed(&law))?;
+                self.watch.watch(gpu, motion.flow(), rest, key.resting_speed())?;
             }
         }
     }

@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use super::{FieldKey, FlowLaw, FreeFlow};
 
+/// Seconds of film time from one question for its speed to the next.
+const ASKING_S: f64 = 2.0;
+
 /// A film that moved by itself and has come to rest: it stays as it is until something else than the same law acts on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestingFilm {
@@ -32,17 +35,17 @@ impl FieldKey {
         is_left_alone.then_some(free)
     }
 
-    /// Whether the film's speed is asked for at the end of a step: every two seconds.
+    /// Whether the film's speed is asked for at the end of a step.
     #[must_use]
     pub fn asks_for_speed(&self, step: &Range<u64>) -> bool {
-        let ticks = (2.0 / self.tick_s).max(1.0) as u64;
+        let ticks = (ASKING_S / self.tick_s).max(1.0) as u64;
         step.start / ticks < step.end / ticks
     }
 
-    /// Speed in rad/s at which a step under a free law moves the film by less than a thousandth of a cell.
+    /// Speed in rad/s at which the film moves by less than a hundredth of a cell in the two seconds from one answer to the next: less than a
+    /// thousandth in any step, and about three times what rounding leaves of the flow in a sorted film.
     #[must_use]
-    pub fn resting_speed(&self, law: &FreeFlow) -> f64 {
-        let step_s = FlowLaw::Free(*law).ticks_a_step(self.tick_s, self.cell_angle()) as f64 * self.tick_s;
-        1e-3 * self.cell_angle() / step_s
+    pub fn resting_speed(&self) -> f64 {
+        1e-2 * self.cell_angle() / ASKING_S
     }
 }
