@@ -311,6 +311,10 @@ fn hold_clock(model: &mut Model, want: &Want, have: &Have, first_tick: u64) {
     let mut missing = 0;
     for bubble in &want.picture.draw.bubbles {
         if let (FilmKey::Field(film), Some(Some(field))) = (&bubble.film, have.fields.get(bubble.index)) {
+            // A film at rest is where it is wanted, though its picture is of when it came to rest.
+            if field.rest.is_some() {
+                continue;
+            }
             let shown = field.shown.unwrap_or(field.state.moment).tick;
             reached = reached.max(shown);
             missing = missing.max(film.moment.tick.saturating_sub(shown));
