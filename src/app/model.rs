@@ -178,12 +178,16 @@ impl Model {
         self.take_over(changed);
     }
 
-    /// Makes a bubble end at something else, or regenerate otherwise, and blows it anew.
-    pub fn change_end(&mut self, index: usize, end: impl FnOnce(&mut Bubble)) {
+    /// Makes a bubble end at what another does, and regenerate as that, and blows it anew; nothing if it does already.
+    pub fn change_end(&mut self, index: usize, ended: &Bubble) {
+        let end = |bubble: &Bubble| (bubble.boundary, bubble.rim_deg, bubble.regeneration, bubble.patch_mm);
+        if self.scene.bubbles.get(index).is_none_or(|bubble| end(bubble) == end(ended)) {
+            return;
+        }
         let mut changed = self.scene.clone();
-        let Some(bubble) = changed.bubbles.get_mut(index) else { return };
-        end(bubble);
-        if changed != self.scene && self.take_over(changed) {
+        let bubble = &mut changed.bubbles[index];
+        (bubble.boundary, bubble.rim_deg, bubble.regeneration, bubble.patch_mm) = end(ended);
+        if self.take_over(changed) {
             self.clock.reset();
         }
     }

@@ -64,48 +64,31 @@ pub struct Sum<'a> {
     pub control: &'a wgpu::Buffer,
 }
 
-/// Records the two passes that find the correction; their workgroups are given in turn.
+/// What becomes of how far a field is from its target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excess {
+    /// It is corrected.
+    Balanced,
+    /// The field is taken as it is from now on: evaporation spared it.
+    Spared,
+    /// What the field lacks has drained.
+    Drained,
+}
+
+/// Records the two passes that sum a field's excess over its target, and what becomes of it; their workgroups are given in turn.
 pub fn conserve(
     recorder: &mut Recorder<'_>,
     name: &'static str,
     target: Target,
     sum: &Sum<'_>,
-    groups: [Groups<'_>; 2],
-) -> Result<(), GpuError> {
-    summed(recorder, name, target, sum, groups, ("balance_sum", &[(4, sum.balance)]))
-}
-
-/// Records the two passes that take a field as it is for what is conserved from now on: see [`conserve`].
-pub fn count_spared(
-    recorder: &mut Recorder<'_>,
-    name: &'static str,
-    target: Target,
-    sum: &Sum<'_>,
-    groups: [Groups<'_>; 2],
-) -> Result<(), GpuError> {
-    summed(recorder, name, target, sum, groups, ("count_spared", &[]))
-}
-
-/// Records the two passes that take what a field lacks for what has left it: see [`conserve`].
-pub fn count_drained(
-    recorder: &mut Recorder<'_>,
-    name: &'static str,
-    target: Target,
-    sum: &Sum<'_>,
-    groups: [Groups<'_>; 2],
-) -> Result<(), GpuError> {
-    summed(recorder, name, target, sum, groups, ("count_drained", &[]))
-}
-
-/// Sums a field's departure from its target, and gives the sum to an entry point with buffers of its own besides.
-fn summed(
-    recorder: &mut Recorder<'_>,
-    name: &'static str,
-    target: Target,
-    sum: &Sum<'_>,
     [sum_groups, one_group]: [Groups<'_>; 2],
-    (entry, result): (&'static str, &[(u32, &wgpu::Buffer)]),
+    excess: Excess,
 ) -> Result<(), GpuError> {
+    let (entry, result): (_, &[(u32, &wgpu::Buffer)]) = match excess {
+        Excess::Balanced => ("balance_sum", &[(4, sum.balance)]),
+        Excess::Spared => ("count_spared", &[]),
+        Excess::Drained => ("count_drained", &[]),
+    };
     let mean = target.mean as f32;
     let [low, high] = target.bounds.unwrap_or_default();
     let uniform = recorder.gpu.uniform(

@@ -9,7 +9,6 @@ use super::{
     pipelines::ComputeKey,
     timing::Recorder,
 };
-use crate::physics::film::Cap;
 
 /// Patches that one pass takes.
 pub const MAX_PATCHES: usize = 64;
@@ -73,8 +72,8 @@ pub struct DrainLaw {
 }
 
 impl DrainLaw {
-    fn uniform(&self, grid: &Grid, cap: Option<Cap>, level_nm: f32) -> DrainUniform {
-        let [rim_z, inversion] = rim_numbers(cap);
+    fn uniform(&self, grid: &Grid, level_nm: f32) -> DrainUniform {
+        let [rim_z, inversion] = rim_numbers(grid.cap);
         let mut uniform = DrainUniform {
             gravity: self.gravity.as_vec3().to_array(),
             flux: self.flux as f32,
@@ -99,11 +98,12 @@ impl DrainLaw {
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
-        (grid, cap, level_nm): (&Grid, Option<Cap>, f32),
+        grid: &Grid,
+        level_nm: f32,
         control: &Control,
         [tracer, drained]: [&wgpu::Buffer; 2],
     ) -> Result<(), GpuError> {
-        let uniform = recorder.gpu.uniform("drain", &self.uniform(grid, cap, level_nm));
+        let uniform = recorder.gpu.uniform("drain", &self.uniform(grid, level_nm));
         let bound = [&uniform, &grid.tangents, &control.block, tracer, drained].map(wgpu::Buffer::as_entire_binding);
         let key = ComputeKey { pass: "drain", entry: "drain_film", constants: vec![("TAPS", 4), ("LIMITER", 1)] };
         recorder.compute("step_field", &key, &bound, control.tracer_groups())

@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use super::{
     Moment,
+    films::{evaporation, fold_seed, initial_film},
     keys::{BLACK_FILM_NM, HoleKey, evaporated_nm, thins_at_tick},
-    want::{evaporation, fold_seed, initial_film},
 };
 use crate::{
     physics::film::{Random, burst_s, properties::BLACK_FILM_ONSET},

@@ -6,6 +6,7 @@
 
 mod checkpoints;
 mod fields;
+mod films;
 pub mod keys;
 mod lives;
 mod want;
@@ -13,12 +14,13 @@ mod want;
 use std::{fmt, ops::Range};
 
 pub use checkpoints::Checkpoints;
+pub use films::{centre_path, film_key, film_turn};
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmEnd, FilmKey,
     FlowLaw, FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, RestingFilm,
-    TableKey, TonemapKey, range_nm,
+    TableKey, TonemapKey, left_nm, range_nm,
 };
-pub use want::{Lamp, Resources, Shot, WantError, centre_path, film_key, film_turn, want};
+pub use want::{Lamp, Resources, Shot, WantError, want};
 
 /// How much may be done before the next picture must be out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     gpu::GpuError,
-    plan::BLACK_FILM_NM,
+    plan::{BLACK_FILM_NM, left_nm},
     scene::{Change, Event, Motion, MotionChange, Scene},
 };
 
@@ -154,8 +154,7 @@ fn black(run: &mut Run<'_>) -> Result<(), GpuError> {
         let before = played.thickness()?;
         played.play_to(ticks)?;
         let thinned_nm = evaporation_nm_s * ticks as f64 * scene.motion.tick_s;
-        let left = |nm: &f64| (nm - thinned_nm).max(nm.min(BLACK_FILM_NM));
-        let after: Vec<f64> = played.thickness()?.iter().map(left).collect();
+        let after: Vec<f64> = played.thickness()?.into_iter().map(|nm| left_nm(nm, thinned_nm)).collect();
         let (fastest, unfinished) = (played.fastest()?, after.iter().filter(|value| !value.is_finite()).count());
         run.at_most(format!("{name}: values not finite"), unfinished as f64, 0.0);
         run.at_most(format!("{name}: fastest flow over free fall"), fastest / free_fall(&scene), 1.0);

@@ -22,7 +22,7 @@ use crate::{
         optics::reflectance,
         sphere::CubedSphere,
     },
-    plan::BLACK_FILM_NM,
+    plan::{BLACK_FILM_NM, left_nm},
     scene::{Change, Event, Scene, Stir},
 };
 
@@ -223,13 +223,12 @@ fn drained(run: &mut Run<'_>) -> Result<(), GpuError> {
     for tick in (120..=300).step_by(12) {
         played.play_to(tick)?;
         let thinned_nm = EVAPORATION_NM_S * tick as f64 * scene.motion.tick_s;
-        let left: Vec<f64> =
-            played.thickness()?.iter().map(|nm| (nm - thinned_nm).max(nm.min(BLACK_FILM_NM))).collect();
-        let sphere = played.sphere();
+        let left: Vec<f64> = played.thickness()?.into_iter().map(|nm| left_nm(nm, thinned_nm)).collect();
+        let (sphere, areas) = (played.sphere(), played.sphere().areas());
         let caps = [0.8, 0.0, -0.8].map(|low| mean_between(sphere, &left, low, low + 0.2));
         unsorted = unsorted.max(caps[0] / caps[1]).max(caps[1] / caps[2]);
         let is_black = |cell: &usize| left[*cell] < 2.0 * BLACK_FILM_NM;
-        let area = (0..sphere.cells()).filter(is_black).map(|cell| sphere.areas()[cell]).sum::<f64>();
+        let area = (0..sphere.cells()).filter(is_black).map(|cell| areas[cell]).sum::<f64>();
         if area > 0.0 && first.is_none() {
             let height =
                 (0..sphere.cells()).filter(is_black).map(|cell| sphere.cell_direction(cell).z).fold(1.0, f64::min);

@@ -12,8 +12,8 @@ use crate::{
         transport::FlowMap,
     },
     plan::{
-        BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, HoleKey, LightKey,
-        Lighting, Moment,
+        BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, HoleKey, LightKey, Lighting, Moment,
+        left_nm,
     },
 };
 
@@ -123,8 +123,7 @@ fn sphere<'a>(key: &BubbleKey, on_bath: bool, films: &'a MovedFilms) -> Result<F
             Some(cap) if !cap.contains(direction) => return 0.0,
             _ => direction,
         };
-        let thickness_nm = field(direction);
-        (thickness_nm - thinned_nm).max(thickness_nm.min(BLACK_FILM_NM))
+        left_nm(field(direction), thinned_nm)
     };
     let thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match key.hole {
         None => Box::new(move |direction| film_nm(to_film * direction)),

@@ -7,7 +7,7 @@ use soapfilm::{
         film::Hole,
         sphere::{CubedSphere, HaloTable, PaddedField},
     },
-    plan::{BLACK_FILM_NM, OpenHoleKey, Pass, Want},
+    plan::{BLACK_FILM_NM, OpenHoleKey, Pass, Want, left_nm},
     scene::{Change, Event, FilmStateName, Prick},
 };
 
@@ -31,8 +31,7 @@ fn shown(renderer: &mut Renderer, want: &Want) -> (CubedSphere, Vec<f64>, f64) {
     let thinned_nm = want.picture.draw.bubbles[0].thinned_nm;
     let (grid, thickness_nm) = renderer.read_film(0).unwrap().unwrap();
     let values: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.wait(&renderer.gpu).unwrap());
-    let left = |nm: f32| (f64::from(nm) - thinned_nm).max(f64::from(nm).min(BLACK_FILM_NM));
-    let values: Vec<f64> = values.into_iter().map(left).collect();
+    let values: Vec<f64> = values.into_iter().map(|nm| left_nm(nm.into(), thinned_nm)).collect();
     let total: f64 = grid.areas().iter().zip(&values).map(|(area, nm)| area * nm).sum();
     (grid, values, total / (4.0 * std::f64::consts::PI))
 }

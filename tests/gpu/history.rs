@@ -218,7 +218,8 @@ fn a_film_that_hardly_moves_is_hardly_stepped() {
 fn scrubbing_to_random_moments_gives_the_bits_of_a_run_from_scratch() {
     let Some(mut scrubbed) = renderer() else { return };
     let (mut random, mut loaded) = (Random(11), eventful());
-    // Black film spreads within the first seconds.
+    // It drains where it moves by itself, and black film spreads within the first seconds.
+    loaded.scene.motion.drainage = 1000.0;
     loaded.scene.bubbles[0].film.thickness_nm = 250.0;
     (loaded.scene.motion.evaporation_nm_s, loaded.scene.motion.black_film_life_s) = (25.0, 1e6);
     let read = |renderer: &mut Renderer, ticks: f64| {

@@ -49,11 +49,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     end(ui, &mut ended);
     edit(ui, &mut film);
     model.change_film(model.selected, film);
-    let Bubble { boundary, rim_deg, regeneration, patch_mm, .. } = ended;
-    model.change_end(model.selected, |bubble| {
-        (bubble.boundary, bubble.rim_deg) = (boundary, rim_deg);
-        (bubble.regeneration, bubble.patch_mm) = (regeneration, patch_mm);
-    });
+    model.change_end(model.selected, &ended);
 }
 
 /// What the film ends at, and what comes from there.

@@ -1,7 +1,7 @@
 //! A film's state kept aside, so that the film can go on from there again with the same bits.
 
 use super::{
-    super::{GpuError, blacken::BlackeningLaw, copies::Copies, flow::FlowCheckpoint, timing::Recorder},
+    super::{GpuError, copies::Copies, flow::FlowCheckpoint, timing::Recorder},
     Field, FreeMotion, MovingFilm,
     rest::KeptRestWatch,
 };
@@ -13,15 +13,12 @@ pub struct Checkpoint {
     watch: KeptRestWatch,
 }
 
-/// The state of a field.
+/// The state of a field. What spreads, blackens or drains it is set anew by each step.
 struct FieldCheckpoint {
     buffers: Copies,
     has_moved: bool,
+    has_drained: bool,
     ticks_since_decision: u32,
-    /// Law of diffusion.
-    diffusion: Option<(f64, f64)>,
-    /// Law of the collapse to black film.
-    black: Option<BlackeningLaw>,
 }
 
 impl MovingFilm {
@@ -65,19 +62,14 @@ impl Field {
             buffers: Copies::of(recorder, &self.state()),
             has_moved: self.has_moved,
             ticks_since_decision: self.ticks_since_decision,
-            diffusion: self.diffusion.as_ref().map(|diffusion| diffusion.law()),
-            black: self.black.as_ref().map(|black| black.law),
+            has_drained: self.has_drained,
         }
     }
 
     fn restore(&mut self, recorder: &mut Recorder<'_>, checkpoint: &FieldCheckpoint) {
-        let FieldCheckpoint { buffers, has_moved, ticks_since_decision, diffusion, black } = checkpoint;
+        let FieldCheckpoint { buffers, has_moved, has_drained, ticks_since_decision } = checkpoint;
         buffers.restore(recorder, &self.state());
-        (self.has_moved, self.ticks_since_decision) = (*has_moved, *ticks_since_decision);
-        match *diffusion {
-            Some((rad2_s, tick_s)) => self.diffuse(recorder.gpu, rad2_s, tick_s),
-            None => self.diffusion = None,
-        }
-        self.collapse(recorder.gpu, *black);
+        (self.has_moved, self.has_drained) = (*has_moved, *has_drained);
+        self.ticks_since_decision = *ticks_since_decision;
     }
 }

@@ -26,6 +26,8 @@ pub struct Grid {
     /// Solid angles of a panel's cells; of all panels' where the film has a rim, beyond which there is none.
     pub areas: wgpu::Buffer,
     halo: OnceLock<wgpu::Buffer>,
+    /// Where the film ends, if anywhere.
+    pub cap: Option<Cap>,
     /// Solid angle of the film.
     pub film_area: f64,
 }
@@ -43,6 +45,7 @@ impl Grid {
         };
         let areas: Vec<f32> = areas.into_iter().map(|area| area as f32).collect();
         Self {
+            cap,
             film_area,
             sphere,
             cells: n as u32,
@@ -55,6 +58,11 @@ impl Grid {
     /// What each cell of the halo is interpolated from, made when it is first asked for.
     pub(in crate::gpu) fn halo(&self, gpu: &Gpu) -> &wgpu::Buffer {
         self.halo.get_or_init(|| gpu.storage("film halo", &halo_entries(self.sphere)))
+    }
+
+    /// Solid angles of film in all cells, in the grid's order.
+    pub(super) fn film_areas(&self) -> Vec<f64> {
+        self.cap.map_or_else(|| self.sphere.areas(), |cap| film_areas(self.sphere, cap))
     }
 
     /// A field of so many bytes a cell in padded storage.

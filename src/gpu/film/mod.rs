@@ -17,29 +17,31 @@ mod control;
 mod free;
 mod grid;
 mod moving;
+mod remap;
 mod rest;
+mod seeded;
+mod shown;
 
 pub use control::{BalanceBlock, Control, ControlBlock, RemapArguments};
 pub use free::{FreeMotion, GustsUniform, PushesUniform, Surroundings, ThicknessUniform};
 pub use grid::{FilmTexture, Grid, film_areas, rim_numbers};
-pub use moving::{LawInForce, MovingFilm, rules};
-
-use rayon::prelude::*;
+pub use moving::{MovingFilm, rules};
+use seeded::{Seeded, level_of};
+pub use shown::{NoFilm, Shown};
 
 use super::{
     Gpu, GpuError,
-    blacken::{BlackFilm, BlackeningLaw},
+    blacken::BlackFilm,
     compose_map::{Composition, compose_map},
-    conserve::{Sum, Target, conserve, count_drained, count_spared, parts},
+    conserve::{Excess, Sum, Target, conserve, parts},
     correct_error::correct_error,
-    decide_remap::{RemapRule, decide_remap},
+    decide_remap::RemapRule,
     diffuse::Diffusion,
     drain::DrainLaw,
     read_film::read_film,
     readback::Readback,
     reset_map::reset_map,
     sample_tracer::{Gathered, Sampling, sample_tracer},
-    settle_tracer::settle_tracer,
     show_film::show_film,
     timing::{Groups, Recorder},
     trace_step::{Step, trace_step},
@@ -96,6 +98,8 @@ pub struct Field {
     map: [wgpu::Buffer; 2],
     /// Whether any step was taken since the film was seeded: until then there is no need to look through a map.
     has_moved: bool,
+    /// Whether film may have left since then: what did not is not bound to be as thick, or as thin, as it was.
+    has_drained: bool,
     ticks_since_decision: u32,
     /// The tracer of the last remap.
     tracer: wgpu::Buffer,
@@ -130,51 +134,6 @@ pub enum Planted {
     Map,
 }
 
-/// What pictures read of a film.
-#[derive(Clone, Copy)]
-pub struct Shown<'a> {
-    /// The thickness at the film's cells.
-    pub film: &'a wgpu::TextureView,
-    /// The correction of what is looked up through the map.
-    pub balance: &'a wgpu::Buffer,
-    /// The map that it was sampled through.
-    pub map: &'a wgpu::Buffer,
-    /// Its cells along a panel's edge.
-    pub map_cells: u32,
-    /// The tracer that was sampled.
-    pub tracer: &'a wgpu::Buffer,
-    /// Its cells along a panel's edge.
-    pub tracer_cells: u32,
-}
-
-/// An empty film for pictures that read none.
-pub struct NoFilm {
-    film: FilmTexture,
-    control: Control,
-}
-
-impl NoFilm {
-    /// One texel a panel.
-    #[must_use]
-    pub fn new(gpu: &Gpu) -> Self {
-        Self { film: FilmTexture::new(gpu, 1), control: Control::new(gpu) }
-    }
-
-    /// What pictures may bind.
-    #[must_use]
-    pub fn shown(&self) -> Shown<'_> {
-        let Control { shown_balance, partial_sums, .. } = &self.control;
-        Shown {
-            film: &self.film.view,
-            balance: shown_balance,
-            map: partial_sums,
-            map_cells: 0,
-            tracer: partial_sums,
-            tracer_cells: 0,
-        }
-    }
-}
-
 /// Cells along a panel's edge of the grid that flows are traced on, at least: 1.4° each.
 const MIN_FLOW_CELLS: usize = 64;
 
@@ -200,6 +159,7 @@ impl Field {
             step_map: coarse.as_ref().unwrap_or(&film).field(gpu, "step map", 16),
             map: ["map", "next map"].map(|label| smooth.as_ref().unwrap_or(&film).field(gpu, label, 16)),
             has_moved: false,
+            has_drained: false,
             ticks_since_decision: 0,
             tracer: scalars("tracer"),
             sampled: scalars("sampled"),
@@ -244,44 +204,10 @@ impl Field {
         self.coarse.as_ref().unwrap_or(&self.film)
     }
 
-    /// From now on the thickness spreads by so many rad²/s, in ticks of a length in seconds. Schemes without a map do not spread it.
-    pub fn diffuse(&mut self, gpu: &Gpu, rad2_s: f64, tick_s: f64) {
-        if self.diffusion.as_ref().is_none_or(|diffusion| diffusion.law() != (rad2_s, tick_s)) {
-            self.diffusion = Diffusion::new(gpu, self.tracer_grid(), rad2_s, tick_s);
-        }
-    }
-
-    /// From now on the film collapses to black film by a law, or not at all. Schemes without a map do not.
-    pub fn collapse(&mut self, gpu: &Gpu, law: Option<BlackeningLaw>) {
-        match (law, &mut self.black) {
-            (None, black) => *black = None,
-            (Some(law), Some(black)) => black.law = law,
-            (Some(law), None) => self.black = Some(BlackFilm::new(gpu, self.tracer_grid(), law, self.level)),
-        }
-    }
-
-    /// From now on film leaves by a law, at remaps which are so many ticks apart at most; or not at all. Schemes without a map lose none.
-    pub fn drain(&mut self, law: Option<(DrainLaw, u32)>) {
-        if law.is_some() {
-            // The film does not stay as thick, or as thin, as it was seeded.
-            self.targets.iter_mut().for_each(|target| target.bounds = None);
-        }
-        self.drain = law;
-    }
-
-    /// When the map is remapped.
-    fn remap_rule(&self) -> RemapRule {
-        let latest_ticks = self.diffusion.as_ref().map_or(u32::MAX, Diffusion::latest_ticks);
-        // Errors count in cells of the film, whatever those of the map.
-        RemapRule {
-            error_limit_cells: self.rules.remap.error_limit_cells / self.rules.map_coarsening.max(1) as f32,
-            latest_ticks: self
-                .drain
-                .as_ref()
-                .map_or(u32::MAX, |(_, most)| *most)
-                .min(self.rules.remap.latest_ticks)
-                .min(latest_ticks),
-        }
+    /// What must be kept now, of what is shown or of the tracer.
+    fn target(&self, of: usize) -> Target {
+        let target = self.targets[of];
+        Target { bounds: target.bounds.filter(|_| !self.has_drained), ..target }
     }
 
     fn tracer_grid(&self) -> &Grid {
@@ -298,13 +224,12 @@ impl Field {
         recorder: &mut Recorder<'_>,
         value: impl Fn(glam::DVec3) -> f64 + Sync,
     ) -> Result<(), GpuError> {
-        let (gpu, cap) = (recorder.gpu, self.rules.cap);
+        let gpu = recorder.gpu;
         // A density in a wind that diverges is multiplied on the way, as departures must not be.
         let has_level = self.rules.gathered != Gathered::LogArea;
-        self.level = if has_level { mean_of(self.film.sphere, cap, &value) as f32 } else { 0.0 };
-        let departure = |direction| value(direction) - f64::from(self.level);
-        let film = Seeded::new(self.film.sphere, cap, &departure);
-        let tracer = self.fine.as_ref().map(|grid| Seeded::new(grid.sphere, cap, &departure));
+        self.level = if has_level { level_of(&self.film, &value) } else { 0.0 };
+        let film = Seeded::new(&self.film, self.level, &value);
+        let tracer = self.fine.as_ref().map(|grid| Seeded::new(grid, self.level, &value));
         let tracer = tracer.as_ref().unwrap_or(&film);
         gpu.upload(&self.tracer, &tracer.values);
         self.targets = [(&film, self.level), (tracer, 0.0)].map(|(seeded, level)| {
@@ -312,10 +237,8 @@ impl Field {
             Target { mean: seeded.mean, bounds, level }
         });
         self.control.reset(gpu, self.level);
-        (self.black, self.drain) = (None, None);
-        self.has_moved = false;
-        self.ticks_since_decision = 0;
-        self.diffusion = None;
+        (self.diffusion, self.black, self.drain) = (None, None, None);
+        (self.has_moved, self.has_drained, self.ticks_since_decision) = (false, false, 0);
         if self.rules.scheme.keeps_map() {
             let grid = self.map_grid();
             reset_map(recorder, "seed_field", grid, &self.map[0], grid.padded_groups().into())?;
@@ -367,74 +290,6 @@ impl Field {
             after: &self.map[into],
         };
         compose_map(recorder, name, &composition)
-    }
-
-    fn remap_if_due(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
-        let ticks = (std::mem::take(&mut self.ticks_since_decision), self.remap_rule());
-        let grids = (self.map_grid(), self.tracer_grid());
-        decide_remap(recorder, STEP, grids, &self.map[0], &self.control, ticks)?;
-        let due = &self.control;
-        let tracers = [&self.tracer, &self.sampled];
-        self.sample(recorder, STEP, self.tracer_grid(), self.kept_map(), tracers, due.tracer_groups())?;
-        if let Some(diffusion) = &self.diffusion {
-            diffusion.record(recorder, self.tracer_grid(), &self.control, &self.sampled, &self.tracer)?;
-        }
-        self.settle(recorder, [due.sum_groups(), due.one_group(), due.tracer_groups()])?;
-        if let Some((law, _)) = &self.drain {
-            self.lose(recorder, law)?;
-        }
-        if let Some(black) = &self.black {
-            self.blacken(recorder, black)?;
-        }
-        reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())
-    }
-
-    /// Lets film leave at the rim, and counts it.
-    fn lose(&self, recorder: &mut Recorder<'_>, law: &DrainLaw) -> Result<(), GpuError> {
-        let (grid, due) = (self.tracer_grid(), &self.control);
-        law.record(recorder, (grid, self.rules.cap, self.level), due, [&self.tracer, &self.sampled])?;
-        let sum = Sum {
-            grid,
-            field: &self.sampled,
-            partial_sums: &due.partial_sums,
-            balance: &due.tracer_balance,
-            control: &due.block,
-        };
-        count_drained(recorder, STEP, self.targets[1], &sum, [due.sum_groups(), due.one_group()])?;
-        self.settle(recorder, [due.sum_groups(), due.one_group(), due.tracer_groups()])
-    }
-
-    /// Lets thin film collapse to black film: evaporation has ended where it is black, and what collapsing film loses goes to the film
-    /// around it.
-    fn blacken(&self, recorder: &mut Recorder<'_>, black: &BlackFilm) -> Result<(), GpuError> {
-        let (grid, due) = (self.tracer_grid(), &self.control);
-        black.stop_evaporation(recorder, grid, due, &self.tracer)?;
-        let sum = Sum {
-            grid,
-            field: &self.tracer,
-            partial_sums: &due.partial_sums,
-            balance: &due.tracer_balance,
-            control: &due.block,
-        };
-        count_spared(recorder, STEP, self.targets[1], &sum, [due.sum_groups(), due.one_group()])?;
-        black.collapse(recorder, grid, due, &self.tracer, &self.sampled)?;
-        self.settle(recorder, [due.sum_groups(), due.one_group(), due.tracer_groups()])
-    }
-
-    /// Makes what was sampled the tracer; the workgroups of the sum, of its end, and of a pass over the tracer are given.
-    fn settle(&self, recorder: &mut Recorder<'_>, groups: [Groups<'_>; 3]) -> Result<(), GpuError> {
-        let [sum_groups, one_group, tracer_groups] = groups;
-        let sum = Sum {
-            grid: self.tracer_grid(),
-            field: &self.sampled,
-            partial_sums: &self.control.partial_sums,
-            balance: &self.control.tracer_balance,
-            control: &self.control.block,
-        };
-        if self.rules.conserved {
-            conserve(recorder, STEP, self.targets[1], &sum, [sum_groups, one_group])?;
-        }
-        settle_tracer(recorder, sum.balance, &self.sampled, &self.tracer, tracer_groups)
     }
 
     /// One step of a scheme that keeps no map.
@@ -496,7 +351,8 @@ impl Field {
             control: &self.control.block,
         };
         if self.rules.conserved {
-            conserve(recorder, SHOW, self.targets[0], &sum, [[parts(&self.film), 1, 1].into(), [1; 3].into()])?;
+            let groups = [[parts(&self.film), 1, 1].into(), [1; 3].into()];
+            conserve(recorder, SHOW, self.target(0), &sum, groups, Excess::Balanced)?;
         }
         show_film(recorder, SHOW, &self.film, sum.balance, &self.shown, &self.texture.view)
     }
@@ -541,46 +397,5 @@ impl Field {
         for [from, to] in [&self.map.each_ref(), &[&self.tracer, &self.sampled]] {
             recorder.encoder().copy_buffer_to_buffer(from, 0, to, 0, from.size());
         }
-    }
-}
-
-/// Mean of a function over a grid's cells; 0 where it is no number.
-fn mean_of(sphere: CubedSphere, cap: Option<Cap>, value: &(impl Fn(glam::DVec3) -> f64 + Sync)) -> f64 {
-    let (areas, film_area) = areas_of(sphere, cap);
-    let weighted = areas.into_par_iter().enumerate().map(|(cell, area)| area * value(sphere.cell_direction(cell)));
-    let sum: f64 = weighted.collect::<Vec<_>>().into_iter().sum();
-    if sum.is_finite() { sum / film_area } else { 0.0 }
-}
-
-/// Solid angles of film in all cells, and of the film.
-fn areas_of(sphere: CubedSphere, cap: Option<Cap>) -> (Vec<f64>, f64) {
-    let Some(cap) = cap else { return (sphere.areas(), 4.0 * std::f64::consts::PI) };
-    let areas = film_areas(sphere, cap);
-    let sum = areas.iter().sum();
-    (areas, sum)
-}
-
-/// A function's values by padded index, and what must be kept of them.
-struct Seeded {
-    values: Vec<f32>,
-    mean: f64,
-    range: [f32; 2],
-}
-
-impl Seeded {
-    fn new(sphere: CubedSphere, cap: Option<Cap>, value: &(impl Fn(glam::DVec3) -> f64 + Sync)) -> Self {
-        let folded = |x| cap.map_or(x, |cap| cap.folded(x));
-        let values: Vec<f32> = (0..sphere.padded_len())
-            .into_par_iter()
-            .map(|index| value(folded(sphere.padded_direction(index))) as f32)
-            .collect();
-        let place = |cell: usize| {
-            let (panel, i, j) = sphere.cell(cell);
-            sphere.padded_index(panel, i as isize, j as isize)
-        };
-        let (areas, film_area) = areas_of(sphere, cap);
-        let mass: f64 = areas.iter().enumerate().map(|(cell, area)| area * f64::from(values[place(cell)])).sum();
-        let range = values.iter().fold([f32::MAX, f32::MIN], |[low, high], v| [low.min(*v), high.max(*v)]);
-        Self { mean: mass / film_area, range, values }
     }
 }

@@ -105,8 +105,8 @@ impl MovingFilm {
         stays
     }
 
-    /// Moves the film by one of the history's steps.
-    pub fn advance(
+    /// Moves the film by one of the history's steps, by the law in force alone.
+    fn advance(
         &mut self,
         recorder: &mut Recorder<'_>,
         key: &FieldKey,
@@ -114,10 +114,16 @@ impl MovingFilm {
         ticks: Range<u64>,
     ) -> Result<(), GpuError> {
         let length = u32::try_from(ticks.end - ticks.start).unwrap_or(u32::MAX);
-        match key.law(ticks.start) {
-            FlowLaw::Free(free) => self.advance_freely(recorder, key, &free, law, (ticks.start, length)),
-            _ => self.field.advance(recorder, &law.step(key, ticks.start, length.into()), length),
-        }
+        let (now, end) = (key.law(ticks.start), ticks.end as f64);
+        self.field.diffuse(recorder.gpu, now.diffusion(), key.tick_s);
+        let FlowLaw::Free(free) = now else {
+            self.field.collapse(recorder.gpu, None);
+            self.field.drain(None);
+            return self.field.advance(recorder, &law.step(key, ticks.start, length.into()), length);
+        };
+        self.field.collapse(recorder.gpu, key.has_black_film(end).then(|| blackening(key, end)));
+        self.field.drain(draining(key, &free, end));
+        self.advance_freely(recorder, key, &free, law, (ticks.start, length))
     }
 
     fn advance_freely(
@@ -129,10 +135,6 @@ impl MovingFilm {
         (tick, ticks): (u64, u32),
     ) -> Result<(), GpuError> {
         let Self { field, motion, .. } = self;
-        let end = tick as f64 + f64::from(ticks);
-        field.diffuse(recorder.gpu, free.diffusion, key.tick_s);
-        field.collapse(recorder.gpu, key.has_black_film(end).then(|| blackening(key, end)));
-        field.drain(draining(key, free, end));
         let motion = match motion {
             Some(motion) => motion,
             None => motion.insert(FreeMotion::new(recorder, field)?),
@@ -195,7 +197,7 @@ pub fn rules(key: &FieldKey) -> Rules {
         map_coarsening: if key.cells < FINE_CELLS { 1 } else { 2 },
         coarse_flow: true,
         cap: key.cap(),
-        drop_rad: key.end.as_ref().and_then(|end| end.drop_rad),
+        drop_rad: key.drop_rad(),
     }
 }
 
@@ -219,7 +221,7 @@ fn draining(key: &FieldKey, free: &FreeFlow, ticks: f64) -> Option<(DrainLaw, u3
         flux: free.drainage * key.tick_s,
         thinned_nm: key.thinned_nm(ticks),
         black_nm: BLACK_FILM_NM,
-        drop_rad: if key.cap().is_some() { 0.0 } else { rules(key).drop_rad.unwrap_or(DROP_RAD) },
+        drop_rad: if key.cap().is_some() { 0.0 } else { key.drop_rad().unwrap_or(DROP_RAD) },
         patch_radius: key.regeneration().map_or(1.0, |regeneration| regeneration.radius),
         patches: patches.into_iter().map(aged).collect(),
     };
@@ -238,7 +240,7 @@ fn blackening(key: &FieldKey, ticks: f64) -> BlackeningLaw {
 
 /// The law that drives a film, made into a flow once for as long as it holds.
 #[derive(Default)]
-pub struct LawInForce(Option<(FlowLaw, PrescribedFlow)>);
+struct LawInForce(Option<(FlowLaw, PrescribedFlow)>);
 
 impl LawInForce {
     /// A step of so many ticks.

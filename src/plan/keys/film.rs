@@ -128,9 +128,7 @@ impl FreeFlow {
         const LONGEST_S: f64 = 1.0 / 30.0;
         (0.25 / self.forces.gravity.length().sqrt()).min(LONGEST_S)
     }
-}
 
-impl FreeFlow {
     /// Ticks in a step of the film.
     #[must_use]
     pub fn ticks_a_step(&self, tick_s: f64) -> u64 {
@@ -257,6 +255,12 @@ impl FieldKey {
         self.end.as_ref().and_then(|end| end.cap)
     }
 
+    /// Angular radius of the drop at its bottom, if there is one, radians.
+    #[must_use]
+    pub fn drop_rad(&self) -> Option<f64> {
+        self.end.as_ref().and_then(|end| end.drop_rad)
+    }
+
     /// How it regenerates at its rim, if it does.
     #[must_use]
     pub fn regeneration(&self) -> Option<Regeneration> {
@@ -317,85 +321,10 @@ impl FieldKey {
         self.path.mean_acceleration(from_ticks * self.tick_s, to_ticks * self.tick_s)
     }
 
-    /// The last tick until the moment at which a step ends: where the film's state stands. What the moment is beyond it, the shown
-    /// thickness alone is ahead of the state, so that steps are the same however a history is cut into frames.
-    #[must_use]
-    pub fn state_tick(&self) -> u64 {
-        self.step_at(self.moment.tick).start
-    }
-
-    /// The last moment until this one at which the film is seen to have moved: while it rests, or has moved by less than a thousandth of a
-    /// cell since its state, time changes nothing.
-    #[must_use]
-    pub fn last_moved(&self) -> Moment {
-        let state = self.state_tick();
-        let ahead_s = ((self.moment.tick - state) as f64 + self.moment.fraction) * self.tick_s;
-        if ahead_s < self.law(state).still_s(self.cell_angle()) { Moment::tick(state) } else { self.moment }
-    }
-
-    /// Ticks of the whole steps from the end of one until the moment, in order.
-    pub fn steps_from(&self, tick: u64) -> impl Iterator<Item = Range<u64>> {
-        let mut next = tick;
-        std::iter::from_fn(move || {
-            let step = self.step_at(next);
-            next = step.end;
-            (step.end <= self.moment.tick).then_some(step)
-        })
-    }
-
-    /// The step that a tick lies in. Steps begin with each law and are cut where the next one comes into force; a law of rest is one step.
-    fn step_at(&self, tick: u64) -> Range<u64> {
-        let after = self.flows.partition_point(|segment| segment.from_tick <= tick);
-        let end = self.flows.get(after).map_or(u64::MAX, |next| next.from_tick);
-        let Some(segment) = self.flows[..after].last() else { return 0..end };
-        if segment.law == FlowLaw::Rest {
-            return segment.from_tick..end;
-        }
-        let length = segment.law.ticks_a_step(self.tick_s, self.cell_angle());
-        let start = tick - (tick - segment.from_tick) % length;
-        start..start.saturating_add(length).min(end)
-    }
-
     /// Angle between neighbouring cells, in radians; that of the coarsest grid for a size that no grid has.
     #[must_use]
     pub fn cell_angle(&self) -> f64 {
         CubedSphere::new(self.cells as usize).map_or(std::f64::consts::FRAC_PI_2 / 8.0, CubedSphere::cell_angle)
-    }
-
-    /// Whether this film's past, up to the other's moment, is the other's: then it can go on from there.
-    #[must_use]
-    pub fn continues(&self, past: &Self) -> bool {
-        past.moment.tick <= self.moment.tick
-            && !self.law_differs_until(past)
-            && self.step_at(past.moment.tick).start == past.moment.tick
-    }
-
-    /// Whether one film's past is the other's, as far as the earlier of their moments.
-    #[must_use]
-    pub fn shares_past(&self, other: &Self) -> bool {
-        let [earlier, later] = if self.moment.tick <= other.moment.tick { [self, other] } else { [other, self] };
-        !later.law_differs_until(earlier)
-    }
-
-    /// Whether both began alike and are moved in the same way: then they differ in their moments and in what drove them alone.
-    #[must_use]
-    pub fn is_same_film(&self, other: &Self) -> bool {
-        (self.cells, self.initial, &self.end, self.tick_s, self.scheme, self.remap_ticks)
-            == (other.cells, other.initial, &other.end, other.tick_s, other.scheme, other.remap_ticks)
-    }
-
-    /// Whether anything that shaped the other film up to its moment is different in this one.
-    #[must_use]
-    pub fn law_differs_until(&self, other: &Self) -> bool {
-        let end = other.moment.end_tick();
-        let past = |key: &Self| key.flows.iter().filter(|segment| segment.from_tick < end).copied().collect::<Vec<_>>();
-        let pushes = |key: &Self| key.pushes.iter().filter(|push| push.ticks.start < end).cloned().collect::<Vec<_>>();
-        let thinning = |key: &Self| key.evaporation.iter().filter(|(tick, _)| *tick < end).copied().collect::<Vec<_>>();
-        !self.is_same_film(other)
-            || past(self) != past(other)
-            || thinning(self) != thinning(other)
-            || pushes(self) != pushes(other)
-            || self.path.until(end as f64 * self.tick_s) != other.path.until(end as f64 * self.tick_s)
     }
 }
 
@@ -447,6 +376,12 @@ pub struct OpenHoleKey {
 
 /// Thickness of black film, in nm, at which evaporation ends: common black films are 10 to 30 nm thick.
 pub const BLACK_FILM_NM: f64 = 10.0;
+
+/// What is left of a thickness, in nm, of which so much would have evaporated.
+#[must_use]
+pub fn left_nm(thickness_nm: f64, thinned_nm: f64) -> f64 {
+    (thickness_nm - thinned_nm).max(thickness_nm.min(BLACK_FILM_NM))
+}
 
 /// What a bubble's film is made of.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,0 +1,116 @@
+//! Remaps: what is done to a film for good when its map is looked through, and what may only be done then.
+
+use super::{
+    super::{
+        Gpu, GpuError,
+        blacken::{BlackFilm, BlackeningLaw},
+        conserve::{Excess, Sum, conserve},
+        decide_remap::{RemapRule, decide_remap},
+        diffuse::Diffusion,
+        drain::DrainLaw,
+        reset_map::reset_map,
+        settle_tracer::settle_tracer,
+        timing::{Groups, Recorder},
+    },
+    Control, Field, STEP,
+};
+
+impl Field {
+    /// From now on the thickness spreads by so many rad²/s, in ticks of a length in seconds. Schemes without a map do not spread it.
+    pub fn diffuse(&mut self, gpu: &Gpu, rad2_s: f64, tick_s: f64) {
+        if self.diffusion.as_ref().is_none_or(|diffusion| diffusion.law() != (rad2_s, tick_s)) {
+            self.diffusion = Diffusion::new(gpu, self.tracer_grid(), rad2_s, tick_s);
+        }
+    }
+
+    /// From now on the film collapses to black film by a law, or not at all. Schemes without a map do not.
+    pub fn collapse(&mut self, gpu: &Gpu, law: Option<BlackeningLaw>) {
+        match (law, &mut self.black) {
+            (None, black) => *black = None,
+            (Some(law), Some(black)) => black.law = law,
+            (Some(law), None) => self.black = Some(BlackFilm::new(gpu, self.tracer_grid(), law, self.level)),
+        }
+    }
+
+    /// From now on film leaves by a law, at remaps which are so many ticks apart at most; or not at all. Schemes without a map lose none.
+    pub fn drain(&mut self, law: Option<(DrainLaw, u32)>) {
+        self.has_drained |= law.is_some();
+        self.drain = law;
+    }
+
+    /// When the map is remapped.
+    pub(super) fn remap_rule(&self) -> RemapRule {
+        let diffusing = self.diffusion.as_ref().map_or(u32::MAX, Diffusion::latest_ticks);
+        let draining = self.drain.as_ref().map_or(u32::MAX, |(_, most)| *most);
+        // Errors count in cells of the film, whatever those of the map.
+        RemapRule {
+            error_limit_cells: self.rules.remap.error_limit_cells / self.rules.map_coarsening.max(1) as f32,
+            latest_ticks: self.rules.remap.latest_ticks.min(diffusing).min(draining),
+        }
+    }
+
+    /// Decides on a remap, and lets what it is due for happen: diffusion, drainage, black film.
+    pub(super) fn remap_if_due(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
+        let ticks = (std::mem::take(&mut self.ticks_since_decision), self.remap_rule());
+        let grids = (self.map_grid(), self.tracer_grid());
+        decide_remap(recorder, STEP, grids, &self.map[0], &self.control, ticks)?;
+        let due = &self.control;
+        let tracers = [&self.tracer, &self.sampled];
+        self.sample(recorder, STEP, self.tracer_grid(), self.kept_map(), tracers, due.tracer_groups())?;
+        if let Some(diffusion) = &self.diffusion {
+            diffusion.record(recorder, self.tracer_grid(), &self.control, &self.sampled, &self.tracer)?;
+        }
+        self.settle(recorder, self.groups_due())?;
+        if let Some((law, _)) = &self.drain {
+            self.lose(recorder, law)?;
+        }
+        if let Some(black) = &self.black {
+            self.blacken(recorder, black)?;
+        }
+        reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())
+    }
+
+    /// Workgroups, if a remap is due, of the sum over the tracer, of its end, and of a pass over the tracer.
+    fn groups_due(&self) -> [Groups<'_>; 3] {
+        let due = &self.control;
+        [due.sum_groups(), due.one_group(), due.tracer_groups()]
+    }
+
+    /// Lets film leave at the rim, and counts it.
+    fn lose(&self, recorder: &mut Recorder<'_>, law: &DrainLaw) -> Result<(), GpuError> {
+        law.record(recorder, self.tracer_grid(), self.level, &self.control, [&self.tracer, &self.sampled])?;
+        self.account(recorder, &self.sampled, self.groups_due(), Excess::Drained)?;
+        self.settle(recorder, self.groups_due())
+    }
+
+    /// Lets thin film collapse to black film: evaporation has ended where it is black, and what collapsing film loses goes to the film
+    /// around it.
+    fn blacken(&self, recorder: &mut Recorder<'_>, black: &BlackFilm) -> Result<(), GpuError> {
+        let (grid, due) = (self.tracer_grid(), &self.control);
+        black.stop_evaporation(recorder, grid, due, &self.tracer)?;
+        self.account(recorder, &self.tracer, self.groups_due(), Excess::Spared)?;
+        black.collapse(recorder, grid, due, &self.tracer, &self.sampled)?;
+        self.settle(recorder, self.groups_due())
+    }
+
+    /// Makes what was sampled the tracer.
+    pub(super) fn settle(&self, recorder: &mut Recorder<'_>, groups: [Groups<'_>; 3]) -> Result<(), GpuError> {
+        if self.rules.conserved {
+            self.account(recorder, &self.sampled, groups, Excess::Balanced)?;
+        }
+        settle_tracer(recorder, &self.control.tracer_balance, &self.sampled, &self.tracer, groups[2])
+    }
+
+    /// Sums what a field on the tracer's grid has too much, and does with it what is said.
+    fn account(
+        &self,
+        recorder: &mut Recorder<'_>,
+        field: &wgpu::Buffer,
+        [sum_groups, one_group, _]: [Groups<'_>; 3],
+        excess: Excess,
+    ) -> Result<(), GpuError> {
+        let Control { partial_sums, tracer_balance: balance, block: control, .. } = &self.control;
+        let sum = Sum { grid: self.tracer_grid(), field, partial_sums, balance, control };
+        conserve(recorder, STEP, self.target(1), &sum, [sum_groups, one_group], excess)
+    }
+}

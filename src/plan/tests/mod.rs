@@ -1,0 +1,318 @@
+//! What is skipped and what is not, and that skipping never changes what is there in the end.
+
+mod films;
+
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::Arc,
+};
+
+use glam::DVec3;
+use proptest::prelude::*;
+
+use super::*;
+use crate::{
+    physics::{
+        colour::{Gamut, Illuminant},
+        environment::CubeMap,
+        film::Cap,
+    },
+    scene::{Blow, Bubble, Change, Drag, Event, FilmStateName, Flow, MotionChange, Scene, Stir, preset},
+};
+
+fn resources() -> Resources {
+    Resources {
+        environment: Arc::new(CubeMap::constant(DVec3::ONE)),
+        illuminant: Arc::new(Illuminant::default()),
+        lamps: Vec::new(),
+        liquids: BTreeMap::new(),
+    }
+}
+
+fn shot(tick: u64, pace: Pace) -> Shot {
+    Shot {
+        size: [64, 36],
+        moment: Moment::tick(tick),
+        full_precision: false,
+        gamut: Gamut::Srgb,
+        yardstick: false,
+        pace,
+    }
+}
+
+fn wanted(scene: &Scene, tick: u64, pace: Pace) -> Want {
+    want(scene, &resources(), &shot(tick, pace)).unwrap()
+}
+
+fn names(plan: &Plan) -> Vec<&'static str> {
+    plan.steps.iter().map(|(pass, _)| pass.name()).collect()
+}
+
+/// What is there after a whole picture of a scene.
+fn after(scene: &Scene, tick: u64) -> Have {
+    plan(&wanted(scene, tick, Pace::Whole), &Have::default()).after
+}
+
+/// Names of the passes from one picture to another.
+fn between(from: (&Scene, u64), to: (&Scene, u64)) -> Vec<&'static str> {
+    names(&plan(&wanted(to.0, to.1, Pace::Whole), &after(from.0, from.1)))
+}
+
+fn stirred_scene() -> Scene {
+    preset("stirred").unwrap()
+}
+
+fn uniform_scene() -> Scene {
+    let mut scene = stirred_scene();
+    scene.bubbles[0].film.state = FilmStateName::Uniform;
+    scene
+}
+
+fn event(tick: u64, flow: Flow) -> Event {
+    Event { tick, change: Change::Motion(MotionChange { flow: Some(flow), ..MotionChange::default() }) }
+}
+
+#[test]
+fn each_light_has_what_it_needs_and_loses_nothing_to_another() {
+    let lamp = |illuminant: &str| Lamp {
+        environment: Arc::new(CubeMap::constant(DVec3::ONE)),
+        illuminant: Arc::new(illuminant.parse().unwrap()),
+    };
+    let lit =
+        |lamps: Vec<Lamp>| want(&uniform_scene(), &Resources { lamps, ..resources() }, &shot(0, Pace::Whole)).unwrap();
+    let alone = plan(&lit(vec![]), &Have::default());
+    let both = plan(&lit(vec![lamp("A")]), &alone.after);
+    assert_eq!(both.after.lights.len(), 2);
+    let mut passes = names(&both);
+    passes.dedup();
+    assert_eq!(passes, ["bake_table", "fit_bands", "upload_environment", "draw", "tonemap"]);
+    assert!(plan(&lit(vec![lamp("A")]), &both.after).is_empty());
+    assert_eq!(names(&plan(&lit(vec![]), &both.after)), ["draw", "tonemap"]);
+}
+
+#[test]
+fn the_first_picture_makes_everything_once() {
+    let first = names(&plan(&wanted(&stirred_scene(), 30, Pace::Whole), &Have::default()));
+    let mut order = first.clone();
+    order.dedup();
+    let expected =
+        ["bake_table", "fit_bands", "upload_environment", "seed_field", "step_field", "show_field", "draw", "tonemap"];
+    assert_eq!(order, expected);
+}
+
+#[test]
+fn the_same_scene_again_costs_nothing() {
+    assert_eq!(between((&stirred_scene(), 5), (&stirred_scene(), 5)), [] as [&str; 0]);
+}
+
+#[test]
+fn exposure_costs_a_tonemap() {
+    let mut brighter = stirred_scene();
+    brighter.view.exposure_ev = 1.0;
+    assert_eq!(between((&stirred_scene(), 5), (&brighter, 5)), ["tonemap"]);
+}
+
+#[test]
+fn a_camera_move_draws_and_neither_bakes_nor_steps() {
+    let mut moved = stirred_scene();
+    moved.camera.azimuth_deg += 10.0;
+    assert_eq!(between((&stirred_scene(), 5), (&moved, 5)), ["draw", "tonemap"]);
+}
+
+#[test]
+fn a_uniform_film_has_no_field() {
+    let passes = names(&plan(&wanted(&uniform_scene(), 100, Pace::Whole), &Have::default()));
+    assert!(passes.iter().all(|name| !name.ends_with("field")), "{passes:?}");
+    assert_eq!(between((&uniform_scene(), 0), (&uniform_scene(), 9999)), [] as [&str; 0]);
+}
+
+#[test]
+fn a_film_at_rest_is_never_stepped() {
+    let mut scene = stirred_scene();
+    scene.motion.flow = Flow::Rest;
+    for tick in [0, 1, 1_000_000] {
+        let passes = names(&plan(&wanted(&scene, tick, Pace::Whole), &Have::default()));
+        assert!(!passes.contains(&"step_field"), "tick {tick}: {passes:?}");
+    }
+    assert_eq!(between((&scene, 7), (&scene, 70_000)), [] as [&str; 0]);
+}
+
+#[test]
+fn films_that_end_nowhere_know_of_no_end() {
+    let field = |scene: &Scene| match wanted(scene, 4, Pace::Whole).picture.draw.bubbles[0].film.clone() {
+        FilmKey::Field(field) => field,
+        FilmKey::Uniform(_) => panic!("a film that flows"),
+    };
+    let free = preset("default").unwrap();
+    assert_eq!(field(&free).end, None);
+    assert!(!wanted(&free, 4, Pace::Whole).picture.draw.on_bath);
+    let bath = preset("bath").unwrap();
+    let draw = wanted(&bath, 4, Pace::Whole).picture.draw;
+    assert!(draw.on_bath && draw.bubbles[0].cap == Some(Cap::HEMISPHERE) && field(&bath).regeneration().is_some());
+    let mut drained = bath.clone();
+    drained.bubbles[0].regeneration = 0.0;
+    assert_eq!(field(&drained).regeneration(), None);
+    let drop = field(&preset("drop").unwrap());
+    assert!(drop.cap().is_none() && drop.end.unwrap().drop_rad.unwrap() < 0.3);
+}
+
+#[test]
+fn nothing_is_seen_from_below_a_bath() {
+    let mut scene = preset("bath").unwrap();
+    scene.camera.elevation_deg = -30.0;
+    let error = want(&scene, &resources(), &shot(0, Pace::Whole)).unwrap_err();
+    assert_eq!(error, WantError::BelowBath);
+    assert!(error.to_string().contains("raise `elevation_deg`"));
+}
+
+#[test]
+fn a_bubble_out_of_sight_costs_nothing() {
+    let mut scene = stirred_scene();
+    scene.bubbles.push(Bubble { center_m: [0.0, 5.0, 0.0], ..Bubble::default() });
+    let behind = Bubble { center_m: [5.0, 0.0, 0.0], ..Bubble::default() };
+    scene.bubbles.push(behind);
+    let want = wanted(&scene, 4, Pace::Whole);
+    assert_eq!(want.picture.draw.bubbles.iter().map(|bubble| bubble.index).collect::<Vec<_>>(), [0]);
+    assert_eq!(
+        names(&plan(&want, &Have::default())),
+        names(&plan(&wanted(&stirred_scene(), 4, Pace::Whole), &Have::default()))
+    );
+}
+
+#[test]
+fn a_bubble_below_a_pixel_is_not_simulated() {
+    let mut scene = stirred_scene();
+    scene.camera.distance_m = 500.0;
+    let passes = names(&plan(&wanted(&scene, 4, Pace::Whole), &Have::default()));
+    assert!(!passes.contains(&"seed_field"), "{passes:?}");
+}
+
+#[test]
+fn a_window_gets_a_coarse_table_first_and_the_full_one_soon() {
+    let want = wanted(&uniform_scene(), 0, Pace::Frame);
+    let full = want.picture.draw.lighting.table.clone().unwrap();
+    let mut have = Have::default();
+    let first = plan(&want, &have);
+    let coarse = first.after.lights[0].table.clone().unwrap();
+    assert!(coarse.rows < full.rows && coarse.max_thickness_nm == full.max_thickness_nm && !first.complete);
+    assert!(names(&first).ends_with(&["draw", "tonemap"]), "something is shown at once");
+    for frame in 0..100 {
+        let plan = plan(&want, &have);
+        have = plan.after;
+        if plan.complete {
+            assert_eq!(have.lights[0].table.as_ref(), Some(&full));
+            assert!(frame > 1, "the full table is baked in portions");
+            return;
+        }
+    }
+    panic!("the full table never came");
+}
+
+#[test]
+fn a_window_catches_up_with_a_film_in_portions() {
+    let want = wanted(&stirred_scene(), 160, Pace::Frame);
+    let (mut have, mut frames) = (Have::default(), 0);
+    loop {
+        let next = plan(&want, &have);
+        frames += 1;
+        have = next.after;
+        if next.complete {
+            break;
+        }
+        assert!(frames < 1000, "it never catches up");
+    }
+    assert!(frames > 3 && have.fields[0].as_ref().unwrap().state.moment == Moment::tick(156));
+}
+
+#[test]
+fn the_plan_says_what_and_why() {
+    let text = plan(&wanted(&stirred_scene(), 30, Pace::Whole), &Have::default()).to_string();
+    for part in ["bake_table", "film 0, ticks 0..24", "nothing there yet"] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    assert_eq!(
+        plan(&wanted(&stirred_scene(), 2, Pace::Whole), &after(&stirred_scene(), 2)).to_string(),
+        "nothing to do\n"
+    );
+}
+
+/// Scenes that differ in everything that a plan looks at.
+fn scenes() -> impl Strategy<Value = Scene> {
+    let state = prop_oneof![Just(FilmStateName::Uniform), Just(FilmStateName::Rest), Just(FilmStateName::Blown)];
+    let flow = || prop_oneof![Just(Flow::Rest), Just(Flow::Draught), Just(Flow::Stirred), Just(Flow::Free)];
+    let change = prop_oneof![
+        flow().prop_map(|flow| event(0, flow).change),
+        (1..9_u64).prop_map(|ticks| Change::Stir(Stir { ticks, ..Stir::default() })),
+        (-0.01..0.01).prop_map(|x| Change::Drag(Drag { to_m: [x, 0.0, 0.0], ..Drag::default() })),
+    ];
+    let events = proptest::collection::vec((0..60_u64, change).prop_map(|(tick, change)| Event { tick, change }), 0..3);
+    let thickness_nm = prop_oneof![Just(300.0), Just(900.0), Just(2500.0)];
+    let azimuth_deg = prop_oneof![Just(0.0), Just(90.0)];
+    let exposure_ev = prop_oneof![Just(0.0), Just(1.0)];
+    (state, flow(), events, thickness_nm, azimuth_deg, exposure_ev, 1..3_usize).prop_map(
+        |(state, flow, mut events, thickness_nm, azimuth_deg, exposure_ev, bubbles)| {
+            let mut scene = stirred_scene();
+            let film = &mut scene.bubbles[0].film;
+            (film.state, film.thickness_nm, film.cells) = (state, thickness_nm, 16);
+            let other = Bubble { center_m: [0.0, 0.08, 0.0], radius_mm: 10.0, ..scene.bubbles[0].clone() };
+            scene.bubbles.resize(bubbles, other);
+            scene.motion.flow = flow;
+            events.sort_by_key(|event| event.tick);
+            (scene.events, scene.camera.azimuth_deg, scene.view.exposure_ev) = (events, azimuth_deg, exposure_ev);
+            scene
+        },
+    )
+}
+
+/// What of a state a whole picture decides. Products that this picture does not need may linger from others, and a table in the making
+/// may be left where it was; checkpoints are where the way led.
+fn decided(have: &Have, want: &Want) -> (Option<TonemapKey>, Vec<Option<TableKey>>, Vec<Option<FieldHave>>) {
+    let needed = |index: usize| {
+        want.picture.draw.bubbles.iter().any(|bubble| bubble.index == index && matches!(bubble.film, FilmKey::Field(_)))
+    };
+    let field = |(index, field): (usize, &Option<FieldHave>)| {
+        let field = field.clone().filter(|_| needed(index))?;
+        Some(FieldHave { checkpoints: Checkpoints::default(), ..field })
+    };
+    let mut fields: Vec<_> = have.fields.iter().enumerate().map(field).collect();
+    while fields.last().is_some_and(Option::is_none) {
+        fields.pop();
+    }
+    let tables = have.lights.iter().map(|light| light.table.clone()).collect();
+    (have.picture.clone(), tables, fields)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_way_there_does_not_matter(way in proptest::collection::vec((scenes(), 0..80_u64, any::<bool>()), 1..6), end in scenes(), tick in 0..80_u64) {
+        let mut have = Have::default();
+        for (scene, tick, whole) in way {
+            have = plan(&wanted(&scene, tick, if whole { Pace::Whole } else { Pace::Frame }), &have).after;
+        }
+        let want = wanted(&end, tick, Pace::Whole);
+        let arrived = plan(&want, &have);
+        let fresh = plan(&want, &Have::default());
+        prop_assert!(arrived.complete && fresh.complete);
+        prop_assert_eq!(decided(&arrived.after, &want), decided(&fresh.after, &want));
+        prop_assert_eq!(arrived.after.picture.as_ref(), Some(&want.picture));
+        prop_assert!(plan(&want, &arrived.after).is_empty());
+        let in_a_frame = Want { pace: Pace::Frame, ..want };
+        prop_assert!(plan(&in_a_frame, &arrived.after).is_empty());
+    }
+
+    #[test]
+    fn frames_end_where_one_go_does(scene in scenes(), tick in 0..80_u64) {
+        let (want, mut have) = (wanted(&scene, tick, Pace::Frame), Have::default());
+        for _ in 0..200 {
+            let next = plan(&want, &have);
+            have = next.after;
+            if next.complete {
+                break;
+            }
+        }
+        let whole = plan(&Want { pace: Pace::Whole, ..want.clone() }, &Have::default());
+        prop_assert_eq!(decided(&have, &want), decided(&whole.after, &want));
+    }
+}
