@@ -253,6 +253,27 @@ fn a_film_forgets_the_laws_of_another_history() {
     assert!(arrive(&mut again, &stirred) == expected);
 }
 
+/// What drains it while it moves by itself neither goes on afterwards nor was there before.
+#[test]
+fn a_film_drains_by_the_law_in_force_alone() {
+    let Some(mut scrubbed) = renderer() else { return };
+    let mut loaded = small();
+    (loaded.scene.motion.flow, loaded.scene.motion.strength, loaded.scene.motion.drainage) =
+        (Flow::Sloshing, 2.0, 10_000.0);
+    loaded.scene.motion.remap_ticks = 12;
+    let flow = |flow| MotionChange { flow: Some(flow), ..MotionChange::default() };
+    loaded.scene.events = vec![event(61, flow(Flow::Free)), event(130, flow(Flow::Sloshing))];
+    let read = |renderer: &mut Renderer, ticks: f64| {
+        while !renderer.bring(&frame(&loaded, ticks)).unwrap().complete {}
+        let (_, film) = renderer.read_film(0).unwrap().unwrap();
+        film.wait(&renderer.gpu).unwrap()
+    };
+    for ticks in [200.0, 50.0, 100.0, 40.0, 190.0] {
+        let found = read(&mut scrubbed, ticks);
+        assert!(found == read(&mut renderer().unwrap(), ticks), "tick {ticks}");
+    }
+}
+
 /// The state's tick is the last end of a step, the same in one go and frame by frame.
 #[test]
 fn states_end_where_steps_do() {
