@@ -3,12 +3,14 @@
 
 mod extremes;
 mod flow;
+mod free_film;
 pub mod interaction;
 mod optics;
 mod phenomena;
 mod picture;
 mod random;
 pub mod reference;
+mod rims;
 pub mod sorting;
 mod stability;
 mod transport;
@@ -53,13 +55,16 @@ pub enum Part {
     Transport,
     /// The flow solver, against exact flows.
     Flow,
+    /// Films that end at a bath, a ring or a drop, against theory.
+    Rims,
     /// What breaks solvers.
     Stability,
 }
 
 impl Part {
     /// All parts, in the order in which they run.
-    pub const ALL: &'static [Self] = &[Self::Optics, Self::Picture, Self::Transport, Self::Flow, Self::Stability];
+    pub const ALL: &'static [Self] =
+        &[Self::Optics, Self::Picture, Self::Transport, Self::Flow, Self::Rims, Self::Stability];
 
     /// Its name on the command line.
     #[must_use]
@@ -69,6 +74,7 @@ impl Part {
             Self::Picture => "picture",
             Self::Transport => "transport",
             Self::Flow => "flow",
+            Self::Rims => "rims",
             Self::Stability => "stability",
         }
     }
@@ -93,6 +99,7 @@ impl Run<'_> {
             Part::Picture => picture::run(self),
             Part::Transport => transport::run(self),
             Part::Flow => flow::run(self),
+            Part::Rims => rims::run(self),
             Part::Stability => stability::run(self),
         }?;
         log::info!("{} verified in {:.0} s", part.name(), started.elapsed().as_secs_f64());

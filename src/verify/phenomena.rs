@@ -5,17 +5,12 @@ use glam::DVec3;
 
 use super::{
     Run,
+    free_film::{FreeFilm, RULES, field},
     interaction::{self, Played},
     random::Random,
-    stability,
 };
 use crate::{
-    gpu::{
-        GpuError,
-        film::{FreeMotion, Surroundings},
-        timing::Recorder,
-        transport_case::values,
-    },
+    gpu::GpuError,
     physics::{
         film::PrescribedFlow,
         flow::{FlowForces, Mode},
@@ -111,27 +106,14 @@ fn plume(run: &mut Run<'_>) -> Result<(), GpuError> {
     const GRAVITY_1_S2: f64 = 9.81 / 0.05;
     const STEP_S: f64 = 1.0 / 60.0;
     let patch = |x: DVec3| (-0.5 * (x.angle_between(DVec3::X) / WIDTH_RAD).powi(2)).exp();
-    let mut field = stability::field(run, CELLS as usize, |x| MEAN_NM * (1.0 - THINNER * patch(x)))?;
-    let mut recorder = Recorder::new(run.gpu);
-    let mut motion = FreeMotion::new(&mut recorder, &field)?;
-    recorder.submit(&Default::default());
-    let around = Surroundings {
-        forces: FlowForces { gravity: GRAVITY_1_S2 * DVec3::NEG_Z, drag: DRAG_1_S, ..FlowForces::default() },
-        air: &PrescribedFlow::default(),
-        pushes: &[],
-        mean_nm: field.mean(),
-        thinned_nm: 0.0,
-        black_nm: 1.0,
-    };
+    let thickness_nm = |x: DVec3| MEAN_NM * (1.0 - THINNER * patch(x));
+    let forces = FlowForces { gravity: GRAVITY_1_S2 * DVec3::NEG_Z, drag: DRAG_1_S, ..FlowForces::default() };
+    let field = field(run.gpu, CELLS as usize, RULES, thickness_nm)?;
+    let mut film = FreeFilm::new(run.gpu, field, forces, PrescribedFlow::default())?;
     let mut heights = Vec::new();
-    for step in 0..60 {
-        let mut recorder = Recorder::new(run.gpu);
-        motion.advance(&mut recorder, &mut field, &around, (f64::from(step) * STEP_S, STEP_S), 1)?;
-        recorder.submit(&Default::default());
-        if step % 30 == 29 {
-            run.gpu.wait()?;
-            heights.push(height_of_patch(field.sphere(), &values(run.gpu, &mut field)?));
-        }
+    for _ in 0..2 {
+        film.run(30, STEP_S)?;
+        heights.push(height_of_patch(film.sphere(), &film.thickness()?));
     }
     // After half a second, ten times as long as drag takes, the speed is steady.
     let found = (heights[1] - heights[0]) / (30.0 * STEP_S);

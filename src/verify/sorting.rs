@@ -3,21 +3,20 @@
 use cpu_time::ProcessTime;
 use glam::DVec3;
 
-use super::Run;
+use super::{
+    Run,
+    free_film::{FreeFilm, RULES, field},
+};
 use crate::{
     gpu::{
         Gpu, GpuError,
         decide_remap::RemapRule,
-        film::{ControlBlock, Field, FreeMotion, Rules, Surroundings},
-        sample_tracer::Gathered,
-        timing::Recorder,
-        transport_case::values,
+        film::{ControlBlock, Rules},
     },
     physics::{
         film::{InitialFilm, PrescribedFlow},
         flow::FlowForces,
         sphere::CubedSphere,
-        transport::Scheme,
     },
 };
 
@@ -60,8 +59,6 @@ pub struct Sorted {
 }
 
 const RADIUS_M: f64 = 0.05;
-/// Steps in one submission.
-const STEPS_A_SUBMISSION: u32 = 4;
 
 impl Sorting {
     /// A viscous film as laboratories have them, drawn with the cells of scenes.
@@ -77,72 +74,30 @@ impl Sorting {
 
     /// Lets it sort itself, and looks at it at these times in seconds.
     pub fn measure(&self, gpu: &Gpu, times_s: &[f64]) -> Result<Vec<Sorted>, GpuError> {
-        let sphere = CubedSphere::new(self.cells).map_err(|error| GpuError::Refused(error.to_string()))?;
-        let mut field = Field::new(gpu, sphere, self.rules())?;
-        let mut recorder = Recorder::new(gpu);
         let film = InitialFilm::Blown { thickness_nm: 700.0, stratification: 0.0, seed: self.seed };
-        field.seed(&mut recorder, film.profile())?;
+        let remap = RemapRule { latest_ticks: 120, ..RULES.remap };
+        let rules = Rules { remap, map_coarsening: self.map_coarsening, ..RULES };
+        let mut field = field(gpu, self.cells, rules, film.profile())?;
         field.diffuse(gpu, self.diffusion_m2_s / RADIUS_M.powi(2), self.dt_s);
-        let mut motion = FreeMotion::new(&mut recorder, &field)?;
-        recorder.submit(&Default::default());
-        let blown = values(gpu, &mut field)?;
+        let forces = FlowForces {
+            gravity: DVec3::NEG_Z * 9.81 / RADIUS_M,
+            drag: self.drag,
+            air_drag: 0.0,
+            viscosity: self.viscosity_m2_s / RADIUS_M.powi(2),
+        };
+        let mut film = FreeFilm::new(gpu, field, forces, PrescribedFlow::default())?;
+        let blown = film.thickness()?;
         let (cpu, mut steps, mut found) = (ProcessTime::now(), 0, Vec::new());
         for time_s in times_s {
             let end = (time_s / self.dt_s).round() as u32;
-            self.steps(gpu, &mut field, &mut motion, steps..end)?;
+            film.run(end - steps, self.dt_s)?;
             steps = end;
-            gpu.wait()?;
             let cpu_ms_a_step = cpu.elapsed().as_secs_f64() * 1e3 / f64::from(steps.max(1));
-            let control: ControlBlock = bytemuck::pod_read_unaligned(&field.read_control(gpu).wait(gpu)?);
-            let now = values(gpu, &mut field)?;
-            found.push(Sorted { remaps: control.remaps, cpu_ms_a_step, ..compared(sphere, &blown, &now) });
+            let control: ControlBlock = bytemuck::pod_read_unaligned(&film.field.read_control(gpu).wait(gpu)?);
+            let now = film.thickness()?;
+            found.push(Sorted { remaps: control.remaps, cpu_ms_a_step, ..compared(film.sphere(), &blown, &now) });
         }
         Ok(found)
-    }
-
-    fn steps(
-        &self,
-        gpu: &Gpu,
-        field: &mut Field,
-        motion: &mut FreeMotion,
-        steps: std::ops::Range<u32>,
-    ) -> Result<(), GpuError> {
-        let around = Surroundings {
-            forces: FlowForces {
-                gravity: DVec3::NEG_Z * 9.81 / RADIUS_M,
-                drag: self.drag,
-                air_drag: 0.0,
-                viscosity: self.viscosity_m2_s / RADIUS_M.powi(2),
-            },
-            air: &PrescribedFlow::default(),
-            pushes: &[],
-            mean_nm: field.mean(),
-            thinned_nm: 0.0,
-            black_nm: 1.0,
-        };
-        for first in steps.clone().step_by(STEPS_A_SUBMISSION as usize) {
-            let mut recorder = Recorder::new(gpu);
-            for step in first..(first + STEPS_A_SUBMISSION).min(steps.end) {
-                motion.advance(&mut recorder, field, &around, (f64::from(step) * self.dt_s, self.dt_s), 1)?;
-            }
-            recorder.submit(&Default::default());
-            gpu.wait()?;
-        }
-        Ok(())
-    }
-
-    fn rules(&self) -> Rules {
-        Rules {
-            scheme: Scheme::Map,
-            limiter: true,
-            gathered: Gathered::Nothing,
-            conserved: true,
-            remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: 120 },
-            map_coarsening: self.map_coarsening,
-            coarse_flow: true,
-            cap: None,
-            drop_rad: None,
-        }
     }
 }
 

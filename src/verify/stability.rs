@@ -3,13 +3,14 @@
 
 use glam::DVec3;
 
-use super::Run;
+use super::{
+    Run,
+    free_film::{FreeFilm, RULES, field},
+};
 use crate::{
     gpu::{
         GpuError,
-        decide_remap::RemapRule,
-        film::{ControlBlock, Field, FreeMotion, Planted, Rules, Surroundings},
-        sample_tracer::Gathered,
+        film::{ControlBlock, Planted},
         timing::Recorder,
         trace_step::Step,
         transport_case::values,
@@ -18,7 +19,7 @@ use crate::{
         film::{InitialFilm, PrescribedFlow},
         flow::FlowForces,
         sphere::CubedSphere,
-        transport::{PERIOD, Scheme, Tracer, TracerKind, Wind, WindKind},
+        transport::{PERIOD, Tracer, TracerKind, Wind, WindKind},
     },
 };
 
@@ -160,29 +161,15 @@ fn winds(run: &mut Run<'_>) -> Result<(), GpuError> {
 fn gravity(run: &mut Run<'_>) -> Result<(), GpuError> {
     const STEP_S: f64 = 0.01;
     let film = InitialFilm::Blown { thickness_nm: 600.0, stratification: 0.0, seed: 5 };
-    let mut field = field(run, 32, film.profile())?;
-    let before = values(run.gpu, &mut field)?;
-    let mut recorder = Recorder::new(run.gpu);
-    let mut motion = FreeMotion::new(&mut recorder, &field)?;
-    for k in 0..200_u32 {
-        let sign = if k / 4 % 2 == 0 { 1.0 } else { -1.0 };
-        let around = Surroundings {
-            forces: FlowForces { gravity: DVec3::NEG_Z * sign * 50.0 * 9.81 / 0.05, ..FlowForces::default() },
-            air: &PrescribedFlow::default(),
-            pushes: &[],
-            mean_nm: field.mean(),
-            thinned_nm: 0.0,
-            black_nm: 1.0,
-        };
-        motion.advance(&mut recorder, &mut field, &around, (f64::from(k) * STEP_S, STEP_S), 1)?;
-        if k % 16 == 15 {
-            std::mem::replace(&mut recorder, Recorder::new(run.gpu)).submit(&Default::default());
-            run.gpu.wait()?;
-        }
+    let field = field(run.gpu, 32, RULES, film.profile())?;
+    let mut film = FreeFilm::new(run.gpu, field, FlowForces::default(), PrescribedFlow::default())?;
+    let before = film.thickness()?;
+    for turn in 0..50 {
+        film.forces.gravity = DVec3::NEG_Z * if turn % 2 == 0 { 50.0 * 9.81 / 0.05 } else { -50.0 * 9.81 / 0.05 };
+        film.run(4, STEP_S)?;
     }
-    recorder.submit(&Default::default());
-    let after = values(run.gpu, &mut field)?;
-    kept(run, "gravity that flips", field.sphere(), [&before, &after]);
+    let after = film.thickness()?;
+    kept(run, "gravity that flips", film.sphere(), [&before, &after]);
     Ok(())
 }
 
@@ -202,7 +189,7 @@ fn spoilt(run: &mut Run<'_>) -> Result<(), GpuError> {
 
 /// Times that are no numbers, and steps back, are refused: 0 of them pass.
 fn refused(run: &mut Run<'_>) -> Result<(), GpuError> {
-    let mut field = field(run, 16, bells)?;
+    let mut field = field(run.gpu, 16, RULES, bells)?;
     let mut passed = 0;
     for to_s in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -0.1] {
         let mut recorder = Recorder::new(run.gpu);
@@ -223,29 +210,9 @@ fn long(run: &mut Run<'_>) -> Result<(), GpuError> {
     )
 }
 
-pub(super) fn field(run: &Run<'_>, cells: usize, initial: impl Fn(DVec3) -> f64 + Sync) -> Result<Field, GpuError> {
-    let sphere = CubedSphere::new(cells).map_err(|error| GpuError::Refused(error.to_string()))?;
-    let rules = Rules {
-        scheme: Scheme::Map,
-        limiter: true,
-        gathered: Gathered::Nothing,
-        conserved: true,
-        remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: 20 },
-        map_coarsening: 1,
-        coarse_flow: true,
-        cap: None,
-        drop_rad: None,
-    };
-    let mut field = Field::new(run.gpu, sphere, rules)?;
-    let mut recorder = Recorder::new(run.gpu);
-    field.seed(&mut recorder, initial)?;
-    recorder.submit(&Default::default());
-    Ok(field)
-}
-
 /// Moves a field and reports how far it left its range, as a part of it, and how far its mass drifted, relative to its size.
 fn stress(run: &mut Run<'_>, stress: &Stress<'_>) -> Result<(), GpuError> {
-    let mut field = field(run, stress.cells, stress.initial)?;
+    let mut field = field(run.gpu, stress.cells, RULES, stress.initial)?;
     let before = values(run.gpu, &mut field)?;
     let mut recorder = Recorder::new(run.gpu);
     for k in 0..stress.steps {

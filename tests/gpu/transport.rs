@@ -17,10 +17,10 @@ use soapfilm::{
         sphere::CubedSphere,
         transport::{FlowMap, PERIOD, Scheme, Tracer, TracerKind, Wind, WindKind, backtrace},
     },
-    verify::{Check, Part, Run},
+    verify::Part,
 };
 
-use crate::support::{gpu, mean_and_max};
+use crate::support::{gpu, hold, mean_and_max};
 
 const RULES: Rules = Rules {
     scheme: Scheme::Map,
@@ -121,24 +121,12 @@ fn a_stirred_film_follows_its_trajectories() {
     assert!(long.0 <= 1.1 * fine.0 && coarse.0 <= 1.1 * fine.0, "{fine:?}, {long:?}, {coarse:?}");
 }
 
-fn verified(part: Part) {
-    let Some(gpu) = gpu() else { return };
-    let mut checks: Vec<Check> = Vec::new();
-    let mut report = |check: Check| {
-        eprintln!("measured: {}: {:.3e} (limit {:.3e})", check.name, check.measured, check.limit);
-        checks.push(check);
-    };
-    Run { gpu: &gpu, long: false, report: &mut report }.part(part).unwrap();
-    let failed: Vec<_> = checks.iter().filter(|check| !check.passed()).collect();
-    assert!(checks.len() > 10 && failed.is_empty(), "{} checks; failed: {failed:#?}", checks.len());
-}
-
 #[test]
 fn published_tests_keep_to_their_limits() {
-    verified(Part::Transport);
+    hold(Part::Transport, 10);
 }
 
 #[test]
 fn what_breaks_solvers_does_not_break_this_one() {
-    verified(Part::Stability);
+    hold(Part::Stability, 10);
 }

@@ -7,6 +7,7 @@ use soapfilm::{
     input::{LoadedScene, load_scene},
     physics::colour::Gamut,
     plan::{Moment, Pace, Shot, Want, want},
+    verify::{Check, Part, Run},
 };
 
 /// Part of the name of the adapter that must be there; without it a machine that has none skips the tests that need one.
@@ -29,6 +30,20 @@ pub fn gpu() -> Option<Gpu> {
             None
         }
     }
+}
+
+/// Runs a part of `soapfilm verify`, tells what it measured, and fails if a check does or there are too few.
+pub fn hold(part: Part, at_least: usize) {
+    let Some(gpu) = gpu() else { return };
+    let mut checks: Vec<Check> = Vec::new();
+    let mut report = |check: Check| {
+        eprintln!("measured: {}: {:.4e} (limit {:.4e})", check.name, check.measured, check.limit);
+        checks.push(check);
+    };
+    Run { gpu: &gpu, long: false, report: &mut report }.part(part).unwrap();
+    assert!(checks.len() >= at_least, "only {} checks", checks.len());
+    let failed: Vec<_> = checks.iter().filter(|check| !check.passed()).collect();
+    assert!(failed.is_empty(), "{failed:#?}");
 }
 
 /// A renderer on the adapter to test on.
