@@ -5,6 +5,7 @@ use glam::{DQuat, DVec3};
 use super::{
     FieldKey, FilmEnd, FilmKey, FlowLaw, FlowSegment, FreeFlow, Moment, PushKey,
     lives::{Life, life, since},
+    thinning::Thinning,
 };
 use crate::{
     physics::{
@@ -222,15 +223,32 @@ fn changes(scene: &Scene) -> impl Iterator<Item = u64> {
     std::iter::once(0).chain(changing.map(|event| event.tick))
 }
 
-/// What evaporates from the film of a bubble, in nm/s, from which tick on, each entry where it differs from the one before.
+/// What evaporates from the film of a bubble, nm/s.
+fn evaporation_nm_s(motion: &Motion, radius_m: f64) -> f64 {
+    motion.evaporation_nm_s + 1e9 * evaporation_rate(motion.humidity, radius_m, motion.air_speed_m_s)
+}
+
+/// The same, from which tick on, each entry where it differs from the one before.
 pub(super) fn evaporation(scene: &Scene, radius_m: f64) -> Vec<(u64, f64)> {
-    let rate = |tick| {
-        let motion = scene.motion_at(tick);
-        motion.evaporation_nm_s + 1e9 * evaporation_rate(motion.humidity, radius_m, motion.air_speed_m_s)
-    };
+    let rate = |tick| evaporation_nm_s(&scene.motion_at(tick), radius_m);
     let mut rates: Vec<(u64, f64)> = changes(scene).map(|tick| (tick, rate(tick))).collect();
     rates.dedup_by_key(|(_, rate)| *rate);
     rates
+}
+
+/// What the top of a bubble's film thins by once it is sorted, from which tick on.
+pub(super) fn thinning(scene: &Scene, radius_m: f64) -> Vec<(u64, Thinning)> {
+    let law = |tick| {
+        let motion = scene.motion_at(tick);
+        let free = free_flow(&motion, radius_m);
+        let drains = motion.flow == Flow::Free;
+        Thinning {
+            evaporation_nm_s: evaporation_nm_s(&motion, radius_m),
+            // The flux is as sin of the angle from the top, and its divergence there twice that.
+            drainage_1_nm2_s: if drains { 2.0 * free.drainage * free.forces.gravity.length() } else { 0.0 },
+        }
+    };
+    changes(scene).map(|tick| (tick, law(tick))).collect()
 }
 
 /// The laws that drive the film of a bubble, in order, each where it differs from the one before.

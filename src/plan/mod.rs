@@ -9,6 +9,7 @@ mod fields;
 mod films;
 pub mod keys;
 mod lives;
+mod thinning;
 mod want;
 
 use std::{fmt, ops::Range};

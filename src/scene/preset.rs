@@ -8,13 +8,14 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 23] = presets![
+const PRESETS: [(&str, &str); 24] = presets![
     "default",
     "fresh",
     "bands",
     "draining",
     "black",
     "bursting",
+    "life",
     "stirred",
     "glycerol",
     "bath",

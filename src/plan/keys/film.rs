@@ -337,21 +337,6 @@ pub fn evaporated_nm(rates: &[(u64, f64)], tick_s: f64, ticks: f64) -> f64 {
     rates.iter().zip(ends).map(lost).sum()
 }
 
-/// The time in ticks at which so much has evaporated, in nm, at such rates: see [`evaporated_nm`]. Nothing if it never does.
-#[must_use]
-pub fn thins_at_tick(rates: &[(u64, f64)], tick_s: f64, nm: f64) -> Option<f64> {
-    let ends = rates.iter().skip(1).map(|(tick, _)| *tick as f64).chain(std::iter::once(f64::INFINITY));
-    let mut left = nm;
-    for ((from, rate), end) in rates.iter().zip(ends) {
-        let lost = rate * tick_s * (end - *from as f64);
-        if *rate > 0.0 && lost >= left {
-            return Some(*from as f64 + left / (rate * tick_s));
-        }
-        left -= if *rate > 0.0 { lost } else { 0.0 };
-    }
-    None
-}
-
 /// A hole in a film that bursts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoleKey {
