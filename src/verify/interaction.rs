@@ -157,18 +157,23 @@ fn pushed(run: &mut Run<'_>) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// Dragged to the side and back, a sorted film swings with the period of its (1,1) mode, and settles.
+/// Dragged to the side and back, or stirred upwards at its side, a sorted film swings with the period of its (1,1) mode, and settles.
 fn sloshing(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let drag = |tick, x| Event { tick, change: Change::Drag(Drag { to_m: [x, 0.0, 0.0], ..Drag::default() }) };
+    swing(run, "a drag there and back", vec![drag(2, 3e-3), drag(14, 0.0)])?;
+    let stir = Stir { at: [1.0, 0.0, 0.0], velocity_m_s: [0.0, 0.0, 0.01], radius_deg: 40.0, ..Stir::default() };
+    swing(run, "a stir", vec![Event { tick: 2, change: Change::Stir(stir) }])
+}
+
+fn swing(run: &mut Run<'_>, name: &str, events: Vec<Event>) -> Result<(), GpuError> {
     let (drag_1_s, a) = (1.0, 0.6);
-    let mut scene = Scene::default();
+    let mut scene = Scene { events, ..Scene::default() };
     scene.bubbles[0].film.cells = 64;
     (scene.bubbles[0].film.state, scene.bubbles[0].film.stratification) = (FilmStateName::Rest, a);
     (scene.motion.strength, scene.motion.drag_1_s) = (0.0, drag_1_s);
     scene.motion.diffusion_mm2_s = 0.0;
-    let drag = |tick, x| Event { tick, change: Change::Drag(Drag { to_m: [x, 0.0, 0.0], ..Drag::default() }) };
-    scene.events = vec![drag(2, 3e-3), drag(14, 0.0)];
     let mut played = Played::new(run.gpu, &scene)?;
-    // By then the bubble is back to within e⁻¹⁴.
+    // By then a bubble that was dragged is back to within e⁻¹⁴.
     const CALM: u64 = 100;
     let mut swings = Vec::new();
     for tick in (CALM..CALM + 120).step_by(2) {
@@ -182,8 +187,8 @@ fn sloshing(run: &mut Run<'_>) -> Result<(), GpuError> {
     let undamped = (9.81 * a / 0.05f64 / 2.0).sqrt();
     let expected = (undamped.powi(2) - 0.25 * drag_1_s.powi(2)).sqrt();
     // The steps of a thirtieth of a second make it fast by (σ dt)²/24 = 3e-3.
-    run.at_most("a drag there and back: error of the film's swing", (frequency / expected - 1.0).abs(), 0.01);
-    run.at_most("a drag there and back: error of its decay", (growth / (-0.5 * drag_1_s) - 1.0).abs(), 0.05);
+    run.at_most(format!("{name}: error of the film's swing"), (frequency / expected - 1.0).abs(), 0.01);
+    run.at_most(format!("{name}: error of its decay"), (growth / (-0.5 * drag_1_s) - 1.0).abs(), 0.05);
     Ok(())
 }
 
