@@ -5,19 +5,25 @@
 const SHOULDER: f32 = 0.6;
 const WHITE: f32 = 6.0;
 
+// A colour on the tone curve, how much of its chroma it loses for its brightness, and the grey that it would end at.
+struct Toned {
+    linear: vec3f,
+    bleach: f32,
+    grey: f32,
+}
+
 // Maps the largest channel onto [0, 1]: straight up to SHOULDER (what is measured is what is seen), then a rational shoulder of
-// the same slope that reaches 1 at WHITE. Colours far beyond the shoulder lose saturation as film and eyes do.
-fn tone_curve(linear: vec3f) -> vec3f {
+// the same slope that reaches 1 at WHITE. Colours far beyond the shoulder lose chroma as film and eyes do.
+fn tone_curve(linear: vec3f) -> Toned {
     let peak = max(linear.r, max(linear.g, linear.b));
     if (peak <= SHOULDER) {
-        return linear;
+        return Toned(linear, 0.0, 0.0);
     }
     let room = 1.0 - SHOULDER;
     let over = (min(peak, WHITE) - SHOULDER) / room;
     let over_white = (WHITE - SHOULDER) / room;
     let mapped = SHOULDER + room * over * (1.0 + over / (over_white * over_white)) / (1.0 + over);
-    let bleach = smoothstep(1.0, WHITE, peak) * 0.8;
-    return mix(linear * (mapped / peak), vec3f(mapped), bleach);
+    return Toned(linear * (mapped / peak), 0.8 * smoothstep(1.0, WHITE, peak), mapped);
 }
 
 // Where the curve of CIELAB leaves the cube root for a straight line.
@@ -40,22 +46,28 @@ fn is_inside(linear: vec3f) -> bool {
 // Halvings of the chroma's range.
 const HALVINGS: u32 = 12u;
 
-// Brings a colour outside [0, 1] back by lowering its chroma in CIELAB, lightness and hue kept, just as far as needed. The matrices lead
-// from the display's linear RGB to XYZ relative to white, and back.
-fn into_gamut(linear: vec3f, to_xyz: mat3x3f, from_xyz: mat3x3f) -> vec3f {
-    if (is_inside(linear)) {
-        return linear;
+// Bleaches a colour, in the display's linear RGB, towards its grey, and brings it back into [0, 1] by lowering its chroma just as far as
+// needed: both in CIELAB, whose hue stays. The matrices lead from the display's linear RGB to XYZ relative to white, and back.
+fn into_gamut(toned: Toned, to_xyz: mat3x3f, from_xyz: mat3x3f) -> vec3f {
+    if (toned.bleach == 0.0 && is_inside(toned.linear)) {
+        return toned.linear;
     }
-    let response = lightness_curve(to_xyz * linear);
-    let grey = clamp(response.y, 4.0 / 29.0, 1.0);
+    let response = lightness_curve(to_xyz * toned.linear);
+    let grey = lightness_curve(vec3f(toned.grey)).y;
+    let lightness = clamp(mix(response.y, grey, toned.bleach), 4.0 / 29.0, 1.0);
+    let chroma = (1.0 - toned.bleach) * (response - response.y);
+    let whole = from_xyz * inverse_curve(lightness + chroma);
+    if (is_inside(whole)) {
+        return whole;
+    }
     var kept = 0.0;
     var step = 0.5;
     for (var k = 0u; k < HALVINGS; k++) {
-        let tried = from_xyz * inverse_curve(grey + (kept + step) * (response - grey));
+        let tried = from_xyz * inverse_curve(lightness + (kept + step) * chroma);
         kept = select(kept, kept + step, is_inside(tried));
         step *= 0.5;
     }
-    return clamp(from_xyz * inverse_curve(grey + kept * (response - grey)), vec3f(0.0), vec3f(1.0));
+    return clamp(from_xyz * inverse_curve(lightness + kept * chroma), vec3f(0.0), vec3f(1.0));
 }
 
 fn encode_srgb(linear: vec3f) -> vec3f {

@@ -30,7 +30,8 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 fn tonemapped(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy);
     let exposed = tonemap.exposure * (tonemap.balance * textureLoad(radiance, pixel, 0).rgb);
-    let linear = tonemap.to_display * tone_curve(max(exposed, vec3f(0.0)));
-    let display = into_gamut(linear, tonemap.to_xyz, tonemap.from_xyz);
+    var toned = tone_curve(max(exposed, vec3f(0.0)));
+    toned.linear = tonemap.to_display * toned.linear;
+    let display = into_gamut(toned, tonemap.to_xyz, tonemap.from_xyz);
     return vec4f(dithered(encode_srgb(display), pixel, tonemap.dither_seed, tonemap.dither_steps), 1.0);
 }
