@@ -72,8 +72,15 @@ impl<'a> FreeFilm<'a> {
         for first in (0..steps).step_by(BATCH as usize) {
             let mut recorder = Recorder::new(self.gpu);
             for _ in first..steps.min(first + BATCH) {
-                let around =
-                    Surroundings { forces, air: &self.air, pushes: &[], mean_nm, thinned_nm: 0.0, black_nm: 1.0 };
+                let around = Surroundings {
+                    forces,
+                    air: &self.air,
+                    pushes: &[],
+                    mean_nm,
+                    thinned_nm: 0.0,
+                    black_nm: 1.0,
+                    strain: 0.0,
+                };
                 self.motion.advance(&mut recorder, &mut self.field, &around, (self.seconds, step_s), 1)?;
                 self.seconds += step_s;
             }

@@ -93,6 +93,12 @@ impl<'a> Played<'a> {
         self.film.rest().map(|rest| rest.since_tick as f64 * self.scene.motion.tick_s)
     }
 
+    /// Kinetic energy of the flow over that of a unit of mass a steradian: ½ ∫ u², rad²/s².
+    pub fn energy(&self) -> Result<f64, GpuError> {
+        let (areas, velocity) = (self.flow()?.sphere().areas(), self.velocity()?);
+        Ok(areas.iter().zip(velocity).map(|(area, u)| 0.5 * area * u.length_squared()).sum())
+    }
+
     /// The fastest flow, rad/s.
     pub fn fastest(&self) -> Result<f64, GpuError> {
         Ok(largest(self.velocity()?.iter().map(|u| u.length())))
@@ -114,6 +120,7 @@ pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
 /// What pushes do, and what films do after them.
 pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     pushed(run)?;
+    undriven(run)?;
     sloshing(run)?;
     creeping(run)?;
     anything(run, "", 3000, 0.5)?;
@@ -153,6 +160,43 @@ fn pushed(run: &mut Run<'_>) -> Result<(), GpuError> {
         let error = played.velocity()?[nearest].distance(expected) / expected.length();
         // The nearest cell is up to half a cell away from the middle.
         run.at_most(format!("a stir of {radius_deg}°: error of the speed in its middle"), error, 0.03);
+    }
+    Ok(())
+}
+
+/// However hard a film is stirred, once nothing drives it it has no more energy than it was left with: a film without weight, and a heavy
+/// one of the same thickness everywhere. Hardly anything slows them down.
+fn undriven(run: &mut Run<'_>) -> Result<(), GpuError> {
+    const LOOKS: u64 = 12;
+    let film = |cells, gravity_m_s2: [f64; 3]| {
+        let mut scene = weightless(cells);
+        // So nearly even that gravity does nothing to it, but not so even that it would not flow.
+        (scene.bubbles[0].film.state, scene.bubbles[0].film.stratification) = (FilmStateName::Rest, 1e-6);
+        (scene.motion.gravity_m_s2, scene.motion.drag_1_s) = (gravity_m_s2, 0.01);
+        scene
+    };
+    for (name, gravity_m_s2, cells, radius_deg, speeds_m_s) in [
+        ("a film without weight", [0.0; 3], 16, 15.0, [0.1, 0.3, 1.0, 3.0, 10.0].as_slice()),
+        ("a film without weight", [0.0; 3], 32, 6.0, &[0.3, 1.0]),
+        ("a heavy even film", [0.0, 0.0, -9.81], 16, 15.0, &[0.3, 3.0]),
+    ] {
+        for speed in speeds_m_s {
+            let velocity_m_s = [-0.6 * speed, 0.75 * speed, 0.0];
+            let stir = Stir { at: [0.5, 0.4, 0.3], velocity_m_s, radius_deg, ..Stir::default() };
+            let left_alone = stir.ticks;
+            let scene =
+                Scene { events: vec![Event { tick: 0, change: Change::Stir(stir) }], ..film(cells, gravity_m_s2) };
+            let mut played = Played::new(run.gpu, &scene)?;
+            played.play_to(left_alone)?;
+            let (start, mut later) = (played.energy()?, Vec::new());
+            for look in 1..=LOOKS {
+                played.play_to(left_alone + 10 * look)?;
+                later.push(played.energy()? / start);
+            }
+            let what =
+                format!("{name}, stirred at {speed} m/s over {radius_deg}°: most energy in 2 s over that at the start");
+            run.at_most(what, largest(later.into_iter()), 1.001);
+        }
     }
     Ok(())
 }

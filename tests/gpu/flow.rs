@@ -113,9 +113,11 @@ fn the_gpu_does_what_its_f64_twin_does() {
     gpu.upload(solver.log_thickness(), &solver.padded(&cells(&thickness)));
     submit(&gpu, |recorder| {
         solver.seed(recorder, &cells(&|x| start.zeta(x, 0.0))).unwrap();
-        (0..10).for_each(|_| solver.step(recorder, 0.04, &forces).unwrap());
+        (0..7).for_each(|_| solver.step(recorder, 0.04, &forces).unwrap());
+        (0..3).for_each(|_| solver.step_corrected(recorder, 0.04, &forces).unwrap());
     });
-    (0..10).for_each(|_| twin.step(0.04, &forces, &film));
+    (0..7).for_each(|_| twin.step(0.04, &forces, &film));
+    (0..3).for_each(|_| twin.step_corrected(0.04, &forces, &film));
     for (name, found, expected) in
         [("vorticity", solver.zeta(), twin.zeta().cells()), ("stream function", solver.psi(), twin.psi().cells())]
     {

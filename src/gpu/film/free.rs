@@ -8,7 +8,7 @@ use super::{
 };
 use crate::physics::{
     film::{FrozenFlow, FrozenPush, FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Push},
-    flow::{FlowForces, MIN_AIR_SPEED},
+    flow::{FOLLOWED_TURN, FlowForces, MIN_AIR_SPEED},
 };
 
 /// See `shaders/pass/flow_thickness.wgsl`.
@@ -83,6 +83,8 @@ pub struct Surroundings<'a> {
     pub thinned_nm: f64,
     /// Thickness at which evaporation ends, nm.
     pub black_nm: f64,
+    /// How fast the film may shear and turn for what has pushed it, 1/s.
+    pub strain: f64,
 }
 
 impl Surroundings<'_> {
@@ -134,7 +136,11 @@ impl FreeMotion {
         self.push(recorder, field, around.pushes)?;
         // The flow knows thicknesses relative to a reference.
         let forces = FlowForces { air_drag: around.forces.air_drag / around.reference_nm(), ..around.forces };
-        self.solver.step(recorder, dt_s, &forces)?;
+        if around.strain * dt_s > FOLLOWED_TURN {
+            self.solver.step_corrected(recorder, dt_s, &forces)?;
+        } else {
+            self.solver.step(recorder, dt_s, &forces)?;
+        }
         field.advance(recorder, &self.ahead(dt_s), ticks)
     }
 

@@ -17,12 +17,13 @@ use crate::{
             InitialFilm, Patch, PrescribedFlow,
             properties::{BLACK_FILM_COLLAPSE, BLACK_FILM_ONSET},
         },
-        flow::FlowForces,
+        flow::{CORRECTED_TURN, FlowForces},
     },
     plan::{BLACK_FILM_NM, FieldKey, FlowLaw, FreeFlow, RestingFilm},
 };
 
-/// Steps of a flow in one step of its film at most: enough for 250 times the gravity of the Earth on a bubble of 5 cm.
+/// Steps of a flow in one step of its film at most: enough for 250 times the gravity of the Earth, or a stir of 10 m/s and 8°, on a bubble
+/// of 5 cm.
 const MOST_PARTS_A_STEP: f64 = 16.0;
 
 /// A film that moves.
@@ -140,8 +141,11 @@ impl MovingFilm {
             None => motion.insert(FreeMotion::new(recorder, field)?),
         };
         // Where even a tick is longer than the flow's steps may be, it is several; the film counts its ticks once.
-        let felt = free.accelerated(key.acceleration_during(tick as f64, tick as f64 + f64::from(ticks)));
-        let parts = (f64::from(ticks) * key.tick_s / felt.longest_step_s()).ceil().clamp(1.0, MOST_PARTS_A_STEP);
+        let end = tick as f64 + f64::from(ticks);
+        let felt = free.accelerated(key.acceleration_during(tick as f64, end));
+        let strain = key.strain_until(end);
+        let longest_s = felt.longest_step_s().min(CORRECTED_TURN / strain);
+        let parts = (f64::from(ticks) * key.tick_s / longest_s).ceil().clamp(1.0, MOST_PARTS_A_STEP);
         let dt_ticks = f64::from(ticks) / parts;
         // Beyond so many steps gravity is felt as far as they can follow it: such films are sorted within a tick anyway.
         let followed = (felt.longest_step_s() / (dt_ticks * key.tick_s)).min(1.0).powi(2);
@@ -155,6 +159,7 @@ impl MovingFilm {
                 mean_nm: field.mean(),
                 thinned_nm: key.thinned_nm(now + 0.5 * dt_ticks),
                 black_nm: BLACK_FILM_NM,
+                strain,
             };
             let counted = if part == 0 { ticks } else { 0 };
             motion.advance(recorder, field, &around, (now * key.tick_s, dt_ticks * key.tick_s), counted)?;

@@ -258,19 +258,43 @@ impl FlowSolver {
     /// Moves vorticity by one step of `dt_s` seconds under forces, with ln h given half a step from now, which is what `velocity` then
     /// carries the thickness with from half a step before to half a step after. Steps that last no time change nothing.
     pub fn step(&mut self, recorder: &mut Recorder<'_>, dt_s: f64, forces: &FlowForces) -> Result<(), GpuError> {
+        self.take(recorder, dt_s, forces, 0)
+    }
+
+    /// The same for flows whose eddies turn by more than [`FOLLOWED_TURN`](crate::physics::flow::FOLLOWED_TURN) in a step: it is tried
+    /// first, which doubles its cost.
+    pub fn step_corrected(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        dt_s: f64,
+        forces: &FlowForces,
+    ) -> Result<(), GpuError> {
+        self.take(recorder, dt_s, forces, 1)
+    }
+
+    fn take(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        dt_s: f64,
+        forces: &FlowForces,
+        trials: usize,
+    ) -> Result<(), GpuError> {
         if !(dt_s.is_finite() && dt_s > 0.0) {
             return Ok(());
         }
         let uniform = self.uniform(recorder.gpu, dt_s, forces);
         self.grid.fill_halo(recorder, &self.log_thickness)?;
-        if !self.has_history {
-            // A trial step tells how ψ changes; without it the first step would be of first order, and all that follow inherit its error.
+        let is_first = !std::mem::replace(&mut self.has_history, true);
+        if is_first {
             recorder.encoder().copy_buffer_to_buffer(&self.psi, 0, &self.psi_before, 0, self.psi.size());
             self.find_velocity(recorder, &uniform, &self.psi, &self.psi_before)?;
+        }
+        // Without a trial the first step would be of first order, and all that follow inherit its error.
+        for _ in 0..trials + usize::from(is_first) {
             self.advance(recorder, dt_s, forces, &uniform)?;
+            // The ψ a step before from which a straight line leads to where the trial did.
             self.combine(recorder, [(2.0, &self.psi), (-1.0, &self.psi_next)], 0.0, &self.psi_before)?;
             self.find_velocity(recorder, &uniform, &self.psi, &self.psi_before)?;
-            self.has_history = true;
         }
         self.advance(recorder, dt_s, forces, &uniform)?;
         let zeta = if forces.viscous_stage(dt_s).is_some() { &mut self.pushed } else { &mut self.moved };

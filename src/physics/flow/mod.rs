@@ -25,6 +25,6 @@ pub use multigrid::{
 pub use operators::{CellMetric, Order, laplacian, turned_gradient};
 pub use oscillation::{Oscillation, fit_oscillation};
 pub use solver::{
-    AIR_DRAG, FlowForces, FlowSolver, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES, VISCOUS_STAGE, advected,
-    stable_step_s,
+    AIR_DRAG, CORRECTED_TURN, FOLLOWED_TURN, FlowForces, FlowSolver, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES,
+    VISCOUS_STAGE, advected, stable_step_s,
 };

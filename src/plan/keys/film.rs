@@ -315,6 +315,19 @@ impl FieldKey {
         self.pushes.iter().filter_map(|push| push.in_step(self.tick_s, from_ticks, to_ticks)).collect()
     }
 
+    /// How fast what pushes the film until a time in ticks may make it shear and turn then, 1/s: the most that any push did, less what drag
+    /// and viscosity have left of it.
+    #[must_use]
+    pub fn strain_until(&self, ticks: f64) -> f64 {
+        let FlowLaw::Free(FreeFlow { forces, .. }) = self.law(ticks as u64) else { return 0.0 };
+        let of_push = |PushKey { push, ticks: during }: &PushKey| {
+            let acting_s = (ticks.min(during.end as f64) - during.start as f64).max(0.0) * self.tick_s;
+            let since_s = (ticks - during.end as f64).max(0.0) * self.tick_s;
+            push.strain(acting_s) * push.left_of_strain(since_s, &forces)
+        };
+        self.pushes.iter().map(of_push).fold(0.0, f64::max)
+    }
+
     /// The bubble's mean acceleration between two times in ticks, over its radius: 1/s².
     #[must_use]
     pub fn acceleration_during(&self, from_ticks: f64, to_ticks: f64) -> DVec3 {

@@ -65,6 +65,25 @@ fn steps(scene: &Scene, tick: u64) -> Vec<Range<u64>> {
 }
 
 #[test]
+fn what_stirs_a_film_strains_it_until_drag_and_viscosity_have_calmed_it() {
+    let mut scene = preset("default").unwrap();
+    let strain = |scene: &Scene, tick| match &wanted(scene, tick, Pace::Whole).picture.draw.bubbles[0].film {
+        FilmKey::Field(film) => film.strain_until(tick as f64),
+        FilmKey::Uniform(_) => panic!("the film has a field"),
+    };
+    assert_eq!(strain(&scene, 60), 0.0, "nothing pushes it");
+    let stir =
+        |tick, speed| Event { tick, change: Change::Stir(Stir { velocity_m_s: [0.0, speed, 0.0], ..Stir::default() }) };
+    scene.events = vec![stir(20, 0.2), stir(30, 1.0), stir(50, 0.1)];
+    let [before, gentle, hard, later] = [20, 32, 42, 102].map(|tick| strain(&scene, tick));
+    assert_eq!(before, 0.0, "what comes later does nothing yet");
+    // 20 rad/s over 0.22 rad, less what six e-foldings leave.
+    assert!(gentle < hard && (hard / 90.0 - 1.0).abs() < 0.02, "{gentle} {hard}");
+    // A second of drag of 2/s alone leaves 0.14.
+    assert!(later < 0.14 * hard && later > 0.03 * hard, "{later}");
+}
+
+#[test]
 fn a_step_lasts_as_long_as_it_stays_accurate_and_ends_where_a_law_does() {
     let mut scene = stirred_scene();
     assert_eq!(steps(&scene, 30), [0..12, 12..24], "0.2 s at half strength, and the rest is shown ahead of the state");
