@@ -4,7 +4,7 @@
 
 import package::film::prescribed::{MAX_VORTICES, MAX_WAVES, Vortex, Wave, vortex_gradient, wave_gradient};
 import package::film::wind::{FLOW, FLOW_PRESCRIBED, WindMoment, wind_divergence, wind_velocity};
-import package::sphere::cubed::{HALO, cell_place, panel_direction};
+import package::sphere::cubed::{cell_place, is_cell, panel_direction};
 
 // One step. Mirrors `StepUniform` in src/gpu/trace_step.rs.
 struct Step {
@@ -50,9 +50,9 @@ fn motion(x: vec3f, moment: u32) -> vec4f {
     return vec4f(step.frame * wind_velocity(local, wind, step.turn_rad_s), wind_divergence(local, wind));
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn trace_step(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= step.cells + 2u * HALO) {
+    if (!is_cell(id, step.cells)) {
         return;
     }
     let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
