@@ -32,15 +32,26 @@ struct Conserve {
 
 var<workgroup> sums: array<f32, 256>;
 
+// Adds the upper half of so many sums to the lower, and of those again, until `last` are left. Each invocation keeps to places that are a
+// multiple of `last` apart, so that none has to wait for another: software rasterisers pay for barriers more than for sums.
+fn add_halves(first: u32, last: u32, local: u32) {
+    if (local >= last) {
+        return;
+    }
+    for (var half = first / 2u; half >= last; half >>= 1u) {
+        for (var k = local; k < half; k += last) {
+            sums[k] += sums[k + half];
+        }
+    }
+}
+
 // The sum over the workgroup; all invocations must call it.
 fn workgroup_sum(value: f32, local: u32) -> f32 {
     sums[local] = value;
-    for (var half = 128u; half > 0u; half >>= 1u) {
-        workgroupBarrier();
-        if (local < half) {
-            sums[local] += sums[local + half];
-        }
-    }
+    workgroupBarrier();
+    add_halves(256u, 16u, local);
+    workgroupBarrier();
+    add_halves(16u, 1u, local);
     workgroupBarrier();
     return sums[0];
 }
