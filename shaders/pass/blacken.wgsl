@@ -4,7 +4,7 @@
 // The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation a cell, halo included.
 
 import package::film::control::Control;
-import package::sphere::cubed::HALO;
+import package::sphere::cubed::{HALO, is_cell};
 
 // Mirrors `BlackenUniform` in src/gpu/blacken.rs.
 struct Blacken {
@@ -51,9 +51,9 @@ fn is_halo(id: vec3u) -> bool {
     return any(id.xy < vec2u(HALO)) || any(id.xy >= vec2u(blacken.cells + HALO));
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn stop_evaporation(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x < blacken.cells + 2u * HALO) {
+    if (is_cell(id, blacken.cells)) {
         let place = place_of(id);
         let left = max(result[place] + blacken.thinned_level_nm, min(result[place] + blacken.level_nm, blacken.black_nm));
         result[place] = max(result[place], left - blacken.thinned_level_nm);
@@ -61,7 +61,7 @@ fn stop_evaporation(@builtin(global_invocation_id) id: vec3u) {
 }
 
 // What each cell gives to each thicker one around it.
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn shed(@builtin(global_invocation_id) id: vec3u) {
     if (is_halo(id)) {
         return;
@@ -83,7 +83,7 @@ fn shed(@builtin(global_invocation_id) id: vec3u) {
     result[place] = share;
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn gather(@builtin(global_invocation_id) id: vec3u) {
     if (is_halo(id)) {
         return;

@@ -2,7 +2,7 @@
 // gathered since. One invocation a cell, halo included. The step may have been traced on a coarser grid: flows are smooth.
 
 import package::film::control::Control;
-import package::sphere::cubed::{HALO, cell_place, panel_direction};
+import package::sphere::cubed::{cell_place, is_cell, panel_direction};
 import package::sphere::lookup::{map_at_cell, healed, map_at};
 
 // 1: the step was traced on the map's own grid.
@@ -40,9 +40,9 @@ fn tracer_value(place: u32) -> f32 {
     return 0.0;
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn compose_map(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= compose.cells + 2u * HALO) {
+    if (!is_cell(id, compose.cells)) {
         return;
     }
     let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));

@@ -32,30 +32,50 @@ struct Conserve {
 
 var<workgroup> sums: array<f32, 256>;
 
+// Adds the upper half of so many sums to the lower, and of those again, until `last` are left. Each invocation keeps to places that are a
+// multiple of `last` apart, so that none has to wait for another: software rasterisers pay for barriers more than for sums.
+fn add_halves(first: u32, last: u32, local: u32) {
+    if (local >= last) {
+        return;
+    }
+    for (var half = first / 2u; half >= last; half >>= 1u) {
+        for (var k = local; k < half; k += last) {
+            sums[k] += sums[k + half];
+        }
+    }
+}
+
 // The sum over the workgroup; all invocations must call it.
 fn workgroup_sum(value: f32, local: u32) -> f32 {
     sums[local] = value;
-    for (var half = 128u; half > 0u; half >>= 1u) {
-        workgroupBarrier();
-        if (local < half) {
-            sums[local] += sums[local + half];
-        }
-    }
+    workgroupBarrier();
+    add_halves(256u, 16u, local);
+    workgroupBarrier();
+    add_halves(16u, 1u, local);
     workgroupBarrier();
     return sums[0];
+}
+
+// a / b, rounded down, of numbers whose quotient is below 2^22. Software rasterisers divide integers one by one.
+fn quotient(a: u32, b: u32) -> u32 {
+    let near = i32(f32(a) / f32(b));
+    let rest = i32(a) - near * i32(b);
+    return u32(near + select(0, 1, rest >= i32(b)) - select(0, 1, rest < 0));
 }
 
 @compute @workgroup_size(256)
 fn sum_parts(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
     let panel_cells = conserve.cells * conserve.cells;
+    let areas_are_alike = arrayLength(&areas) == panel_cells;
     var sum = 0.0;
     for (var cell = group.x * 256u + local; cell < 6u * panel_cells; cell += conserve.parts * 256u) {
-        let place = cell % panel_cells;
-        let i = i32(place % conserve.cells);
-        let j = i32(place / conserve.cells);
-        let value = field[padded_index(cell / panel_cells, i, j, conserve.cells)];
+        let panel = quotient(cell, panel_cells);
+        let place = cell - panel * panel_cells;
+        let j = quotient(place, conserve.cells);
+        let i = place - j * conserve.cells;
+        let value = field[padded_index(panel, i32(i), i32(j), conserve.cells)];
         if (is_finite(value)) {
-            sum += areas[cell % arrayLength(&areas)] * ((value - conserve.mean) - conserve.mean_rest);
+            sum += areas[select(cell, place, areas_are_alike)] * ((value - conserve.mean) - conserve.mean_rest);
         }
     }
     let total = workgroup_sum(sum, local);

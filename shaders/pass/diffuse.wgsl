@@ -41,7 +41,7 @@ fn laplacian(at: u32, side: u32, tangent: vec2f) -> f32 {
     return delta2 / s.x * by_aa + 2.0 * delta2 * tangent.x * tangent.y / (s.x * s.y) * by_ab + delta2 / s.y * by_bb;
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn diffuse_stage(@builtin(global_invocation_id) id: vec3u) {
     let side = diffuse.cells + 2u * HALO;
     let margin = diffuse.stage;

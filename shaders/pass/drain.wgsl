@@ -5,7 +5,7 @@
 
 import package::film::control::Control;
 import package::sphere::cap::{Cap, image};
-import package::sphere::cubed::{HALO, cell_place, panel_direction};
+import package::sphere::cubed::{cell_place, is_cell, panel_direction};
 import package::sphere::lookup::{healed, tracer_at};
 
 const MAX_PATCHES: u32 = 64u;
@@ -88,9 +88,9 @@ fn left_by_patches(x: vec3f) -> f32 {
     return left;
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn drain_film(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= drain.cells + 2u * HALO) {
+    if (!is_cell(id, drain.cells)) {
         return;
     }
     let place = cell_place(id, drain.cells);

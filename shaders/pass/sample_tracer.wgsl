@@ -3,7 +3,7 @@
 
 import package::film::control::Control;
 import package::sphere::cap::{Cap, image};
-import package::sphere::cubed::{HALO, cell_place, panel_direction};
+import package::sphere::cubed::{cell_place, is_cell, panel_direction};
 import package::sphere::lookup::{healed, map_at, map_at_cell, tracer_at};
 
 // What the map's fourth number means: see `Gathered` in src/gpu/sample_tracer.rs.
@@ -60,9 +60,9 @@ fn with_gathered(value: f32, gathered: f32) -> f32 {
     return value;
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= sample.cells + 2u * HALO) {
+    if (!is_cell(id, sample.cells)) {
         return;
     }
     let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));

@@ -8,10 +8,14 @@ import package::film::control::{Balance, balanced};
 @group(0) @binding(2) var<storage, read_write> tracer: array<f32>;
 
 @compute @workgroup_size(64)
-fn settle_tracer(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    // Rows of the dispatch are the rows of storage: as many as the padded panel's side.
-    let place = (id.z * groups.y + id.y) * groups.y + id.x;
-    if (id.x < groups.y) {
+fn settle_tracer(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) local: u32,
+) {
+    // In the order of storage, whatever the panels.
+    let place = ((group.z * groups.y + group.y) * groups.x + group.x) * 64u + local;
+    if (place < arrayLength(&tracer)) {
         tracer[place] = balanced(sampled[place], balance);
     }
 }

@@ -7,10 +7,10 @@ import package::film::control::{Balance, balanced};
 @group(0) @binding(1) var<storage, read> sampled: array<f32>;
 @group(0) @binding(2) var film: texture_storage_2d_array<r32float, write>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn show_film(@builtin(global_invocation_id) id: vec3u) {
     let side = textureDimensions(film).x;
-    if (id.x < side) {
+    if (all(id.xy < vec2u(side))) {
         let value = balanced(sampled[(id.z * side + id.y) * side + id.x], balance);
         textureStore(film, id.xy, id.z, vec4f(value, 0.0, 0.0, 0.0));
     }

@@ -2,7 +2,7 @@
 // One invocation a cell, halo included.
 
 import package::flow::backtrace::backtrace;
-import package::sphere::cubed::{HALO, cell_place, panel_direction};
+import package::sphere::cubed::{cell_place, is_cell, panel_direction};
 
 // Mirrors `SolvedUniform` in src/gpu/trace_step.rs.
 struct Solved {
@@ -17,9 +17,9 @@ struct Solved {
 @group(0) @binding(2) var<storage, read> velocity: array<vec4f>;
 @group(0) @binding(3) var<storage, read_write> step_map: array<vec4f>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn trace_flow(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= solved.cells + 2u * HALO) {
+    if (!is_cell(id, solved.cells)) {
         return;
     }
     let place = cell_place(id, solved.cells);

@@ -1,24 +1,26 @@
 // Traces one step back: from each cell to where its liquid was when the step began, and what it gathered on the way.
 // One invocation a cell, those of the halo included: a cell beyond an edge is a place like any other. Velocities are tangential by
-// construction and positions are renormalised, so there is no pole and no panel.
+// construction and positions are renormalised, so there is no pole and no panel. A long step is traced in several Runge-Kutta steps: that costs a
+// fraction of what composing a map with each of them would, and errs less.
 
 import package::film::prescribed::{MAX_VORTICES, MAX_WAVES, Vortex, Wave, vortex_gradient, wave_gradient};
 import package::film::wind::{FLOW, FLOW_PRESCRIBED, WindMoment, wind_divergence, wind_velocity};
-import package::sphere::cubed::{HALO, cell_place, panel_direction};
+import package::sphere::cubed::{cell_place, is_cell, panel_direction};
 
 // One step. Mirrors `StepUniform` in src/gpu/trace_step.rs.
 struct Step {
     // Columns take the test wind's frame to the world.
     frame: mat3x3f,
-    // The wind at the start, middle and end of the backward step.
-    moments: array<WindMoment, 3>,
+    // The wind at the start, middle and end of each backward trace, the end of one being the start of the next.
+    moments: array<WindMoment, 33>,
     // Angular speed of the wind's solid turn about its frame's z axis.
     turn_rad_s: f32,
     dt_s: f32,
     cells: u32,
     waves_count: u32,
     vortices_count: u32,
-    // Waves and vortices of the same three moments, each in its own third.
+    traces: u32,
+    // Waves and vortices of the first three moments, each in its own third.
     waves: array<Wave, 96>,
     vortices: array<Vortex, 192>,
 }
@@ -50,19 +52,27 @@ fn motion(x: vec3f, moment: u32) -> vec4f {
     return vec4f(step.frame * wind_velocity(local, wind, step.turn_rad_s), wind_divergence(local, wind));
 }
 
-@compute @workgroup_size(64)
+// Way and divergence of a backward trace that starts at x and a moment: the classic Runge-Kutta of fourth order.
+fn change(x: vec3f, moment: u32, dt: f32) -> vec4f {
+    let k1 = motion(x, moment);
+    let k2 = motion(normalize(x - 0.5 * dt * k1.xyz), moment + 1u);
+    let k3 = motion(normalize(x - 0.5 * dt * k2.xyz), moment + 1u);
+    let k4 = motion(normalize(x - dt * k3.xyz), moment + 2u);
+    return dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+}
+
+@compute @workgroup_size(8, 8)
 fn trace_step(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= step.cells + 2u * HALO) {
+    if (!is_cell(id, step.cells)) {
         return;
     }
     let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
-    // The classic Runge-Kutta of fourth order, backwards.
-    let dt = step.dt_s;
-    let k1 = motion(x, 0u);
-    let k2 = motion(normalize(x - 0.5 * dt * k1.xyz), 1u);
-    let k3 = motion(normalize(x - 0.5 * dt * k2.xyz), 1u);
-    let k4 = motion(normalize(x - dt * k3.xyz), 2u);
-    let change = dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    let dt = step.dt_s / f32(step.traces);
     // Gathered is the logarithm of the area ratio: how much larger a patch was then than it is now.
-    step_map[cell_place(id, step.cells)] = vec4f(normalize(x - change.xyz), -change.w);
+    var origin = vec4f(x, 0.0);
+    for (var trace = 0u; trace < step.traces; trace++) {
+        let earlier = origin - change(origin.xyz, 2u * trace, dt);
+        origin = vec4f(normalize(earlier.xyz), earlier.w);
+    }
+    step_map[cell_place(id, step.cells)] = origin;
 }

@@ -37,12 +37,13 @@ fn map_row(map: u32, place: u32, w: vec4f) -> vec4f {
 // Values that lookups of this invocation met and that are not finite.
 var<private> healed: u32;
 
-// The finite one of two neighbours, in place of an interpolation that met a value that is not; at the last `direction`, with nothing
-// gathered. It is loaded whether it is needed or not: software rasterisers walk both ways of every branch, so a careful search would cost
-// every lookup as much again.
-fn healed_map(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
-    let below = map_value(map, at.place);
-    let above = map_value(map, at.place + at.stride + 1u);
+// The finite one of two neighbours, the stencil's middle ones on a diagonal, in place of an interpolation that met a value that is not; at
+// the last `direction`, with nothing gathered. They are loaded whether they are needed or not: software rasterisers walk both ways of every
+// branch, so a careful search would cost every lookup as much again. Compilers see that the rows have them already where the places are written
+// as the rows write them.
+fn healed_map(map: u32, middle_row: u32, upper_row: u32, direction: vec3f) -> vec4f {
+    let below = map_value(map, middle_row + 1u);
+    let above = map_value(map, upper_row + 2u);
     return select(select(vec4f(direction, 0.0), above, all_finite(above)), below, all_finite(below));
 }
 
@@ -65,10 +66,12 @@ fn map_between(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
     let wi = cubic_weights(at.t.x);
     let wj = cubic_weights(at.t.y);
     let first = at.place - at.stride - 1u;
-    var found = wj.x * map_row(map, first, wi) + wj.y * map_row(map, first + at.stride, wi) +
-        wj.z * map_row(map, first + 2u * at.stride, wi) + wj.w * map_row(map, first + 3u * at.stride, wi);
+    let middle = first + at.stride;
+    let upper = first + 2u * at.stride;
+    var found = wj.x * map_row(map, first, wi) + wj.y * map_row(map, middle, wi) + wj.z * map_row(map, upper, wi) +
+        wj.w * map_row(map, first + 3u * at.stride, wi);
     healed += select(1u, 0u, all_finite(found));
-    found = select(healed_map(map, at, direction), found, all_finite(found));
+    found = select(healed_map(map, middle, upper, direction), found, all_finite(found));
     // A map torn to opposite directions has no direction left.
     let length = length(found.xyz);
     return vec4f(select(direction, found.xyz / length, length > 1e-6), found.w);

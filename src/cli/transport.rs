@@ -135,6 +135,7 @@ fn case(arguments: &Arguments) -> anyhow::Result<Case> {
         limiter: arguments.limiter == Switch::On,
         steps_a_period: arguments.steps,
         steps: (arguments.until * all).round() as u64,
+        traces_a_step: Case::traces_a_step(arguments.scheme, arguments.steps),
     })
 }
 

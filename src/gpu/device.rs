@@ -113,6 +113,7 @@ impl Gpu {
     pub async fn headless(choice: &AdapterChoice) -> Result<Self, GpuError> {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = choice.backends()?;
+        descriptor.flags = instance_flags();
         let instance = wgpu::Instance::new(descriptor);
         Self::on_instance(instance, choice, None).await
     }
@@ -124,6 +125,7 @@ impl Gpu {
     ) -> Result<wgpu::Instance, GpuError> {
         let mut descriptor = wgpu::InstanceDescriptor::new_with_display_handle(display);
         descriptor.backends = choice.backends()?;
+        descriptor.flags = instance_flags();
         Ok(wgpu::Instance::new(descriptor))
     }
 
@@ -295,6 +297,11 @@ fn limits_for(adapter: &wgpu::Limits) -> wgpu::Limits {
         max_buffer_size: adapter.max_buffer_size,
         ..Default::default()
     }
+}
+
+/// wgpu would look at the arguments of each indirect dispatch in a dispatch of its own. Ours are none, or what a direct dispatch would have.
+fn instance_flags() -> wgpu::InstanceFlags {
+    wgpu::InstanceFlags::default() - wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL
 }
 
 async fn find_adapter(

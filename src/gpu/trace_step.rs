@@ -9,6 +9,9 @@ use crate::physics::{
     transport::{PERIOD, Wind, WindKind},
 };
 
+/// Traces that one step of a test wind can be made of.
+pub const MAX_TRACES: usize = 16;
+
 /// Velocity field that a pipeline is specialised for: see `FLOW` in `shaders/film/wind.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
@@ -50,8 +53,8 @@ impl WindMoment {
 pub struct StepUniform {
     /// Columns take the test wind's frame to the world; the fourth number of each is padding.
     pub frame: [[f32; 4]; 3],
-    /// The wind at the start, middle and end of the backward step.
-    pub moments: [WindMoment; 3],
+    /// The wind at the start, middle and end of each backward trace, the end of one being the start of the next.
+    pub moments: [WindMoment; 2 * MAX_TRACES + 1],
     /// Angular speed of the wind's solid turn.
     pub turn_rad_s: f32,
     /// Length of the step in seconds.
@@ -62,8 +65,10 @@ pub struct StepUniform {
     pub waves_count: u32,
     /// Vortices in use.
     pub vortices_count: u32,
-    pad: [u32; 3],
-    /// Waves at the same three moments; those in use come first.
+    /// Runge-Kutta steps that the step is traced in; one where waves or vortices are in use.
+    pub traces: u32,
+    pad: [u32; 2],
+    /// Waves at the first three moments; those in use come first.
     pub waves: [[FrozenWave; MAX_WAVES]; 3],
     /// Vortices at the same three moments; those in use come first.
     pub vortices: [[FrozenVortex; MAX_VORTICES]; 3],
@@ -111,9 +116,20 @@ impl Step {
     /// A step of a test wind.
     #[must_use]
     pub fn wind(wind: &Wind, from_s: f64, to_s: f64) -> Self {
+        Self::long_wind(wind, from_s, to_s, 1)
+    }
+
+    /// A step of a test wind that may be so long that it is traced in several, [`MAX_TRACES`] at most: the wind is known at all times.
+    #[must_use]
+    pub fn long_wind(wind: &Wind, from_s: f64, to_s: f64, traces: u32) -> Self {
         let mut uniform = Self::empty(from_s, to_s);
+        uniform.traces = traces.clamp(1, MAX_TRACES as u32);
         uniform.frame = columns(wind.frame());
-        uniform.moments = moments(from_s, to_s).map(WindMoment::at);
+        let end_s = |trace: usize| to_s + (from_s - to_s) * trace as f64 / f64::from(uniform.traces);
+        for trace in 0..uniform.traces as usize {
+            let times_s = moments(end_s(trace + 1), end_s(trace));
+            uniform.moments[2 * trace..][..3].copy_from_slice(&times_s.map(WindMoment::at));
+        }
         uniform.turn_rad_s = (std::f64::consts::TAU / PERIOD) as f32;
         let kind = match wind.kind() {
             WindKind::SolidBody => FlowKind::SolidBody,
@@ -126,6 +142,7 @@ impl Step {
     fn empty(from_s: f64, to_s: f64) -> Box<StepUniform> {
         let mut uniform = Box::new(StepUniform::zeroed());
         uniform.dt_s = (to_s - from_s) as f32;
+        uniform.traces = 1;
         uniform
     }
 
@@ -136,7 +153,7 @@ impl Step {
             Self::Closed(kind, uniform) => {
                 let mut uniform = uniform.clone();
                 uniform.dt_s = -uniform.dt_s;
-                uniform.moments.reverse();
+                uniform.moments[..=2 * uniform.traces as usize].reverse();
                 uniform.waves.reverse();
                 uniform.vortices.reverse();
                 Self::Closed(*kind, uniform)

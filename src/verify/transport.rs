@@ -87,6 +87,7 @@ fn published(run: &mut Run<'_>, test: &Test) -> Result<(), GpuError> {
         limiter: test.limiter,
         steps_a_period: 120,
         steps,
+        traces_a_step: 1,
     };
     let (norms, remaps) = measured(run, &case)?;
     let limited = if test.limiter { ", limited" } else { "" };
@@ -137,6 +138,7 @@ fn l2_on(run: &Run<'_>, n: usize, tracer: TracerKind) -> Result<f64, GpuError> {
         limiter: false,
         steps_a_period: 2 * n as u32,
         steps: 2 * n as u64,
+        traces_a_step: 1,
     };
     Ok(measured(run, &case)?.0.l2)
 }
@@ -161,6 +163,7 @@ fn seams(run: &mut Run<'_>) -> Result<(), GpuError> {
                 // No step takes cells to cells.
                 steps_a_period: 77,
                 steps: 77,
+                traces_a_step: 1,
             };
             let mut field = Field::new(run.gpu, grid, case.rules())?;
             let mut recorder = Recorder::new(run.gpu);
@@ -198,6 +201,7 @@ fn constant_ratio(run: &mut Run<'_>) -> Result<(), GpuError> {
         limiter: false,
         steps_a_period: 60,
         steps: 60,
+        traces_a_step: 1,
     };
     let mut field = Field::new(run.gpu, case.grid, case.rules())?;
     let mut recorder = Recorder::new(run.gpu);

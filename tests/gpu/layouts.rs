@@ -100,7 +100,7 @@ fn film_mirrors() -> Vec<Mirror> {
         mirror! { Diffuse = DiffuseUniform { cells, stage, rate, most, before, earlier } },
         mirror! { Thickness = ThicknessUniform { cells, map_cells, tracer_cells, reference_nm, offset_nm, level_nm, black_nm, rim_z, inversion } },
         mirror! { Step = StepUniform {
-            frame, moments, turn_rad_s, dt_s, cells, waves_count, vortices_count, waves, vortices
+            frame, moments, turn_rad_s, dt_s, cells, waves_count, vortices_count, traces, waves, vortices
         } },
         mirror! { Solved = SolvedUniform { dt_s, cells } },
         mirror! { WindMoment = WindMoment { shift_sin, shift_cos, reversal } },

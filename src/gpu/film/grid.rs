@@ -77,10 +77,11 @@ impl Grid {
         self.cells + 2 * HALO as u32
     }
 
-    /// Workgroups of a pass with one invocation a cell, halo included, 64 along a row.
+    /// Workgroups of a pass with one invocation a cell, halo included, in tiles of 8 x 8: rows of 64 would leave many idle.
     #[must_use]
     pub fn padded_groups(&self) -> [u32; 3] {
-        [self.side().div_ceil(64), self.side(), 6]
+        let tiles = self.side().div_ceil(8);
+        [tiles, tiles, 6]
     }
 
     /// Workgroups of a pass with one invocation a cell, 64 along a row.
