@@ -8,7 +8,10 @@ use serde_json::{Value, json};
 
 use super::{AdapterArguments, parse};
 use crate::{
-    gpu::flow_case::{FlowOutcome, FlowRun},
+    gpu::{
+        flow::Cycles,
+        flow_case::{FlowOutcome, FlowRun},
+    },
     output::write_text,
     physics::flow::{FlowCase, FlowCaseKind, Mode},
 };
@@ -59,7 +62,13 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let case = case(arguments)?;
-    let run = FlowRun { case, cells: arguments.cells, steps_a_span: arguments.steps, spans: arguments.repeat };
+    let run = FlowRun {
+        case,
+        cells: arguments.cells,
+        steps_a_span: arguments.steps,
+        spans: arguments.repeat,
+        cycles: Cycles::default(),
+    };
     let gpu = arguments.adapter.open()?;
     let outcome = run.measure(&gpu)?;
     print!("{}: l2 {:.3e}", case.kind().name(), outcome.l2);

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{
     Gpu, GpuError,
-    flow::{FlowMeasures, FlowSolver},
+    flow::{Cycles, FlowMeasures, FlowSolver},
     readback::Readback,
     timing::Recorder,
 };
@@ -49,6 +49,8 @@ pub struct FlowRun {
     pub steps_a_span: u32,
     /// Spans.
     pub spans: u32,
+    /// Multigrid cycles of a step.
+    pub cycles: Cycles,
 }
 
 /// Vorticity and stream function at one moment, in the grid's order.
@@ -64,6 +66,7 @@ impl FlowRun {
     /// Runs it.
     pub fn measure(&self, gpu: &Gpu) -> Result<FlowOutcome, GpuError> {
         let mut solver = FlowSolver::new(gpu, self.cells);
+        solver.cycles = self.cycles;
         self.seed(gpu, &mut solver)?;
         let first = State::read(gpu, &solver)?;
         let mode = self.sample(solver.sphere(), |x| self.case.mode_at(x));

@@ -78,7 +78,7 @@ impl Case {
                 latest_ticks: (REMAP_PERIODS * f64::from(self.steps_a_period)).max(1.0) as u32,
             },
             map_coarsening: 1,
-            coarse_flow: false,
+            flow_cells: u32::MAX,
             cap: None,
             drop_rad: None,
         }

@@ -6,6 +6,7 @@ use super::{Run, phenomena, sorting};
 use crate::{
     gpu::{
         GpuError,
+        flow::Cycles,
         flow_case::{FlowOutcome, FlowRun},
     },
     physics::flow::{FlowCase, FlowCaseKind, Mode},
@@ -34,7 +35,8 @@ fn measured(
     steps: u32,
     spans: u32,
 ) -> Result<Option<FlowOutcome>, GpuError> {
-    let outcome = |case| FlowRun { case, cells, steps_a_span: steps, spans }.measure(run.gpu);
+    let outcome =
+        |case| FlowRun { case, cells, steps_a_span: steps, spans, cycles: Cycles::default() }.measure(run.gpu);
     case.map(outcome).transpose()
 }
 

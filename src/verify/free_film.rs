@@ -22,7 +22,7 @@ pub const RULES: Rules = Rules {
     conserved: true,
     remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: 20 },
     map_coarsening: 1,
-    coarse_flow: true,
+    flow_cells: 64,
     cap: None,
     drop_rad: None,
 };

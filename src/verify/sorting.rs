@@ -12,10 +12,11 @@ use crate::{
         Gpu, GpuError,
         decide_remap::RemapRule,
         film::{ControlBlock, Rules},
+        flow::Cycles,
     },
     physics::{
         film::{InitialFilm, PrescribedFlow},
-        flow::FlowForces,
+        flow::{FlowForces, POISSON_CYCLES, VISCOUS_CYCLES},
         sphere::CubedSphere,
     },
 };
@@ -27,6 +28,10 @@ pub struct Sorting {
     pub cells: usize,
     /// How many of them a cell of the map spans.
     pub map_coarsening: u32,
+    /// Cells along a panel's edge of the flow, where it is coarser.
+    pub flow_cells: u32,
+    /// Multigrid cycles of a step.
+    pub cycles: Cycles,
     /// Which of all films.
     pub seed: u32,
     /// Kinematic viscosity, m²/s.
@@ -59,12 +64,16 @@ pub struct Sorted {
 }
 
 const RADIUS_M: f64 = 0.05;
+/// The longest time between two remaps, s.
+const LATEST_REMAP_S: f64 = 2.0;
 
 impl Sorting {
     /// A viscous film as laboratories have them, drawn with the cells of scenes.
     pub const LABORATORY: Self = Self {
         cells: 256,
         map_coarsening: 2,
+        flow_cells: 64,
+        cycles: Cycles { poisson: POISSON_CYCLES, viscous: VISCOUS_CYCLES },
         seed: 1,
         viscosity_m2_s: 3e-4,
         diffusion_m2_s: 1e-6,
@@ -72,20 +81,19 @@ impl Sorting {
         dt_s: 1.0 / 60.0,
     };
 
+    /// Thickness in nm, in the order of the grid, after some steps; and process time of a step, ms.
+    pub fn thickness(&self, gpu: &Gpu, steps: u32) -> Result<(Vec<f64>, f64), GpuError> {
+        let mut film = self.film(gpu)?;
+        gpu.wait()?;
+        let cpu = ProcessTime::now();
+        film.run(steps, self.dt_s)?;
+        let cpu_ms = cpu.elapsed().as_secs_f64() * 1e3;
+        Ok((film.thickness()?, cpu_ms / f64::from(steps.max(1))))
+    }
+
     /// Lets it sort itself, and looks at it at these times in seconds.
     pub fn measure(&self, gpu: &Gpu, times_s: &[f64]) -> Result<Vec<Sorted>, GpuError> {
-        let film = InitialFilm::Blown { thickness_nm: 700.0, stratification: 0.0, seed: self.seed };
-        let remap = RemapRule { latest_ticks: 120, ..RULES.remap };
-        let rules = Rules { remap, map_coarsening: self.map_coarsening, ..RULES };
-        let mut field = field(gpu, self.cells, rules, film.profile())?;
-        field.diffuse(gpu, self.diffusion_m2_s / RADIUS_M.powi(2), self.dt_s);
-        let forces = FlowForces {
-            gravity: DVec3::NEG_Z * 9.81 / RADIUS_M,
-            drag: self.drag,
-            air_drag: 0.0,
-            viscosity: self.viscosity_m2_s / RADIUS_M.powi(2),
-        };
-        let mut film = FreeFilm::new(gpu, field, forces, PrescribedFlow::default())?;
+        let mut film = self.film(gpu)?;
         let blown = film.thickness()?;
         let (cpu, mut steps, mut found) = (ProcessTime::now(), 0, Vec::new());
         for time_s in times_s {
@@ -98,6 +106,24 @@ impl Sorting {
             found.push(Sorted { remaps: control.remaps, cpu_ms_a_step, ..compared(film.sphere(), &blown, &now) });
         }
         Ok(found)
+    }
+
+    /// As blown.
+    fn film<'a>(&self, gpu: &'a Gpu) -> Result<FreeFilm<'a>, GpuError> {
+        let film = InitialFilm::Blown { thickness_nm: 700.0, stratification: 0.0, seed: self.seed };
+        let remap = RemapRule { latest_ticks: (LATEST_REMAP_S / self.dt_s).round() as u32, ..RULES.remap };
+        let rules = Rules { remap, map_coarsening: self.map_coarsening, flow_cells: self.flow_cells, ..RULES };
+        let mut field = field(gpu, self.cells, rules, film.profile())?;
+        field.diffuse(gpu, self.diffusion_m2_s / RADIUS_M.powi(2), self.dt_s);
+        let forces = FlowForces {
+            gravity: DVec3::NEG_Z * 9.81 / RADIUS_M,
+            drag: self.drag,
+            air_drag: 0.0,
+            viscosity: self.viscosity_m2_s / RADIUS_M.powi(2),
+        };
+        let mut film = FreeFilm::new(gpu, field, forces, PrescribedFlow::default())?;
+        film.motion.solve_in(self.cycles);
+        Ok(film)
     }
 }
 

@@ -5,7 +5,7 @@ use glam::DVec3;
 use soapfilm::{
     gpu::{
         Gpu,
-        flow::FlowSolver,
+        flow::{Cycles, FlowSolver},
         flow_case::{FlowOutcome, FlowRun, read_measures},
         readback::Readback,
         timing::Recorder,
@@ -24,7 +24,7 @@ fn case(kind: FlowCaseKind, mode: (u32, u32), k: f64) -> FlowCase {
 }
 
 fn run(gpu: &Gpu, case: FlowCase, cells: u32, steps_a_span: u32, spans: u32) -> FlowOutcome {
-    FlowRun { case, cells, steps_a_span, spans }.measure(gpu).unwrap()
+    FlowRun { case, cells, steps_a_span, spans, cycles: Cycles::default() }.measure(gpu).unwrap()
 }
 
 /// The cells of a buffer in padded storage.

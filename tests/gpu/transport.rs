@@ -30,7 +30,7 @@ const RULES: Rules = Rules {
     // As if the map were never too distorted, so that remaps come when the twin has them.
     remap: remap(20),
     map_coarsening: 1,
-    coarse_flow: true,
+    flow_cells: 64,
     cap: None,
     drop_rad: None,
 };
@@ -68,7 +68,7 @@ fn the_gpu_does_what_its_f64_twin_does() {
     let tracer = Tracer::new(TracerKind::CosineBells, wind.tracer_rotation());
     let (grid, dt) = (CubedSphere::new(40).unwrap(), PERIOD / 60.0);
     for scheme in [Scheme::Bilinear, Scheme::Bicubic, Scheme::Map, Scheme::MapAccurate] {
-        let rules = Rules { scheme, coarse_flow: false, remap: remap(15), ..RULES };
+        let rules = Rules { scheme, flow_cells: u32::MAX, remap: remap(15), ..RULES };
         let steps = (0..60).map(|k| Step::wind(&wind, dt * f64::from(k), dt * f64::from(k + 1)));
         let found = moved(&gpu, grid, rules, |x| tracer.value(x), steps);
         let mut twin = FlowMap::new(grid, scheme, |x| tracer.value(x)).unwrap();
@@ -85,11 +85,11 @@ fn the_gpu_does_what_its_f64_twin_does() {
 }
 
 /// A film of 128 cells an edge stirred for 1 s on the GPU, in steps of so many ticks.
-fn stirred(gpu: &Gpu, grid: CubedSphere, flow: &PrescribedFlow, ticks_a_step: u32, coarse_flow: bool) -> Vec<f64> {
+fn stirred(gpu: &Gpu, grid: CubedSphere, flow: &PrescribedFlow, ticks_a_step: u32, flow_cells: u32) -> Vec<f64> {
     let length_s = f64::from(ticks_a_step) / 60.0;
     let steps = (0..60 / ticks_a_step).map(f64::from);
     let steps = steps.map(|k| Step::prescribed(flow, length_s * k, length_s * (k + 1.0)));
-    moved(gpu, grid, Rules { remap: remap(1000), coarse_flow, ..RULES }, film().profile(), steps)
+    moved(gpu, grid, Rules { remap: remap(1000), flow_cells, ..RULES }, film().profile(), steps)
 }
 
 fn film() -> InitialFilm {
@@ -110,8 +110,8 @@ fn a_stirred_film_follows_its_trajectories() {
     };
     let exact: Vec<f64> =
         (0..grid.cells()).into_par_iter().step_by(11).map(|cell| profile(foot(grid.cell_direction(cell)))).collect();
-    let [fine, long, coarse] = [(1, false), (6, false), (6, true)].map(|(ticks, coarse)| {
-        let found = stirred(&gpu, grid, &flow, ticks, coarse);
+    let [fine, long, coarse] = [(1, 128), (6, 128), (6, 64)].map(|(ticks, flow_cells)| {
+        let found = stirred(&gpu, grid, &flow, ticks, flow_cells);
         mean_and_max(found.iter().step_by(11).zip(&exact).map(|(a, b)| (a - b).abs()))
     });
     eprintln!(

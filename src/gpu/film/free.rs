@@ -3,7 +3,13 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{
-    super::{Gpu, GpuError, flow::FlowSolver, pipelines::ComputeKey, timing::Recorder, trace_step::Step},
+    super::{
+        Gpu, GpuError,
+        flow::{Cycles, FlowSolver},
+        pipelines::ComputeKey,
+        timing::Recorder,
+        trace_step::Step,
+    },
     Field, rim_numbers,
 };
 use crate::physics::{
@@ -114,6 +120,11 @@ impl FreeMotion {
         solver.end_at(gpu, field.rules.cap);
         solver.hold(gpu, field.rules.drop_rad);
         Self { solver }
+    }
+
+    /// Lets its steps take so many multigrid cycles.
+    pub fn solve_in(&mut self, cycles: Cycles) {
+        self.solver.cycles = cycles;
     }
 
     /// The flow.

@@ -68,8 +68,8 @@ pub struct Rules {
     pub remap: RemapRule,
     /// How many of the film's cells a cell of the map spans along each side; the map of a smooth flow may be coarser than the film.
     pub map_coarsening: u32,
-    /// Whether steps may be traced on a coarser grid, as smooth flows may.
-    pub coarse_flow: bool,
+    /// Cells along a panel's edge of the grid that steps are traced on, where it is coarser than the film: smooth flows need no more.
+    pub flow_cells: u32,
     /// Where the film ends, if anywhere. Beyond stands its image, which nothing shows or counts.
     pub cap: Option<Cap>,
     /// Angular radius of the drop at its bottom, if there is one, radians.
@@ -134,14 +134,9 @@ pub enum Planted {
     Map,
 }
 
-/// Cells along a panel's edge of the grid that flows are traced on, at least: 1.4° each.
-const MIN_FLOW_CELLS: usize = 64;
-
-/// A grid four times coarser than the film, on which a step's backtrace is made: its cells are still a fraction of the smallest eddy,
-/// and cubic interpolation of one step's displacement errs by less than can be seen. Nothing where it would be no coarser.
-fn flow_sphere(film: CubedSphere) -> Option<CubedSphere> {
-    let cells = film.n().div_ceil(4).max(MIN_FLOW_CELLS);
-    CubedSphere::new(cells).ok().filter(|coarse| coarse.n() < film.n())
+/// The grid that steps are traced on, where it is coarser than the film's.
+fn flow_sphere(film: CubedSphere, cells: u32) -> Option<CubedSphere> {
+    CubedSphere::new(cells as usize).ok().filter(|coarse| coarse.n() < film.n())
 }
 
 impl Field {
@@ -153,7 +148,7 @@ impl Field {
         let fine = (tracer != sphere).then(|| grid(tracer));
         let map_sphere = CubedSphere::new(sphere.n().div_ceil(rules.map_coarsening.max(1) as usize));
         let smooth = map_sphere.ok().filter(|map| *map != sphere).map(grid);
-        let coarse = flow_sphere(sphere).filter(|_| rules.coarse_flow).map(grid);
+        let coarse = flow_sphere(sphere, rules.flow_cells).map(grid);
         let scalars = |label| fine.as_ref().unwrap_or(&film).field(gpu, label, 4);
         Ok(Self {
             step_map: coarse.as_ref().unwrap_or(&film).field(gpu, "step map", 16),

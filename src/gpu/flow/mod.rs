@@ -73,6 +73,21 @@ pub struct CombineUniform {
     pad: f32,
 }
 
+/// Multigrid cycles of a step: only as many as its error needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cycles {
+    /// Those that find the stream function.
+    pub poisson: usize,
+    /// Those of each of the two viscous solves.
+    pub viscous: usize,
+}
+
+impl Default for Cycles {
+    fn default() -> Self {
+        Self { poisson: POISSON_CYCLES, viscous: VISCOUS_CYCLES }
+    }
+}
+
 /// What the passes over the finest grid share.
 struct FlowGrid {
     sphere: CubedSphere,
@@ -136,6 +151,8 @@ pub struct FlowSolver {
     measures: wgpu::Buffer,
     /// Whether ψ one step ago is known.
     has_history: bool,
+    /// Cycles of the steps to come.
+    pub cycles: Cycles,
 }
 
 impl FlowSolver {
@@ -177,6 +194,7 @@ impl FlowSolver {
             velocity_ahead: velocity("velocity ahead"),
             measures: buffer(gpu, "flow measures", size_of::<FlowMeasures>() as u64),
             has_history: false,
+            cycles: Cycles::default(),
         }
     }
 
@@ -346,7 +364,7 @@ impl FlowSolver {
         };
         self.combine(recorder, [(2.0, &self.psi), (-1.0, &self.psi_before)], -1.0, &self.psi_next)?;
         let system = System { shift: 0.0, gain: 1.0, source: zeta };
-        self.multigrid.cycles(recorder, grid, &system, &self.psi_next, POISSON_CYCLES)?;
+        self.multigrid.cycles(recorder, grid, &system, &self.psi_next, self.cycles.poisson)?;
         self.drop.as_ref().map_or(Ok(()), |drop| drop.stop(recorder, grid, zeta, &self.psi_next))
     }
 
@@ -367,10 +385,10 @@ impl FlowSolver {
         let system = |source| System { shift: (1.0 - 2.0 * stage) / stage, gain: -1.0 / stage, source };
         grid.fill_halo(recorder, moved)?;
         recorder.encoder().copy_buffer_to_buffer(moved, 0, once, 0, moved.size());
-        self.multigrid.cycles(recorder, grid, &system(moved), once, VISCOUS_CYCLES)?;
+        self.multigrid.cycles(recorder, grid, &system(moved), once, self.cycles.viscous)?;
         // What the first stage took away, the second nearly will.
         self.combine(recorder, [(2.0, once), (-1.0, moved)], 0.0, twice)?;
-        self.multigrid.cycles(recorder, grid, &system(once), twice, VISCOUS_CYCLES)?;
+        self.multigrid.cycles(recorder, grid, &system(once), twice, self.cycles.viscous)?;
         self.combine(recorder, [(1.0 + root, twice), (-root, once)], 0.0, &self.pushed)?;
         self.reflect(recorder, &self.pushed)?;
         Ok(&self.pushed)
