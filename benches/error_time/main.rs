@@ -1,10 +1,11 @@
-//! Run time against error: lookup tables of several sizes, numbers of bands, the qualities, and the schemes of transport, as tables, and as
+//! Run time against error: lookup tables of several sizes, numbers of bands, the qualities, the schemes of transport, and going back in time, as tables, and as
 //! CSV files and plots in `target/`.
 //!
 //! `cargo bench --bench error_time -- --smoke` runs the smallest case of each, to see that it works; a name (`tables`, `front`, `transport`,
-//! `qualities`) runs that part alone.
+//! `qualities`, `history`) runs that part alone.
 
 mod colour;
+mod history;
 mod plot;
 mod report;
 mod transport;
@@ -14,7 +15,7 @@ use std::time::Instant;
 use cpu_time::ProcessTime;
 use soapfilm::gpu::{AdapterChoice, Gpu, GpuError};
 
-const PARTS: [&str; 4] = ["tables", "front", "transport", "qualities"];
+const PARTS: [&str; 5] = ["tables", "front", "transport", "qualities", "history"];
 
 fn main() -> anyhow::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -35,7 +36,10 @@ fn main() -> anyhow::Result<()> {
         transport::run(&gpu, smoke)?;
     }
     if runs("qualities") {
-        colour::qualities(gpu, smoke)?;
+        colour::qualities(pollster::block_on(gpu.another())?, smoke)?;
+    }
+    if runs("history") {
+        history::run(gpu, smoke)?;
     }
     Ok(())
 }
