@@ -1,11 +1,12 @@
-//! Run time against error: lookup tables of several sizes, numbers of bands, the qualities, the schemes of transport and the flow solver, as
-//! tables, and as CSV files and plots in `target/`.
+//! Run time against error: lookup tables of several sizes, numbers of bands, the qualities, the schemes of transport, the flow solver, and
+//! going back in time, as tables, and as CSV files and plots in `target/`.
 //!
-//! `cargo bench --bench error_time -- --smoke` runs the smallest case of each, to see that it works; a name (`tables`, `front`, `transport`, `flow`,
-//! `qualities`) runs that part alone.
+//! `cargo bench --bench error_time -- --smoke` runs the smallest case of each, to see that it works; a name (`tables`, `front`, `transport`,
+//! `flow`, `qualities`, `history`) runs that part alone.
 
 mod colour;
 mod flow;
+mod history;
 mod plot;
 mod report;
 mod transport;
@@ -15,7 +16,7 @@ use std::time::Instant;
 use cpu_time::ProcessTime;
 use soapfilm::gpu::{AdapterChoice, Gpu, GpuError};
 
-const PARTS: [&str; 5] = ["tables", "front", "transport", "flow", "qualities"];
+const PARTS: [&str; 6] = ["tables", "front", "transport", "flow", "qualities", "history"];
 
 fn main() -> anyhow::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -39,7 +40,10 @@ fn main() -> anyhow::Result<()> {
         flow::run(&gpu, smoke)?;
     }
     if runs("qualities") {
-        colour::qualities(gpu, smoke)?;
+        colour::qualities(pollster::block_on(gpu.another())?, smoke)?;
+    }
+    if runs("history") {
+        history::run(gpu, smoke)?;
     }
     Ok(())
 }

@@ -25,6 +25,8 @@ pub struct Composition<'a> {
     pub step_map: &'a wgpu::Buffer,
     /// The map before it, if there is one.
     pub before: Option<&'a wgpu::Buffer>,
+    /// Whether steps gather anything.
+    pub gathers: bool,
     /// The film's control block.
     pub control: &'a wgpu::Buffer,
     /// The map after it.
@@ -48,6 +50,7 @@ pub fn compose_map(recorder: &mut Recorder<'_>, name: &'static str, maps: &Compo
     let constants = vec![
         ("SAME_GRID", u32::from(step_cells == grid.cells)),
         ("HAS_MAP", u32::from(before.is_some())),
+        ("GATHERS", u32::from(maps.gathers)),
         // A map is looked up alike whatever the tracer's stencil.
         ("TAPS", 6),
         ("LIMITER", 0),

@@ -281,6 +281,7 @@ impl Field {
             step_cells: flow.cells,
             step_map: &self.step_map,
             before,
+            gathers: self.rules.gathered != Gathered::Nothing,
             control: &self.control.block,
             after: &self.map[into],
         };
