@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     input::LoadedScene,
-    plan::Resources,
+    plan::{Resources, settle_detail},
     scene::{Bubble, Film, Light, Motion, MotionChange, Scene},
 };
 
@@ -110,7 +110,9 @@ pub struct Model {
 impl Model {
     /// A window on a scene, its clock running.
     #[must_use]
-    pub fn new(loaded: LoadedScene) -> Self {
+    pub fn new(mut loaded: LoadedScene) -> Self {
+        // The camera moves from now on, and no film shall begin anew for that.
+        settle_detail(&mut loaded.scene);
         let mut messages = Messages::default();
         warn(&mut messages, &loaded.scene);
         Self {
@@ -135,7 +137,8 @@ impl Model {
     }
 
     /// Shows another scene, from its beginning.
-    pub fn adopt(&mut self, loaded: LoadedScene) {
+    pub fn adopt(&mut self, mut loaded: LoadedScene) {
+        settle_detail(&mut loaded.scene);
         warn(&mut self.messages, &loaded.scene);
         self.scene = loaded.scene;
         self.resources = loaded.resources;
@@ -294,6 +297,7 @@ pub(super) mod tests {
     use super::*;
     use crate::{
         input::load_scene,
+        plan::film_grids,
         scene::{Change, Event, FilmIndexName, Flow},
     };
 
@@ -324,6 +328,23 @@ pub(super) mod tests {
         model.change_film(2, film);
         assert_eq!((model.clock.tick, model.scene.bubbles[2].film.thickness_nm), (0, 300.0));
         model.change_film(99, Film::default());
+    }
+
+    #[test]
+    fn a_film_stays_as_fine_as_it_was_while_the_camera_moves() {
+        let mut far = load_scene("default").unwrap();
+        far.scene.camera.distance_m = 20.0;
+        let grids = |model: &Model| film_grids(&model.scene, 0);
+        let mut model = Model::new(load_scene("default").unwrap());
+        assert_eq!(grids(&model), [256, 64]);
+        model.scene.camera.distance_m = 20.0;
+        assert_eq!(grids(&model), [256, 64], "gone away from");
+        model.adopt(far);
+        assert_eq!(grids(&model), [128, 32]);
+        model.scene.camera.distance_m = 0.24;
+        assert_eq!(grids(&model), [128, 32], "come near to");
+        let saved = Scene::from_toml(&model.scene.to_toml(), "saved").unwrap();
+        assert_eq!(film_grids(&saved, 0), [128, 32], "and read back");
     }
 
     #[test]

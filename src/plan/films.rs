@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::{
     FieldKey, FilmEnd, FilmKey, FlowLaw, FlowSegment, FreeFlow, Moment, PushKey,
+    detail::film_grids,
     lives::{Life, life, since},
     thinning::Thinning,
 };
@@ -100,8 +101,10 @@ pub(super) fn film(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) ->
     let radius_m = bubble.radius_mm * 1e-3;
     let flows: Vec<_> = flows(scene, radius_m).iter().map(|segment| (segment.from_tick, segment.law)).collect();
     let flows = since(life.born, &flows).into_iter();
+    let [cells, flow_cells] = film_grids(scene, index);
     let mut key = FieldKey {
-        cells: bubble.film.cells,
+        cells,
+        flow_cells,
         initial,
         end: film_end(bubble, life.generation).map(Box::new),
         tick_s: scene.motion.tick_s,

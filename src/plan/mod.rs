@@ -2,9 +2,11 @@
 //!
 //! A *product* is what a pass leaves on the GPU, and its *key* is all that the pass reads. A product is stale exactly where the wanted key
 //! differs from the one that is there; there are no dirty flags. [`plan`] is pure, has no GPU types, and is the only place where work is
-//! skipped: a scene that did not change plans nothing, a new exposure plans a tonemap, a film at rest is never stepped.
+//! skipped: a scene that did not change plans nothing, a new exposure plans a tonemap, a film at rest is never stepped, one that is far away
+//! has fewer cells.
 
 mod checkpoints;
+mod detail;
 mod fields;
 mod films;
 pub mod keys;
@@ -15,6 +17,7 @@ mod want;
 use std::{fmt, ops::Range};
 
 pub use checkpoints::Checkpoints;
+pub use detail::{film_grids, settle_detail};
 pub use films::{centre_path, film_key, film_turn};
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmEnd, FilmKey,
@@ -233,7 +236,10 @@ impl fmt::Display for Plan {
                 Pass::BakeTable { key, rows, .. } => {
                     format!("rows {}..{} of {}, {} columns", rows.start, rows.end, key.rows, key.columns)
                 }
-                Pass::SeedField { film, key } => format!("film {film}, 6x{0}x{0} cells", key.cells),
+                Pass::SeedField { film, key } => {
+                    let flow_cells = key.flow_cells.min(key.cells);
+                    format!("film {film}, 6x{0}x{0} cells, its flow 6x{flow_cells}x{flow_cells}", key.cells)
+                }
                 Pass::RestoreField { film, key, .. } => format!("film {film} back to {}", key.moment),
                 Pass::SaveField { film, key, .. } => format!("film {film} at {}", key.moment),
                 Pass::StepField { film, ticks, .. } => format!("film {film}, ticks {}..{}", ticks.start, ticks.end),

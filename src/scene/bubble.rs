@@ -109,6 +109,8 @@ pub struct Film {
     pub seed: u64,
     /// Thickness cells along an edge of the cubed sphere, 6 `cells`² in all; 16 ..= 1024. Default: 256.
     pub cells: u32,
+    /// How many of them the film takes. Default: `auto`.
+    pub detail: Detail,
 }
 
 impl Default for Film {
@@ -121,6 +123,7 @@ impl Default for Film {
             skin_nm: 0.0,
             seed: 1,
             cells: 256,
+            detail: Detail::Auto,
         }
     }
 }
@@ -145,6 +148,18 @@ impl Film {
         check::in_range("skin_nm", self.skin_nm, 0.0..=5.0)?;
         check::in_range("cells", self.cells, 16..=1024)
     }
+}
+
+/// How many of its cells a film takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Detail {
+    /// All, or half if the bubble is small in the picture of the scene's camera.
+    Auto,
+    /// All.
+    Full,
+    /// Half along each edge, 16 at least, and half of those of its flow.
+    Half,
 }
 
 /// Whether a name can be a liquid's or a file's; what it says of temperature or share is read with the film.

@@ -18,7 +18,7 @@ mod preset;
 #[cfg(test)]
 mod tests;
 
-pub use bubble::{Boundary, Bubble, Film, FilmIndexName, FilmStateName};
+pub use bubble::{Boundary, Bubble, Detail, Film, FilmIndexName, FilmStateName};
 pub use camera::Camera;
 pub use error::{Problem, SceneError};
 pub use event::{Blow, Change, Drag, Event, MotionChange, Prick, Stir};

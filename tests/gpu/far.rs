@@ -6,7 +6,7 @@ use soapfilm::{
     input::LoadedScene,
     physics::colour::{BT2020, Lab, ciede2000, xyz_to_lab},
     plan::Want,
-    scene::{Backdrop, Camera, FilmStateName, Flow, Scene},
+    scene::{Backdrop, Camera, Detail, FilmStateName, Flow, Scene},
     verify::reference,
 };
 
@@ -164,4 +164,69 @@ fn far_blown_bubbles_change_as_they_must() {
             assert!(excess <= 0.1 * truth && most <= 20.0, "{time_s} s, {diameter}: {changes:?}");
         }
     }
+}
+
+/// A blown film of all of its cells, or of half, seen from where the bubble is so many pixels across.
+fn blown(detail: Detail, diameter: f64, time_s: f64) -> Want {
+    let mut loaded = load("default");
+    loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
+    loaded.scene.bubbles[0].film.detail = detail;
+    step_back(&mut loaded.scene, diameter);
+    still(&loaded, SIZE, time_s)
+}
+
+/// A film on coarser grids: as blown within the limits of a far bubble that is sorted, and a little later within a tenth of what the next tick
+/// changes, as far bubbles that drift must be.
+#[test]
+fn half_of_the_cells_show_a_far_bubble_as_it_is() {
+    let (Some(mut full), Some(mut half)) = (renderer(), renderer()) else { return };
+    for (time_s, limits) in [(0.0, Some([0.2, 3.0])), (0.1, None)] {
+        for diameter in DIAMETERS {
+            let want = blown(Detail::Full, diameter, time_s);
+            let truth = radiance(&mut full, &want);
+            let seen = radiance(&mut half, &blown(Detail::Half, diameter, time_s));
+            let (mean, most) = mean_and_max(differences(&want, &truth, &seen));
+            let next = limits.is_none().then(|| {
+                let next = radiance(&mut full, &blown(Detail::Full, diameter, time_s + 1.0 / 60.0));
+                mean_and_max(differences(&want, &truth, &next)).0
+            });
+            eprintln!(
+                "measured: half of the cells, {time_s} s, {diameter} pixels across: dE2000 mean {mean:.3}, max {most:.3}; the next tick {next:.3?}"
+            );
+            if let Some([mean_limit, most_limit]) = limits {
+                assert!(mean <= mean_limit && most <= most_limit, "{time_s} s, {diameter}: {mean} {most}");
+            }
+            assert!(next.is_none_or(|next| mean <= 0.1 * next), "{time_s} s, {diameter}: {mean} {next:?}");
+        }
+    }
+}
+
+/// Mean and spread of the colours of a bubble in CIELAB, where white has the Y given.
+fn colours(want: &Want, picture: &[DVec3], white: f64) -> [DVec3; 2] {
+    let black = Lab { l: 0.0, a: 0.0, b: 0.0 };
+    let colours: Vec<DVec3> = covered(want).into_iter().map(|k| change(&black, &lab(picture[k], white))).collect();
+    let count = colours.len() as f64;
+    let mean = colours.iter().sum::<DVec3>() / count;
+    let variance = colours.iter().map(|colour| (*colour - mean) * (*colour - mean)).sum::<DVec3>() / count;
+    [mean, DVec3::from(variance.to_array().map(f64::sqrt))]
+}
+
+/// When small differences have grown, a film on coarser grids is another one of the same kind, at a fraction of the work: the mean and the spread of
+/// its colours differ by no more than those of films of other seeds, which at this time are 2 to 5 apart.
+#[test]
+fn half_of_the_cells_sort_themselves_alike() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut white = None;
+    let found = [Detail::Full, Detail::Half].map(|detail| {
+        let (want, before) = (blown(detail, 40.0, 1.0), renderer.counts);
+        let cpu = cpu_time::ProcessTime::now();
+        let picture = radiance(&mut renderer, &want);
+        let cells = renderer.counts.cells_stepped - before.cells_stepped;
+        let cpu_s = cpu.elapsed().as_secs_f64();
+        (colours(&want, &picture, *white.get_or_insert(brightest(&picture))), cells, cpu_s)
+    });
+    eprintln!("measured: 1 s of film, mean and spread of its colours, cells moved, CPU time: {found:.3?}");
+    let [(full, full_cells, _), (half, half_cells, _)] = found;
+    assert_eq!(full_cells, 4 * half_cells);
+    assert!((0..2).all(|k| (full[k] - half[k]).abs().max_element() <= 2.0), "{found:?}");
 }

@@ -3,7 +3,10 @@
 use egui::{Grid, Ui};
 
 use super::plots;
-use crate::app::model::Model;
+use crate::{
+    app::model::Model,
+    plan::{FilmKey, Moment, film_key},
+};
 
 /// Shows times and counts.
 pub fn show(ui: &mut Ui, model: &mut Model) {
@@ -20,6 +23,12 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         entry("window, median", ms(costs.median_cpu_ms()));
         for pass in &costs.passes {
             entry(&pass.name.replace('_', " "), ms(pass.gpu_ms));
+        }
+        for index in 0..model.scene.bubbles.len() {
+            if let Some(FilmKey::Field(film)) = film_key(&model.scene, index, Moment::default()) {
+                let flow_cells = film.flow_cells.min(film.cells);
+                entry(&format!("film {}, flow", index + 1), format!("6x{}², 6x{flow_cells}²", film.cells));
+            }
         }
         entry("draws", costs.counts.draws.to_string());
         entry("dispatches", costs.counts.dispatches.to_string());

@@ -5,7 +5,7 @@ use egui::Ui;
 use super::widgets::{choice, group, seed, slider};
 use crate::{
     app::model::Model,
-    scene::{Boundary, Bubble, Film, FilmIndexName, FilmStateName},
+    scene::{Boundary, Bubble, Detail, Film, FilmIndexName, FilmStateName},
 };
 
 const STATES: [(FilmStateName, &str, &str); 3] = [
@@ -27,6 +27,12 @@ const CELLS: [(u32, &str, &str); 4] = [
     (128, "128", "98 304 cells"),
     (256, "256", "393 216 cells"),
     (512, "512", "1 572 864 cells: for fast graphics cards"),
+];
+
+/// How many of them.
+const DETAILS: [(Detail, &str, &str); 2] = [
+    (Detail::Full, "full", "All of these cells"),
+    (Detail::Half, "half", "Half along each edge: enough for a bubble of 40 pixels, for a third of the time"),
 ];
 
 /// Shows and edits the selected bubble's film.
@@ -93,6 +99,7 @@ fn edit(ui: &mut Ui, film: &mut Film) {
     }
     if film.state != FilmStateName::Uniform {
         choice(ui, "Cells", &mut film.cells, &CELLS);
+        choice(ui, "Detail", &mut film.detail, &DETAILS);
     }
 }
 

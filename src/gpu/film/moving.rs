@@ -191,10 +191,6 @@ impl MovingFilm {
 /// as fine as the film may, and composing it is most of what a step of the film costs.
 const FINE_CELLS: u32 = 128;
 
-/// Cells along a panel's edge of the grid that flows are traced on, at least: 1.4° each. It is four times coarser than finer films: its cells
-/// are still a fraction of the smallest eddy, and cubic interpolation of one step's displacement errs by less than can be seen.
-const MIN_FLOW_CELLS: u32 = 64;
-
 /// How a scene's film is moved: always limited and conserved, for a film has a thickness and an amount of liquid.
 pub fn rules(key: &FieldKey) -> Rules {
     Rules {
@@ -204,7 +200,7 @@ pub fn rules(key: &FieldKey) -> Rules {
         conserved: true,
         remap: RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: key.remap_ticks },
         map_coarsening: if key.cells < FINE_CELLS { 1 } else { 2 },
-        flow_cells: key.cells.div_ceil(4).max(MIN_FLOW_CELLS),
+        flow_cells: key.flow_cells,
         cap: key.cap(),
         drop_rad: key.drop_rad(),
     }

@@ -226,6 +226,8 @@ pub struct FilmEnd {
 pub struct FieldKey {
     /// Cells along a panel's edge.
     pub cells: u32,
+    /// The same of its flow; as many as the film has where that is fewer.
+    pub flow_cells: u32,
     /// Thickness at tick 0.
     pub initial: InitialFilm,
     /// What it ends at, unless it is free.

@@ -62,8 +62,9 @@ impl FieldKey {
     /// Whether both began alike and are moved in the same way: then they differ in their moments and in what drove them alone.
     #[must_use]
     pub fn is_same_film(&self, other: &Self) -> bool {
-        (self.cells, self.initial, &self.end, self.tick_s, self.scheme, self.remap_ticks)
-            == (other.cells, other.initial, &other.end, other.tick_s, other.scheme, other.remap_ticks)
+        (self.cells, self.flow_cells) == (other.cells, other.flow_cells)
+            && (self.initial, &self.end) == (other.initial, &other.end)
+            && (self.tick_s, self.scheme, self.remap_ticks) == (other.tick_s, other.scheme, other.remap_ticks)
     }
 
     /// Whether anything that shaped the other film up to its moment is different in this one.

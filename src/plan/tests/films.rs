@@ -292,3 +292,59 @@ fn a_picture_for_a_file_leaves_no_checkpoints() {
     let passes = names(&plan(&wanted(&free_scene(), 600, Pace::Whole), &Have::default()));
     assert!(passes.contains(&"step_field") && !passes.contains(&"save_field"), "{passes:?}");
 }
+
+/// A picture of a size, at tick 9.
+fn wanted_at(scene: &Scene, size: [u32; 2]) -> Want {
+    want(scene, &resources(), &Shot { size, ..shot(9, Pace::Whole) }).unwrap()
+}
+
+#[test]
+fn a_bubble_that_is_never_large_in_the_picture_takes_half_of_its_cells() {
+    let scene_at = |distance_m: f64| {
+        let mut scene = preset("default").unwrap();
+        scene.camera.distance_m = distance_m;
+        scene
+    };
+    // Across 40 of 1080 rows: 0.1 m over 40/1080 of what 30° see.
+    let limit_m = 0.1 * 1080.0 / 40.0 / (2.0 * 15_f64.to_radians().tan());
+    assert_eq!(film_grids(&scene_at(0.24), 0), [256, 64]);
+    assert_eq!(film_grids(&scene_at(0.99 * limit_m), 0), [256, 64]);
+    let far = scene_at(1.01 * limit_m);
+    assert_eq!(film_grids(&far, 0), [128, 32]);
+    assert_eq!(film_grids(&scene_at(0.0), 0), [256, 64], "from inside");
+
+    let field = |scene: &Scene, size| match &wanted_at(scene, size).picture.draw.bubbles[0].film {
+        FilmKey::Field(field) => [field.cells, field.flow_cells],
+        FilmKey::Uniform(_) => panic!("a blown film has a field"),
+    };
+    assert_eq!(field(&far, [160, 90]), field(&far, [3840, 2160]), "a film is the same in pictures of all sizes");
+
+    let mut brought_near = far.clone();
+    let eye_m = far.camera.eye();
+    brought_near.events.push(Event { tick: 500, change: Change::Drag(Drag { bubble: 0, to_m: (0.9 * eye_m).into() }) });
+    assert_eq!(film_grids(&brought_near, 0), [256, 64]);
+    let mut on_ring = far.clone();
+    on_ring.bubbles[0].boundary = Boundary::Ring;
+    assert_eq!(film_grids(&on_ring, 0), [256, 64], "patches from a rim are small");
+    for (detail, cells, grids) in [
+        (Detail::Full, 256, [256, 64]),
+        (Detail::Full, 1024, [1024, 256]),
+        (Detail::Half, 1024, [512, 128]),
+        (Detail::Half, 32, [16, 32]),
+        (Detail::Half, 16, [16, 32]),
+    ] {
+        let mut told = far.clone();
+        (told.bubbles[0].film.detail, told.bubbles[0].film.cells) = (detail, cells);
+        assert_eq!(film_grids(&told, 0), grids, "whatever the camera");
+    }
+}
+
+#[test]
+fn settled_films_do_not_heed_the_camera() {
+    let mut scene = preset("default").unwrap();
+    settle_detail(&mut scene);
+    let near = wanted_at(&scene, [160, 90]);
+    scene.camera.distance_m = 6.0;
+    let passes = names(&plan(&wanted_at(&scene, [160, 90]), &plan(&near, &Have::default()).after));
+    assert_eq!(passes, ["draw", "tonemap"]);
+}

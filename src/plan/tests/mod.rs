@@ -17,7 +17,9 @@ use crate::{
         environment::CubeMap,
         film::Cap,
     },
-    scene::{Blow, Bubble, Change, Drag, Event, FilmStateName, Flow, MotionChange, Scene, Stir, preset},
+    scene::{
+        Blow, Boundary, Bubble, Change, Detail, Drag, Event, FilmStateName, Flow, MotionChange, Scene, Stir, preset,
+    },
 };
 
 fn resources() -> Resources {

@@ -7,8 +7,9 @@ fn film() -> impl Strategy<Value = Film> {
     let state = prop_oneof![Just(FilmStateName::Uniform), Just(FilmStateName::Rest), Just(FilmStateName::Blown)];
     let named = "(glycerol [0-9]{1,2}%|[a-z]{1,6}\\.csv)".prop_map(FilmIndexName::Named);
     let index = prop_oneof![Just(FilmIndexName::Water), (1.0..4.0).prop_map(FilmIndexName::Constant), named];
-    (state, 1.0..10_000.0, -5.0..5.0, index, 0.0..5.0, any::<u64>(), 16u32..=1024).prop_map(
-        |(state, thickness_nm, stratification, index, skin_nm, seed, cells)| Film {
+    let detail = prop_oneof![Just(Detail::Auto), Just(Detail::Full), Just(Detail::Half)];
+    (state, 1.0..10_000.0, -5.0..5.0, index, 0.0..5.0, any::<u64>(), 16u32..=1024, detail).prop_map(
+        |(state, thickness_nm, stratification, index, skin_nm, seed, cells, detail)| Film {
             state,
             thickness_nm,
             stratification,
@@ -16,6 +17,7 @@ fn film() -> impl Strategy<Value = Film> {
             skin_nm,
             seed,
             cells,
+            detail,
         },
     )
 }
