@@ -19,6 +19,7 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
         ("TAPS", vec![2.0, 6.0]),
         ("LIMITER", vec![1.0]),
         ("GATHERED", vec![0.0, 1.0, 2.0]),
+        ("GATHERS", vec![0.0, 1.0]),
         ("SAME_GRID", vec![0.0, 1.0]),
         ("ON_MAP_GRID", vec![0.0, 1.0]),
         ("ON_TRACER_GRID", vec![0.0, 1.0]),
