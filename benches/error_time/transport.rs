@@ -23,9 +23,10 @@ use crate::{
 const TARGET_L2: f64 = 0.01;
 /// Periods of the wind.
 const PERIODS: u32 = 8;
-/// Steps a period, and cells along a cube's edge, of which each scheme takes as many as it needs to pass the target.
+/// Steps a period, and cells along a cube's edge, of which each scheme takes as many as it needs to pass the target: numbers that leave few
+/// invocations of a workgroup idle, on the tracer's grid twice as fine too.
 const STEPS: [u32; 4] = [4, 15, 30, 60];
-const CELLS: [usize; 7] = [30, 40, 60, 90, 120, 180, 240];
+const CELLS: [usize; 12] = [29, 33, 37, 41, 49, 57, 73, 89, 121, 153, 185, 241];
 /// Schemes that err by more than so many times the target on this many cells do not reach it.
 const HOPELESS: (f64, usize) = (4.0, 120);
 /// Runs shorter than this are repeated, milliseconds.
@@ -116,7 +117,8 @@ fn sweep(
     let mut rows: Vec<Row> = Vec::new();
     for cells in CELLS.into_iter().take(if smoke { 1 } else { CELLS.len() }) {
         let row = measure(gpu, report, (index, runner), cells, steps)?;
-        let stalls = rows.last().is_some_and(|before| row.l2 > 0.9 * before.l2);
+        let coarser = rows.iter().rev().find(|before| 4 * before.cells <= 3 * cells);
+        let stalls = coarser.is_some_and(|before| row.l2 > 0.9 * before.l2);
         rows.push(row);
         let (factor, enough) = HOPELESS;
         if row.l2 <= TARGET_L2 || stalls || (cells >= enough && row.l2 > factor * TARGET_L2) {
