@@ -1,4 +1,4 @@
-// A sum of two fields with factors, less a multiple of a mean, over all of padded storage: halos are linear too.
+// A sum of three fields with factors, less a multiple of a mean, over all of padded storage: halos are linear too.
 
 import package::flow::operators::usable_or_zero;
 import package::flow::step::Measures;
@@ -7,6 +7,7 @@ import package::flow::step::Measures;
 struct Combine {
     first: f32,
     second: f32,
+    third: f32,
     // Of the mean of 2 psi - psi_before.
     mean: f32,
 }
@@ -15,12 +16,13 @@ struct Combine {
 @group(0) @binding(1) var<storage, read> measures: Measures;
 @group(0) @binding(2) var<storage, read> first: array<f32>;
 @group(0) @binding(3) var<storage, read> second: array<f32>;
-@group(0) @binding(4) var<storage, read_write> combined: array<f32>;
+@group(0) @binding(4) var<storage, read> third: array<f32>;
+@group(0) @binding(5) var<storage, read_write> combined: array<f32>;
 
 @compute @workgroup_size(64)
 fn flow_combine(@builtin(global_invocation_id) id: vec3u) {
     if (id.x < arrayLength(&combined)) {
         combined[id.x] = combine.first * usable_or_zero(first[id.x]) + combine.second * usable_or_zero(second[id.x]) +
-            combine.mean * measures.guess_mean;
+            combine.third * usable_or_zero(third[id.x]) + combine.mean * measures.guess_mean;
     }
 }

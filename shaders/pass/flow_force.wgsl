@@ -1,5 +1,5 @@
-// The first half of what acts on vorticity in a step, drag and buoyancy; the same is kept for the second half. Values
-// that cannot be used are left out here, so that they reach nothing else. One invocation a cell.
+// What half a step of drag leaves of vorticity, and what half a step of the forces adds to it. Values that cannot be used are left out
+// here, so that they reach nothing else. One invocation a cell.
 
 import package::flow::operators::{first_difference, turned_gradient, usable, usable_or_zero};
 import package::flow::step::{Flow, Measures};
@@ -13,9 +13,10 @@ import package::sphere::cubed::{HALO, padded_index};
 @group(0) @binding(5) var<storage, read> velocity: array<vec4f>;
 // What stirs the film besides, 1/s2.
 @group(0) @binding(6) var<storage, read> forcing: array<f32>;
-@group(0) @binding(7) var<storage, read_write> pushed: array<f32>;
-// What drag leaves of vorticity in half a step, and what is added.
-@group(0) @binding(8) var<storage, read_write> half_step: array<vec2f>;
+// What is left of vorticity, and what is added, 1/s.
+@group(0) @binding(7) var<storage, read_write> pushed: array<vec2f>;
+// The part that is left.
+@group(0) @binding(8) var<storage, read_write> decay: array<f32>;
 
 fn slope(at: u32, step: u32) -> f32 {
     return first_difference(vec4f(
@@ -34,11 +35,13 @@ fn flow_force(@builtin(global_invocation_id) id: vec3u) {
     let at = padded_index(id.z, i32(id.x), i32(id.y), flow.cells);
     let tangent = vec2f(tangents[id.x + HALO], tangents[id.y + HALO]);
     let turned = turned_gradient(id.z, tangent, vec2f(slope(at, 1u), slope(at, flow.cells + 2u * HALO)));
-    half_step[at] = half_of_forces(at, turned);
-    pushed[at] = half_step[at].x * (usable_or_zero(zeta[at]) - measures.zeta_mean) + half_step[at].y;
+    let half_step = half_of_forces(at, turned);
+    decay[at] = half_step.x;
+    pushed[at] = vec2f(half_step.x * (usable_or_zero(zeta[at]) - measures.zeta_mean), half_step.y);
 }
 
-// What forces that hold still do in half a step, exactly, however strong: see `HalfStep` in src/physics/flow/solver.rs.
+// What forces that hold still do in half a step, exactly, however strong: what drag leaves, and what is added. See `HalfStep` in
+// src/physics/flow/solver.rs.
 fn half_of_forces(at: u32, turned: vec3f) -> vec2f {
     let u = velocity[at].xyz;
     // No film is so much thinner than its mean, and nothing stands in for one whose thickness cannot be used.

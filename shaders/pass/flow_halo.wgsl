@@ -8,6 +8,7 @@ const LANES: u32 = 256u;
 
 @group(0) @binding(0) var<storage, read> entries: array<HaloEntry>;
 @group(0) @binding(1) var<storage, read_write> scalar: array<f32>;
+@group(0) @binding(1) var<storage, read_write> pair: array<vec2f>;
 @group(0) @binding(1) var<storage, read_write> velocity: array<vec4f>;
 @group(0) @binding(2) var<storage, read_write> velocity_ahead: array<vec4f>;
 
@@ -22,6 +23,14 @@ fn fill_scalar(entry: u32) {
         total += entries[entry].weights[k] * scalar[entries[entry].sources[k]];
     }
     scalar[entries[entry].cell] = total;
+}
+
+fn fill_pair(entry: u32) {
+    var total = vec2f(0.0);
+    for (var k = 0u; k < 4u; k++) {
+        total += entries[entry].weights[k] * pair[entries[entry].sources[k]];
+    }
+    pair[entries[entry].cell] = total;
 }
 
 // Within the range of what it is interpolated from.
@@ -57,6 +66,17 @@ fn halo_of_scalar(@builtin(local_invocation_index) lane: u32) {
     storageBarrier();
     for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
         fill_scalar(entry);
+    }
+}
+
+@compute @workgroup_size(256)
+fn halo_of_pair(@builtin(local_invocation_index) lane: u32) {
+    for (var entry = lane; entry < edges(); entry += LANES) {
+        fill_pair(entry);
+    }
+    storageBarrier();
+    for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
+        fill_pair(entry);
     }
 }
 

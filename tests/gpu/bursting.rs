@@ -58,6 +58,30 @@ fn what_collapses_to_black_film_is_not_lost() {
     assert!((mean_after / mean_before - 1.0).abs() < 1e-6, "{mean_before} {mean_after}");
 }
 
+/// Black film stands on top, the border to thicker film is level, and no more than 4 cells wide.
+#[test]
+fn black_film_ends_at_a_level_border_as_sharp_as_cells() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = thin(70.0);
+    (loaded.scene.bubbles[0].film.cells, loaded.scene.motion.strength) = (256, 0.0);
+    let (grid, values, _) = shown(&mut renderer, &still(&loaded, SIZE, 2.0));
+    let heights = |is_part: &dyn Fn(f64) -> bool| {
+        let cells = values.iter().enumerate().filter(|(_, nm)| is_part(**nm));
+        cells
+            .map(|(cell, _)| grid.cell_direction(cell).z)
+            .fold((1.0_f64, -1.0_f64), |(low, high), z| (low.min(z), high.max(z)))
+    };
+    let ((lowest_black, _), (_, highest_thick)) = (heights(&|nm| nm < 30.0), heights(&|nm| nm >= 30.0));
+    let border = 0.5 * (lowest_black + highest_thick);
+    assert!((0.2..0.6).contains(&border), "a part of the film is black: {border}");
+    assert!(highest_thick - lowest_black < 0.03, "it is level: {lowest_black} {highest_thick}");
+    let between = |nm: f64| (12.0..45.0).contains(&nm);
+    let area: f64 = grid.areas().iter().zip(&values).filter(|(_, nm)| between(**nm)).map(|(area, _)| area).sum();
+    let width_cells = area / (std::f64::consts::TAU * (1.0 - border * border).sqrt()) / grid.cell_angle();
+    eprintln!("measured: border at {border:.3}, {width_cells:.2} cells wide");
+    assert!(width_cells < 4.0, "{width_cells}");
+}
+
 #[test]
 fn black_film_grows_as_the_film_evaporates_and_then_evaporates_no_more() {
     let Some(mut renderer) = renderer() else { return };
@@ -70,7 +94,7 @@ fn black_film_grows_as_the_film_evaporates_and_then_evaporates_no_more() {
         assert!(mean >= 150.0 - 40.0 * time_s - 1e-3, "no more than what evaporates is lost: {mean} at {time_s} s");
     }
     assert!(black.windows(2).all(|pair| pair[1] >= pair[0]), "{black:?}");
-    let (_, values, _) = shown(&mut renderer, &still(&loaded, SIZE, 12.0));
+    let (_, values, _) = shown(&mut renderer, &still(&loaded, SIZE, 16.0));
     let nm = values.iter().fold((f64::MAX, 0.0_f64), |(low, high), nm| (low.min(*nm), high.max(*nm)));
     assert!(nm.0 > 9.0 && nm.1 < 11.0, "black everywhere, and there it stays: {nm:?}");
 }

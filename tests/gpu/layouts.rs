@@ -116,7 +116,7 @@ fn flow_mirrors() -> Vec<Mirror> {
         mirror! { Image = ImageUniform { rim_z, inversion, cells } },
         mirror! { Flow = FlowUniform { gravity, dt_s, drag, air_drag, min_air_speed, cell_angle, cells } },
         mirror! { Measures = FlowMeasures { zeta_mean, guess_mean, max_speed, unusable } },
-        mirror! { Combine = CombineUniform { first, second, mean } },
+        mirror! { Combine = CombineUniform { first, second, third, mean } },
         mirror! { Solve = SolveUniform { weights, shift, gain, cell_angle, cells, coarse_cells, coarse_field } },
         mirror! { Coarse = CoarseUniform { levels, values, shift, sweeps, level, coarsest } },
         mirror! { Level = CoarseLevel { weights, cell_angle, cells, field, tangent, halo } },

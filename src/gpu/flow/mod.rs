@@ -68,9 +68,10 @@ pub struct CombineUniform {
     pub first: f32,
     /// Factor of the second field.
     pub second: f32,
+    /// Factor of the third field.
+    pub third: f32,
     /// Factor of the mean of the guess.
     pub mean: f32,
-    pad: f32,
 }
 
 /// Multigrid cycles of a step: only as many as its error needs.
@@ -122,6 +123,10 @@ impl FlowGrid {
     fn fill_halo(&self, recorder: &mut Recorder<'_>, field: &wgpu::Buffer) -> Result<(), GpuError> {
         self.run(recorder, ("flow_halo", "halo_of_scalar"), &[], &[&self.halo, field], [1; 3])
     }
+
+    fn fill_halo_of_pair(&self, recorder: &mut Recorder<'_>, pair: &wgpu::Buffer) -> Result<(), GpuError> {
+        self.run(recorder, ("flow_halo", "halo_of_pair"), &[], &[&self.halo, pair], [1; 3])
+    }
 }
 
 /// Vorticity, stream function and velocity of a film, in padded storage. What its steps change is listed once, for checkpoints: in
@@ -140,12 +145,15 @@ pub struct FlowSolver {
     psi_before: wgpu::Buffer,
     /// Where the next step's ψ goes.
     psi_next: wgpu::Buffer,
-    /// Vorticity on its way through a step: pushed, moved, and after each viscous stage.
+    /// What half a step of drag leaves of vorticity with what half a step of the forces adds, and the part that is left.
     pushed: wgpu::Buffer,
-    moved: wgpu::Buffer,
+    decay: wgpu::Buffer,
+    /// What the two viscous stages take, vorticity after the first, and the sum of what the second takes.
     stages: [wgpu::Buffer; 2],
-    /// What drag leaves of a cell's vorticity in half a step, and what is added.
-    half_step: wgpu::Buffer,
+    once: wgpu::Buffer,
+    twice: wgpu::Buffer,
+    /// Where what the next step finds goes.
+    moved: wgpu::Buffer,
     velocity: wgpu::Buffer,
     velocity_ahead: wgpu::Buffer,
     measures: wgpu::Buffer,
@@ -186,10 +194,12 @@ impl FlowSolver {
             psi: field("stream function"),
             psi_before: field("stream function before"),
             psi_next: field("next stream function"),
-            pushed: field("pushed vorticity"),
-            moved: field("moved vorticity"),
+            pushed: buffer(gpu, "pushed vorticity", sphere.padded_len() as u64 * 8),
+            decay: field("decay"),
             stages: ["first viscous stage", "second viscous stage"].map(field),
-            half_step: buffer(gpu, "half step", sphere.padded_len() as u64 * 8),
+            once: field("vorticity after the first"),
+            twice: field("source of the second"),
+            moved: field("moved"),
             velocity: velocity("velocity"),
             velocity_ahead: velocity("velocity ahead"),
             measures: buffer(gpu, "flow measures", size_of::<FlowMeasures>() as u64),
@@ -311,18 +321,17 @@ impl FlowSolver {
         for _ in 0..trials + usize::from(is_first) {
             self.advance(recorder, dt_s, forces, &uniform)?;
             // The ψ a step before from which a straight line leads to where the trial did.
-            self.combine(recorder, [(2.0, &self.psi), (-1.0, &self.psi_next)], 0.0, &self.psi_before)?;
+            self.combine(recorder, &[(2.0, &self.psi), (-1.0, &self.psi_next)], 0.0, &self.psi_before)?;
             self.find_velocity(recorder, &uniform, &self.psi, &self.psi_before)?;
         }
         self.advance(recorder, dt_s, forces, &uniform)?;
-        let zeta = if forces.viscous_stage(dt_s).is_some() { &mut self.pushed } else { &mut self.moved };
-        std::mem::swap(&mut self.zeta, zeta);
+        std::mem::swap(&mut self.zeta, &mut self.moved);
         std::mem::swap(&mut self.psi_before, &mut self.psi);
         std::mem::swap(&mut self.psi, &mut self.psi_next);
         self.find_velocity(recorder, &uniform, &self.psi, &self.psi_before)
     }
 
-    /// From ζ, ψ and ψ before to the next ζ, in `moved` or after viscosity in `pushed`, and ψ, in `psi_next`.
+    /// From ζ, ψ and ψ before to the next ζ, in `moved`, and ψ, in `psi_next`.
     fn advance(
         &self,
         recorder: &mut Recorder<'_>,
@@ -351,47 +360,49 @@ impl FlowSolver {
             &self.velocity_ahead,
             &self.forcing,
             &self.pushed,
-            &self.half_step,
+            &self.decay,
         ];
         grid.run(recorder, ("flow_force", "flow_force"), &[], &forced, grid.groups())?;
-        grid.fill_halo(recorder, &self.pushed)?;
-        let traced = [uniform, &grid.tangents, &self.velocity_ahead, &self.pushed, &self.moved, &self.half_step];
+        grid.fill_halo_of_pair(recorder, &self.pushed)?;
+        let [first, second] = &self.stages;
+        let traced = [uniform, &grid.tangents, &self.velocity_ahead, &self.pushed, &self.decay, first, second];
         grid.run(recorder, ("flow_trace", "trace_vorticity"), &[], &traced, grid.groups())?;
-        self.reflect(recorder, &self.moved)?;
-        let zeta = match forces.viscous_stage(dt_s) {
-            None => &self.moved,
+        match forces.viscous_stage(dt_s) {
+            None => self.combine(recorder, &[(1.0, first), (1.0, second)], 0.0, &self.moved)?,
             Some(stage) => self.viscous(recorder, stage)?,
-        };
-        self.combine(recorder, [(2.0, &self.psi), (-1.0, &self.psi_before)], -1.0, &self.psi_next)?;
-        let system = System { shift: 0.0, gain: 1.0, source: zeta };
+        }
+        self.reflect(recorder, &self.moved)?;
+        self.combine(recorder, &[(2.0, &self.psi), (-1.0, &self.psi_before)], -1.0, &self.psi_next)?;
+        let system = System { shift: 0.0, gain: 1.0, source: &self.moved };
         self.multigrid.cycles(recorder, grid, &system, &self.psi_next, self.cycles.poisson)?;
-        self.drop.as_ref().map_or(Ok(()), |drop| drop.stop(recorder, grid, zeta, &self.psi_next))
+        self.drop.as_ref().map_or(Ok(()), |drop| drop.stop(recorder, grid, &self.moved, &self.psi_next))
     }
 
     /// Carries ln h along the velocity for `dt_s` seconds on the flow's own grid. For a film whose thickness lives here too.
     pub fn carry_log_thickness(&mut self, recorder: &mut Recorder<'_>, dt_s: f64) -> Result<(), GpuError> {
         let uniform = self.uniform(recorder.gpu, dt_s, &FlowForces::default());
         self.grid.fill_halo(recorder, &self.log_thickness)?;
-        let traced = [&uniform, &self.grid.tangents, &self.velocity, &self.log_thickness, &self.pushed];
+        let traced = [&uniform, &self.grid.tangents, &self.velocity, &self.log_thickness, &self.moved];
         self.grid.run(recorder, ("flow_trace", "trace_tracer"), &[], &traced, self.grid.groups())?;
-        std::mem::swap(&mut self.log_thickness, &mut self.pushed);
+        std::mem::swap(&mut self.log_thickness, &mut self.moved);
         Ok(())
     }
 
-    /// Viscosity on `moved`, into `pushed`: two implicit stages and their extrapolation, see the twin.
-    fn viscous(&self, recorder: &mut Recorder<'_>, stage: f64) -> Result<&wgpu::Buffer, GpuError> {
-        let Self { grid, moved, stages: [once, twice], .. } = self;
+    /// Viscosity on what the two implicit stages take, into `moved`: see the twin.
+    fn viscous(&self, recorder: &mut Recorder<'_>, stage: f64) -> Result<(), GpuError> {
+        let Self { grid, stages: [first, second], once, twice, moved, .. } = self;
         let root = std::f64::consts::SQRT_2;
         let system = |source| System { shift: (1.0 - 2.0 * stage) / stage, gain: -1.0 / stage, source };
-        grid.fill_halo(recorder, moved)?;
-        recorder.encoder().copy_buffer_to_buffer(moved, 0, once, 0, moved.size());
-        self.multigrid.cycles(recorder, grid, &system(moved), once, self.cycles.viscous)?;
-        // What the first stage took away, the second nearly will.
-        self.combine(recorder, [(2.0, once), (-1.0, moved)], 0.0, twice)?;
-        self.multigrid.cycles(recorder, grid, &system(once), twice, self.cycles.viscous)?;
-        self.combine(recorder, [(1.0 + root, twice), (-root, once)], 0.0, &self.pushed)?;
-        self.reflect(recorder, &self.pushed)?;
-        Ok(&self.pushed)
+        for taken in [first, second] {
+            self.reflect(recorder, taken)?;
+            grid.fill_halo(recorder, taken)?;
+        }
+        recorder.encoder().copy_buffer_to_buffer(first, 0, once, 0, first.size());
+        self.multigrid.cycles(recorder, grid, &system(first), once, self.cycles.viscous)?;
+        // What the first stage took away, the second nearly will of its part.
+        self.combine(recorder, &[(root, once), (1.0, second), (1.0 - root, first)], 0.0, moved)?;
+        self.combine(recorder, &[(1.0, once), (1.0, second)], 0.0, twice)?;
+        self.multigrid.cycles(recorder, grid, &system(twice), moved, self.cycles.viscous)
     }
 
     fn find_velocity(
@@ -407,18 +418,20 @@ impl FlowSolver {
         grid.run(recorder, ("flow_halo", "halo_of_velocities"), &[], &[&grid.halo, velocity, velocity_ahead], [1; 3])
     }
 
-    /// A sum of two fields with factors, and so many times the mean of the guess, halos included.
+    /// A sum of up to three fields with factors, and so many times the mean of the guess, halos included.
     fn combine(
         &self,
         recorder: &mut Recorder<'_>,
-        [first, second]: [(f64, &wgpu::Buffer); 2],
+        terms: &[(f64, &wgpu::Buffer)],
         mean: f32,
         to: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
-        let factors = CombineUniform { first: first.0 as f32, second: second.0 as f32, mean, pad: 0.0 };
+        // Where there are fewer, the first stands for the rest, times nothing.
+        let [first, second, third] = [0, 1, 2].map(|k| terms.get(k).copied().unwrap_or((0.0, terms[0].1)));
+        let factors = CombineUniform { first: first.0 as f32, second: second.0 as f32, third: third.0 as f32, mean };
         let uniform = recorder.gpu.uniform("combine", &factors);
         let groups = [(self.grid.sphere.padded_len() as u32).div_ceil(64), 1, 1];
-        let bound = [&uniform, &self.measures, first.1, second.1, to];
+        let bound = [&uniform, &self.measures, first.1, second.1, third.1, to];
         self.grid.run(recorder, ("flow_combine", "flow_combine"), &[], &bound, groups)
     }
 

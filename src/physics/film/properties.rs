@@ -27,7 +27,7 @@ pub const SATURATED_VAPOUR: f64 = 0.0173;
 pub const BLACK_FILM_ONSET: f64 = 50e-9;
 /// Rate at which film thinner than that collapses, 1/s. In real films black spots spread by suction at their rim, within a fraction of a
 /// second to seconds; this is a choice, for the collapse itself is faster than pictures and finer than cells.
-pub const BLACK_FILM_COLLAPSE: f64 = 5.0;
+pub const BLACK_FILM_COLLAPSE: f64 = 10.0;
 
 /// Kinematic viscosity of a film as a two-dimensional fluid, m²/s: `μ/ρ + 2 μ_s/(ρ h)`, the liquid's and that of two surfaces
 /// (Trapeznikov 1957; Couder, Chomaz & Rabaud 1989, Physica D 37). `viscosity` in Pa s, `surface_viscosity` in Pa s m.
