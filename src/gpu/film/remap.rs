@@ -87,8 +87,11 @@ impl Field {
     /// around it.
     fn blacken(&self, recorder: &mut Recorder<'_>, black: &BlackFilm) -> Result<(), GpuError> {
         let (grid, due) = (self.tracer_grid(), &self.control);
-        black.stop_evaporation(recorder, grid, due, &self.tracer)?;
-        self.account(recorder, &self.tracer, self.groups_due(), Excess::Spared)?;
+        // Each account rounds: it is not taken where nothing can have changed.
+        if black.law.thinned_nm > 0.0 {
+            black.stop_evaporation(recorder, grid, due, &self.tracer)?;
+            self.account(recorder, &self.tracer, self.groups_due(), Excess::Spared)?;
+        }
         black.collapse(recorder, grid, due, &self.tracer, &self.sampled)?;
         self.settle(recorder, self.groups_due())
     }
