@@ -17,16 +17,19 @@ struct Decide {
     // Workgroups of a pass over the tracer's texels, and of its sum.
     tracer_groups: vec3u,
     sum_groups: u32,
-    // Workgroups of a pass over the map's texels.
+    // Workgroups of a pass over the map's texels, and of one over the tracer's, two by two.
     map_groups: vec3u,
+    quad_groups: vec3u,
 }
 
-// Arguments of indirect dispatches: passes over the tracer's texels, its sum, the sum of the parts, and passes over the map's texels.
+// Arguments of indirect dispatches: passes over the tracer's texels, its sum, the sum of the parts, passes over the map's texels, and over
+// the tracer's, two by two.
 struct Arguments {
     tracer_groups: array<u32, 3>,
     sum_groups: array<u32, 3>,
     one_group: array<u32, 3>,
     map_groups: array<u32, 3>,
+    quad_groups: array<u32, 3>,
 }
 
 @group(0) @binding(0) var<uniform> decide: Decide;
@@ -86,4 +89,5 @@ fn decide_remap() {
     arguments.sum_groups = array(decide.sum_groups * remaps, 1u, 1u);
     arguments.one_group = array(remaps, 1u, 1u);
     arguments.map_groups = array(decide.map_groups.x * remaps, decide.map_groups.y, decide.map_groups.z);
+    arguments.quad_groups = array(decide.quad_groups.x * remaps, decide.quad_groups.y, decide.quad_groups.z);
 }

@@ -1,10 +1,10 @@
 // Looks the tracer up through the flow map: what is at x now is what was at map(x) at the last remap, and what was gathered since.
-// Shown, it is what the picture colours; settled, it is a remap. One invocation a cell, halo included.
+// Shown, it is what the picture colours; settled, it is a remap. Halos are included.
 
 import package::film::control::Control;
 import package::sphere::cap::{Cap, image};
 import package::sphere::cubed::{cell_place, is_cell, panel_direction};
-import package::sphere::lookup::{healed, map_at, map_at_cell, tracer_at};
+import package::sphere::lookup::{healed, map_at, map_at_cell, map_at_quad, tracer_at};
 
 // What the map's fourth number means: see `Gathered` in src/gpu/sample_tracer.rs.
 override GATHERED: u32;
@@ -63,12 +63,22 @@ fn with_gathered(value: f32, gathered: f32) -> f32 {
     return value;
 }
 
+// What is where the map leads.
+fn value_from(origin: vec4f) -> f32 {
+    return with_gathered(tracer_at(origin.xyz, sample.tracer_cells), origin.w);
+}
+
+fn direction_at(id: vec3u) -> vec3f {
+    return normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
+}
+
+// One invocation a cell.
 @compute @workgroup_size(8, 8)
 fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
     if (!is_cell(id, sample.cells)) {
         return;
     }
-    let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
+    let x = direction_at(id);
     let place = cell_place(id, sample.cells);
     var origin = vec4f(x, 0.0);
     if (HAS_MAP == 1u) {
@@ -89,10 +99,36 @@ fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
     if (HAS_MAP == 0u && !is_image && ON_TRACER_GRID == 1u) {
         value = tracer[place];
     } else {
-        value = with_gathered(tracer_at(origin.xyz, sample.tracer_cells), origin.w);
+        value = value_from(origin);
     }
     if (healed > 0u) {
         atomicAdd(&control.healed, healed);
     }
     sampled[place] = value;
+}
+
+// One invocation for two by two cells, through a map half as fine, of a film without a rim.
+@compute @workgroup_size(8, 8)
+fn sample_quads(@builtin(global_invocation_id) id: vec3u) {
+    let first = vec3u(2u * id.xy, id.z);
+    if (!is_cell(first, sample.cells)) {
+        return;
+    }
+    let across = vec3u(1u, 0u, 0u);
+    let up = vec3u(0u, 1u, 0u);
+    let directions = array(
+        direction_at(first),
+        direction_at(first + across),
+        direction_at(first + up),
+        direction_at(first + across + up),
+    );
+    var origins = map_at_quad(0u, first, directions, sample.map_cells);
+    let place = cell_place(first, sample.cells);
+    let stride = cell_place(first + up, sample.cells) - place;
+    for (var k = 0u; k < 4u; k++) {
+        sampled[place + (k & 1u) + (k >> 1u) * stride] = value_from(origins[k]);
+    }
+    if (healed > 0u) {
+        atomicAdd(&control.healed, healed);
+    }
 }

@@ -29,9 +29,18 @@ fn cell_point(direction: vec3f, cells: u32) -> CellPoint {
     return CellPoint(padded_index(at.panel, i32(base.x), i32(base.y), cells), cells + 2u * HALO, cell - base);
 }
 
+fn weighted(w: vec4f, a: vec4f, b: vec4f, c: vec4f, d: vec4f) -> vec4f {
+    return w.x * a + w.y * b + w.z * c + w.w * d;
+}
+
 fn map_row(map: u32, place: u32, w: vec4f) -> vec4f {
-    return w.x * map_value(map, place) + w.y * map_value(map, place + 1u) + w.z * map_value(map, place + 2u) +
-        w.w * map_value(map, place + 3u);
+    return weighted(
+        w,
+        map_value(map, place),
+        map_value(map, place + 1u),
+        map_value(map, place + 2u),
+        map_value(map, place + 3u),
+    );
 }
 
 // Values that lookups of this invocation met and that are not finite.
@@ -68,13 +77,59 @@ fn map_between(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
     let first = at.place - at.stride - 1u;
     let middle = first + at.stride;
     let upper = first + 2u * at.stride;
-    var found = wj.x * map_row(map, first, wi) + wj.y * map_row(map, middle, wi) + wj.z * map_row(map, upper, wi) +
-        wj.w * map_row(map, first + 3u * at.stride, wi);
-    healed += select(1u, 0u, all_finite(found));
-    found = select(healed_map(map, middle, upper, direction), found, all_finite(found));
+    let found = weighted(
+        wj,
+        map_row(map, first, wi),
+        map_row(map, middle, wi),
+        map_row(map, upper, wi),
+        map_row(map, first + 3u * at.stride, wi),
+    );
+    return usable_map(map, found, vec2u(middle, upper), direction);
+}
+
+// What was interpolated in a map as a unit vector, or what stands in for it.
+fn usable_map(map: u32, interpolated: vec4f, middle_rows: vec2u, direction: vec3f) -> vec4f {
+    healed += select(1u, 0u, all_finite(interpolated));
+    let stand_in = healed_map(map, middle_rows.x, middle_rows.y, direction);
+    let found = select(stand_in, interpolated, all_finite(interpolated));
     // A map torn to opposite directions has no direction left.
     let length = length(found.xyz);
     return vec4f(select(direction, found.xyz / length, length > 1e-6), found.w);
+}
+
+// A row of a stencil a quarter of a cell after its second value, and a quarter before its third.
+struct QuadRow {
+    low: vec4f,
+    high: vec4f,
+}
+
+fn map_quad_row(map: u32, place: u32, low: vec4f, high: vec4f) -> QuadRow {
+    let a = map_value(map, place);
+    let b = map_value(map, place + 1u);
+    let c = map_value(map, place + 2u);
+    let d = map_value(map, place + 3u);
+    return QuadRow(weighted(low, a, b, c, d), weighted(high, a, b, c, d));
+}
+
+// The same as `map_at_cell` on the grid twice as fine, at two by two cells that share a stencil, of which `id` is the first: those with
+// even numbers and the next. A quarter of the loads do.
+fn map_at_quad(map: u32, id: vec3u, directions: array<vec3f, 4>, cells: u32) -> array<vec4f, 4> {
+    let stride = cells + 2u * HALO;
+    let base = vec2i(id.xy / 2u) + 1 - i32(HALO);
+    let first = padded_index(id.z, base.x - 1, base.y - 1, cells);
+    let middle = vec2u(first + stride, first + 2u * stride);
+    let low = cubic_weights(0.25);
+    let high = cubic_weights(0.75);
+    let a = map_quad_row(map, first, low, high);
+    let b = map_quad_row(map, middle.x, low, high);
+    let c = map_quad_row(map, middle.y, low, high);
+    let d = map_quad_row(map, first + 3u * stride, low, high);
+    return array(
+        usable_map(map, weighted(low, a.low, b.low, c.low, d.low), middle, directions[0]),
+        usable_map(map, weighted(low, a.high, b.high, c.high, d.high), middle, directions[1]),
+        usable_map(map, weighted(high, a.low, b.low, c.low, d.low), middle, directions[2]),
+        usable_map(map, weighted(high, a.high, b.high, c.high, d.high), middle, directions[3]),
+    );
 }
 
 // Weights of the Lagrange interpolation through TAPS neighbours for a fraction t in [0, 1] between the two middle ones.

@@ -51,6 +51,9 @@ pub struct DecideUniform {
     pub sum_groups: u32,
     /// Workgroups of a pass over the map's texels.
     pub map_groups: [u32; 3],
+    pad_middle: u32,
+    /// Workgroups of a pass over the tracer's texels, two by two.
+    pub quad_groups: [u32; 3],
     pad_end: u32,
 }
 
@@ -73,6 +76,8 @@ pub fn decide_remap(
         tracer_groups: tracer.padded_groups(),
         sum_groups: parts(tracer),
         map_groups: film.padded_groups(),
+        pad_middle: 0,
+        quad_groups: tracer.quad_groups(),
         pad_end: 0,
     };
     let uniform = recorder.gpu.uniform("decide", &uniform);

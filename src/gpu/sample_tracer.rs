@@ -64,7 +64,15 @@ pub struct Sampling<'a> {
     pub to: &'a wgpu::Buffer,
 }
 
-/// Records one sampling.
+impl Sampling<'_> {
+    /// Whether it takes two by two cells at once, which share what they need of a map half as fine.
+    #[must_use]
+    pub fn takes_quads(&self) -> bool {
+        self.map.is_some() && self.cap.is_none() && self.grid.cells == 2 * self.map_cells
+    }
+}
+
+/// Records one sampling, with an invocation for each cell or, where it takes those, for two by two.
 pub fn sample_tracer(
     recorder: &mut Recorder<'_>,
     name: &'static str,
@@ -94,6 +102,7 @@ pub fn sample_tracer(
         tracer.as_entire_binding(),
         sampling.to.as_entire_binding(),
     ];
-    let key = ComputeKey { pass: "sample_tracer", entry: "sample_tracer", constants };
+    let entry = if sampling.takes_quads() { "sample_quads" } else { "sample_tracer" };
+    let key = ComputeKey { pass: "sample_tracer", entry, constants };
     recorder.compute(name, &key, &resources, groups)
 }

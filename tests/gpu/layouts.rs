@@ -92,9 +92,9 @@ fn film_mirrors() -> Vec<Mirror> {
         mirror! { Blacken = BlackenUniform { cells, level_nm, thinned_level_nm, black_nm, onset_nm, rate } },
         mirror! { Conserve = ConserveUniform { cells, parts, mean, mean_rest, low, high, bounded, level, film_area } },
         mirror! { Decide = DecideUniform {
-            cells, cell_angle, error_limit, ticks, latest_ticks, tracer_groups, sum_groups, map_groups
+            cells, cell_angle, error_limit, ticks, latest_ticks, tracer_groups, sum_groups, map_groups, quad_groups
         } },
-        mirror! { Arguments = RemapArguments { tracer_groups, sum_groups, one_group, map_groups } },
+        mirror! { Arguments = RemapArguments { tracer_groups, sum_groups, one_group, map_groups, quad_groups } },
         mirror! { Control = ControlBlock { ticks_since_remap, remaps, distortion, healed, ticks_remapped, spared_nm, drained_nm } },
         mirror! { Balance = BalanceBlock { offset, slope, level } },
         mirror! { Diffuse = DiffuseUniform { cells, stage, rate, most, before, earlier } },

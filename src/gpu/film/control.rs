@@ -50,6 +50,8 @@ pub struct RemapArguments {
     pub one_group: [u32; 3],
     /// Passes over the map's cells.
     pub map_groups: [u32; 3],
+    /// Passes over the tracer's cells, two by two.
+    pub quad_groups: [u32; 3],
 }
 
 /// The buffers of a film's control.
@@ -100,6 +102,11 @@ impl Control {
     /// A pass over the map's texels, if a remap is due.
     pub(super) fn map_groups(&self) -> Groups<'_> {
         Groups::From(&self.arguments, offset_of!(RemapArguments, map_groups) as u64)
+    }
+
+    /// A pass over the tracer's texels, two by two, if a remap is due.
+    pub(super) fn quad_groups(&self) -> Groups<'_> {
+        Groups::From(&self.arguments, offset_of!(RemapArguments, quad_groups) as u64)
     }
 
     /// A single workgroup, if a remap is due.

@@ -84,6 +84,13 @@ impl Grid {
         [tiles, tiles, 6]
     }
 
+    /// The same with one invocation for two by two cells, of a grid that has an even number along an edge.
+    #[must_use]
+    pub fn quad_groups(&self) -> [u32; 3] {
+        let tiles = self.side().div_ceil(16);
+        [tiles, tiles, 6]
+    }
+
     /// Workgroups of a pass with one invocation a cell, 64 along a row.
     #[must_use]
     pub fn cell_groups(&self) -> [u32; 3] {

@@ -139,6 +139,11 @@ fn flow_sphere(film: CubedSphere, cells: u32) -> Option<CubedSphere> {
     CubedSphere::new(cells as usize).ok().filter(|coarse| coarse.n() < film.n())
 }
 
+/// Workgroups of passes over all cells of a grid, and over two by two of them.
+fn all_of(grid: &Grid) -> [Groups<'static>; 2] {
+    [grid.padded_groups().into(), grid.quad_groups().into()]
+}
+
 impl Field {
     /// An empty field. Fails where the scheme's tracer would be too fine.
     pub fn new(gpu: &Gpu, sphere: CubedSphere, rules: Rules) -> Result<Self, GpuError> {
@@ -291,20 +296,21 @@ impl Field {
     /// One step of a scheme that keeps no map.
     fn advance_and_remap(&mut self, recorder: &mut Recorder<'_>, step: &Step) -> Result<(), GpuError> {
         let grid = &self.film;
-        let all: Groups<'_> = grid.padded_groups().into();
+        let (all, everywhere) = (grid.padded_groups().into(), all_of(grid));
         self.compose(recorder, STEP, step, None, 0)?;
         let back = Some(&self.map[0]);
-        self.sample(recorder, STEP, grid, back, [&self.tracer, &self.sampled], all)?;
+        self.sample(recorder, STEP, grid, back, [&self.tracer, &self.sampled], everywhere)?;
         if let Some(corrected) = &self.corrected {
             self.compose(recorder, STEP, &step.reversed(), None, 1)?;
             let forth = Some(&self.map[1]);
-            self.sample(recorder, STEP, grid, forth, [&self.sampled, &self.shown], all)?;
+            self.sample(recorder, STEP, grid, forth, [&self.sampled, &self.shown], everywhere)?;
             correct_error(recorder, &self.tracer, &self.shown, corrected, grid.padded_groups())?;
-            self.sample(recorder, STEP, grid, back, [corrected, &self.sampled], all)?;
+            self.sample(recorder, STEP, grid, back, [corrected, &self.sampled], everywhere)?;
         }
         self.settle(recorder, [[parts(grid), 1, 1].into(), [1; 3].into(), all])
     }
 
+    /// Looks the tracer up, in a pass over so many workgroups: of cells, or of two by two.
     fn sample(
         &self,
         recorder: &mut Recorder<'_>,
@@ -312,7 +318,7 @@ impl Field {
         grid: &Grid,
         map: Option<&wgpu::Buffer>,
         [from, to]: [&wgpu::Buffer; 2],
-        groups: Groups<'_>,
+        [cells, quads]: [Groups<'_>; 2],
     ) -> Result<(), GpuError> {
         let Rules { scheme, limiter, gathered, cap, .. } = self.rules;
         let sampling = Sampling {
@@ -327,7 +333,7 @@ impl Field {
             control: &self.control.block,
             to,
         };
-        sample_tracer(recorder, name, &sampling, groups)
+        sample_tracer(recorder, name, &sampling, if sampling.takes_quads() { quads } else { cells })
     }
 
     /// Makes the thickness ready to be drawn, a part of a step ahead of the state if one is given. The state stays.
@@ -338,7 +344,7 @@ impl Field {
         }
         let kept = self.kept_map().filter(|_| self.has_moved);
         let map = ahead.map_or(kept, |_| Some(&self.map[1]));
-        self.sample(recorder, SHOW, &self.film, map, [&self.tracer, &self.shown], self.film.padded_groups().into())?;
+        self.sample(recorder, SHOW, &self.film, map, [&self.tracer, &self.shown], all_of(&self.film))?;
         let sum = Sum {
             grid: &self.film,
             field: &self.shown,

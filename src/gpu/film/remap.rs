@@ -56,7 +56,8 @@ impl Field {
         decide_remap(recorder, STEP, grids, &self.map[0], &self.control, ticks)?;
         let due = &self.control;
         let tracers = [&self.tracer, &self.sampled];
-        self.sample(recorder, STEP, self.tracer_grid(), self.kept_map(), tracers, due.tracer_groups())?;
+        let groups = [due.tracer_groups(), due.quad_groups()];
+        self.sample(recorder, STEP, self.tracer_grid(), self.kept_map(), tracers, groups)?;
         if let Some(diffusion) = &self.diffusion {
             diffusion.record(recorder, self.tracer_grid(), &self.control, &self.sampled, &self.tracer)?;
         }
