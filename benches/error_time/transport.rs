@@ -138,7 +138,7 @@ fn measure(
     let case = case(runner, cells, steps, PERIODS)?;
     let mut field = case.seed(gpu)?;
     let (mut cpu_ms, mut runs) = (0.0, 0);
-    while runs == 0 || (runs < 3 && cpu_ms < SHORT_MS) {
+    while runs == 0 || (runs < 8 && cpu_ms < SHORT_MS) {
         field = case.seed(gpu)?;
         gpu.wait()?;
         cpu_ms += timed(|| case.advance(gpu, &mut field))?.1;
