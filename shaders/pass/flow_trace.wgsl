@@ -16,6 +16,7 @@ import package::sphere::cubed::{CubicStencil, HALO, cubic_stencil, locate, padde
 @group(0) @binding(3) var<storage, read> field: array<f32>;
 @group(0) @binding(4) var<storage, read_write> moved: array<f32>;
 
+// That of 2.
 const ROOT: f32 = 1.41421356;
 
 fn origin(id: vec3u, at: u32) -> CubicStencil {

@@ -212,8 +212,7 @@ fn patch(run: &mut Run<'_>) -> Result<(), GpuError> {
     let gravity = 0.1 * GRAVITY;
     let start = 70f64.to_radians();
     let middle = DVec3::new(start.sin(), 0.0, start.cos());
-    // 1e-4, 2e-4 and 1e-3 m²/s, of which the last stops a patch within a step.
-    // Up to 1e-3 m²/s, which stops a patch within a step.
+    // 1, 2 and 10e-4 m²/s, of which the last stops a patch within a step.
     for viscosity in [0.04, 0.08, 0.4] {
         let forces = FlowForces { gravity, drag: DRAG_1_S, air_drag: 0.0, viscosity };
         let even = field(run.gpu, 128, Rules { cap: Some(Cap::HEMISPHERE), ..RULES }, |_| NM)?;

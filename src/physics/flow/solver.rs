@@ -15,11 +15,12 @@
 //! (Störmer-Verlet).
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::{multigrid::Multigrid, operators::turned_gradient};
 #[cfg(doc)]
 use crate::physics::film::properties::air_drag;
-use crate::physics::sphere::{CubedSphere, HaloTable, PaddedField};
+use crate::physics::sphere::{CubedSphere, FieldValue, HaloTable, PaddedField};
 
 /// Cycles that find ψ, each of which leaves less than a fifth of the residual.
 pub const POISSON_CYCLES: usize = 2;
@@ -189,11 +190,11 @@ impl FlowSolver {
             let turned = turned_gradient(log_thickness, cell);
             HalfStep::new(forces, dt, at[cell], (thickness[cell], turned), forcing[cell])
         };
-        let carried = |field| advected(self.halo(), &field, &velocity, dt).cells();
-        let moved = carried(self.field(|cell| half_step(cell).decay * zeta[cell]));
-        let added = carried(self.field(|cell| half_step(cell).push));
-        let slowed = self.field(|cell| half_step(cell).decay * moved[cell]);
-        (slowed, self.field(|cell| half_step(cell).applied(added[cell])))
+        let half_steps: Vec<HalfStep> = (0..zeta.len()).into_par_iter().map(half_step).collect();
+        let pushed = self.field(|cell| DVec2::new(half_steps[cell].decay * zeta[cell], half_steps[cell].push));
+        let carried = advected(self.halo(), &pushed, &velocity, dt).cells();
+        let slowed = self.field(|cell| half_steps[cell].decay * carried[cell].x);
+        (slowed, self.field(|cell| half_steps[cell].applied(carried[cell].y)))
     }
 
     /// Vorticity after a step of viscosity in which forces add to it. With S the implicit stage `(1 − ε (Δ + 2))⁻¹`, ε = (1 − 1/√2) ν dt,
@@ -237,7 +238,7 @@ impl FlowSolver {
         self.field(|cell| values[cell] - integral / (4.0 * std::f64::consts::PI))
     }
 
-    fn field<T: crate::physics::sphere::FieldValue>(&self, value: impl Fn(usize) -> T + Sync) -> PaddedField<T> {
+    fn field<T: FieldValue>(&self, value: impl Fn(usize) -> T + Sync) -> PaddedField<T> {
         PaddedField::from_cells(self.multigrid.grid(), self.multigrid.halo(), value)
     }
 }
@@ -275,12 +276,12 @@ fn combined(halo: &HaloTable, terms: &[(f64, &PaddedField<f64>)]) -> PaddedField
 }
 
 /// A field carried for a time `dt` by a steady velocity: its values where the liquid of each cell came from.
-pub fn advected(
+pub fn advected<T: FieldValue>(
     halo: &HaloTable,
-    field: &PaddedField<f64>,
+    field: &PaddedField<T>,
     velocity: &PaddedField<DVec3>,
     dt: f64,
-) -> PaddedField<f64> {
+) -> PaddedField<T> {
     let at = velocity.cells();
     PaddedField::from_cells(field.grid(), halo, |cell| {
         let x = field.grid().cell_direction(cell);
