@@ -24,9 +24,9 @@ const TARGET_L2: f64 = 0.01;
 /// Periods of the wind.
 const PERIODS: u32 = 8;
 /// Steps a period, and cells along a cube's edge, of which each scheme takes as many as it needs to pass the target: numbers that leave few
-/// invocations of a workgroup idle, on the tracer's grid twice as fine too.
+/// invocations of a workgroup idle, and that maps as coarse as below divide.
 const STEPS: [u32; 4] = [4, 15, 30, 60];
-const CELLS: [usize; 12] = [29, 33, 37, 41, 49, 57, 73, 89, 121, 153, 185, 241];
+const CELLS: [usize; 11] = [32, 36, 40, 48, 60, 72, 88, 120, 152, 184, 240];
 /// Schemes that err by more than so many times the target on this many cells do not reach it.
 const HOPELESS: (f64, usize) = (4.0, 120);
 /// Runs shorter than this are repeated, milliseconds.
@@ -35,10 +35,12 @@ const SHORT_MS: f64 = 1000.0;
 /// Makes every pipeline once, so that no row of the report pays for it.
 pub fn warm_up(gpu: &Gpu) -> anyhow::Result<()> {
     for runner in runners() {
-        let case = case(runner, 8, 10, 1)?;
-        let mut field = case.seed(gpu)?;
-        case.advance(gpu, &mut field)?;
-        values(gpu, &mut field)?;
+        for map_coarsening in runner.map_coarsenings.iter().copied() {
+            let case = case(runner, map_coarsening, CELLS[0], 10, 1)?;
+            let mut field = case.seed(gpu)?;
+            case.advance(gpu, &mut field)?;
+            values(gpu, &mut field)?;
+        }
     }
     Ok(())
 }
@@ -50,12 +52,24 @@ struct Runner {
     scheme: Scheme,
     /// The scheme whose traces its steps are made of.
     traced_as: Scheme,
+    /// Cells that a cell of its map spans along each side, in turn.
+    map_coarsenings: &'static [u32],
 }
 
 /// All schemes as the program runs them, and `bicubic` with long steps traced as those of maps are.
 fn runners() -> impl Iterator<Item = Runner> {
-    let own = Scheme::ALL.map(|scheme| Runner { name: scheme.name(), scheme, traced_as: scheme });
-    let traced = Runner { name: "bicubic, traced", scheme: Scheme::Bicubic, traced_as: Scheme::Map };
+    let own = Scheme::ALL.map(|scheme| Runner {
+        name: scheme.name(),
+        scheme,
+        traced_as: scheme,
+        map_coarsenings: match scheme {
+            Scheme::Map => &[1, 2, 4],
+            Scheme::MapAccurate => &[1, 2],
+            _ => &[1],
+        },
+    });
+    let traced =
+        Runner { name: "bicubic, traced", scheme: Scheme::Bicubic, traced_as: Scheme::Map, map_coarsenings: &[1] };
     own.into_iter().chain([traced])
 }
 
@@ -68,15 +82,17 @@ struct Row {
     l2: f64,
 }
 
-/// CPU time to the target, and the Courant number.
+/// CPU time to the target, the Courant number, and cells that a cell of the map spans.
 #[derive(Clone, Copy)]
 struct Price {
     seconds: f64,
     courant: f64,
+    map_coarsening: u32,
 }
 
 pub fn run(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
-    let columns = ["scheme", "cells", "steps", "traces", "courant", "cpu_s", "cpu_ms_step", "over_copy", "l2"];
+    let columns =
+        ["scheme", "map_coarsening", "cells", "steps", "traces", "courant", "cpu_s", "cpu_ms_step", "over_copy", "l2"];
     let names = runners().enumerate().map(|(index, runner)| format!("{index} = {}", runner.name));
     println!("\nschemes: {}", names.collect::<Vec<_>>().join("; "));
     let mut report = Report::new("transport", &columns);
@@ -84,10 +100,13 @@ pub fn run(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     for (index, runner) in runners().enumerate() {
         let mut points = Vec::new();
         let mut best: Option<Price> = None;
-        for steps in STEPS.into_iter().take(if smoke { 1 } else { STEPS.len() }) {
-            let rows = sweep(gpu, &mut report, (index, runner), steps, smoke)?;
-            points.extend(rows.iter().map(|row| [row.cpu_s, row.l2]));
-            best = best.into_iter().chain(price(&rows)).min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        for map_coarsening in runner.map_coarsenings.iter().copied() {
+            for steps in STEPS.into_iter().take(if smoke { 1 } else { STEPS.len() }) {
+                let rows = sweep(gpu, &mut report, (index, runner), map_coarsening, steps, smoke)?;
+                points.extend(rows.iter().map(|row| [row.cpu_s, row.l2]));
+                let price = price(&rows, map_coarsening);
+                best = best.into_iter().chain(price).min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+            }
         }
         prices.push((runner.name, best));
         series.push(Series { name: runner.name.to_owned(), points });
@@ -96,9 +115,16 @@ pub fn run(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     let path = format!("{}/error_time_transport.svg", env!("CARGO_TARGET_TMPDIR"));
     std::fs::write(&path, svg(["CPU time of eight periods, s", "l2"], &series)).with_context(|| path.clone())?;
     println!("written to {path}\n\nCPU time to reach l2 = {TARGET_L2} after {PERIODS} periods:");
+    let bicubic = prices.iter().find(|(name, _)| *name == Scheme::Bicubic.name()).and_then(|(_, price)| *price);
     for (name, price) in &prices {
         match price {
-            Some(Price { seconds, courant }) => println!("{name:>16}  {seconds:>8.2} s at Courant number {courant:.0}"),
+            Some(Price { seconds, courant, map_coarsening }) => {
+                let gain = bicubic.map_or(f64::NAN, |bicubic| bicubic.seconds / seconds);
+                println!(
+                    "{name:>16}  {seconds:>8.3} s, that of bicubic over {gain:.1}, at Courant number {courant:.0} and a map \
+                     {map_coarsening} times as coarse"
+                );
+            }
             None => println!("{name:>16}  not reached"),
         }
     }
@@ -111,12 +137,13 @@ fn sweep(
     gpu: &Gpu,
     report: &mut Report,
     (index, runner): (usize, Runner),
+    map_coarsening: u32,
     steps: u32,
     smoke: bool,
 ) -> anyhow::Result<Vec<Row>> {
     let mut rows: Vec<Row> = Vec::new();
     for cells in CELLS.into_iter().take(if smoke { 1 } else { CELLS.len() }) {
-        let row = measure(gpu, report, (index, runner), cells, steps)?;
+        let row = measure(gpu, report, index, &case(runner, map_coarsening, cells, steps, PERIODS)?)?;
         let coarser = rows.iter().rev().find(|before| 4 * before.cells <= 3 * cells);
         let stalls = coarser.is_some_and(|before| row.l2 > 0.9 * before.l2);
         rows.push(row);
@@ -128,14 +155,7 @@ fn sweep(
     Ok(rows)
 }
 
-fn measure(
-    gpu: &Gpu,
-    report: &mut Report,
-    (index, runner): (usize, Runner),
-    cells: usize,
-    steps: u32,
-) -> anyhow::Result<Row> {
-    let case = case(runner, cells, steps, PERIODS)?;
+fn measure(gpu: &Gpu, report: &mut Report, index: usize, case: &Case) -> anyhow::Result<Row> {
     let mut field = case.seed(gpu)?;
     let (mut cpu_ms, mut runs) = (0.0, 0);
     while runs == 0 || (runs < 8 && cpu_ms < SHORT_MS) {
@@ -145,22 +165,23 @@ fn measure(
         runs += 1;
     }
     cpu_ms /= f64::from(runs);
-    let copies = PERIODS * steps;
+    let (cells, steps) = (case.grid.n(), case.steps_a_period);
     let ((), copy_ms, _) = timed(|| {
         let mut recorder = Recorder::new(gpu);
-        (0..copies).for_each(|_| field.copy_state(&mut recorder));
+        (0..case.steps).for_each(|_| field.copy_state(&mut recorder));
         recorder.submit(&Default::default());
         gpu.wait()
     })?;
     let row = Row { cells, steps, cpu_s: cpu_ms * 1e-3, l2: case.measure(&values(gpu, &mut field)?).l2 };
     report.row(&[
         index as f64,
+        f64::from(case.map_coarsening),
         cells as f64,
         f64::from(steps),
         f64::from(case.traces_a_step),
         courant(cells as f64, steps),
         row.cpu_s,
-        cpu_ms / f64::from(copies),
+        cpu_ms / case.steps as f64,
         cpu_ms / copy_ms,
         row.l2,
     ]);
@@ -173,15 +194,19 @@ fn courant(cells: f64, steps: u32) -> f64 {
 }
 
 /// What the target costs at so many steps a period: between the two grids around it, by the orders that they show.
-fn price(rows: &[Row]) -> Option<Price> {
+fn price(rows: &[Row], map_coarsening: u32) -> Option<Price> {
     let around = rows.windows(2).find(|pair| pair[0].l2 > TARGET_L2 && pair[1].l2 <= TARGET_L2)?;
     let part = (around[0].l2 / TARGET_L2).ln() / (around[0].l2 / around[1].l2).ln();
     let between = |a: f64, b: f64| a * (b / a).powf(part);
     let cells = between(around[0].cells as f64, around[1].cells as f64);
-    Some(Price { seconds: between(around[0].cpu_s, around[1].cpu_s), courant: courant(cells, around[0].steps) })
+    Some(Price {
+        seconds: between(around[0].cpu_s, around[1].cpu_s),
+        courant: courant(cells, around[0].steps),
+        map_coarsening,
+    })
 }
 
-fn case(runner: Runner, cells: usize, steps_a_period: u32, periods: u32) -> anyhow::Result<Case> {
+fn case(runner: Runner, map_coarsening: u32, cells: usize, steps_a_period: u32, periods: u32) -> anyhow::Result<Case> {
     let wind = Wind::new(WindKind::NonDivergent, None)?;
     Ok(Case {
         grid: CubedSphere::new(cells)?,
@@ -189,6 +214,7 @@ fn case(runner: Runner, cells: usize, steps_a_period: u32, periods: u32) -> anyh
         wind,
         quantity: Quantity::Density,
         scheme: runner.scheme,
+        map_coarsening,
         limiter: false,
         steps_a_period,
         steps: u64::from(steps_a_period * periods),

@@ -61,14 +61,18 @@ fn map_at(map: u32, direction: vec3f, cells: u32) -> vec4f {
     return map_between(map, cell_point(direction, cells), direction);
 }
 
-// The same at the centre of a cell of another grid, numbered like an invocation of a pass over `other_cells` with the halo included: on all
-// grids of the same panels its place is known. Cells of a halo may not be those of a coarser grid than the map's.
-fn map_at_cell(map: u32, id: vec3u, other_cells: u32, direction: vec3f, cells: u32) -> vec4f {
-    let cell = (vec2f(id.xy) + 0.5 - f32(HALO)) * f32(cells) / f32(other_cells) - 0.5;
+// Where the centre of a cell of another grid is, beyond the panel's edge or within: on all grids of the same panels its place is known. Cells
+// of a halo may not be those of a coarser grid than the one looked up.
+fn centre_of(cell: vec2i, panel: u32, other_cells: u32, cells: u32) -> CellPoint {
+    let at = (vec2f(cell) + 0.5) * f32(cells) / f32(other_cells) - 0.5;
     // No stencil reaches beyond the halo.
-    let base = clamp(floor(cell), vec2f(1.0 - f32(HALO)), vec2f(f32(cells + HALO) - 3.0));
-    let place = padded_index(id.z, i32(base.x), i32(base.y), cells);
-    return map_between(map, CellPoint(place, cells + 2u * HALO, cell - base), direction);
+    let base = clamp(floor(at), vec2f(1.0 - f32(HALO)), vec2f(f32(cells + HALO) - 3.0));
+    return CellPoint(padded_index(panel, i32(base.x), i32(base.y), cells), cells + 2u * HALO, at - base);
+}
+
+// The same at the centre of a cell of another grid, numbered like an invocation of a pass over `other_cells` with the halo included.
+fn map_at_cell(map: u32, id: vec3u, other_cells: u32, direction: vec3f, cells: u32) -> vec4f {
+    return map_between(map, centre_of(vec2i(id.xy) - i32(HALO), id.z, other_cells, cells), direction);
 }
 
 fn map_between(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
@@ -97,38 +101,46 @@ fn usable_map(map: u32, interpolated: vec4f, middle_rows: vec2u, direction: vec3
     return vec4f(select(direction, found.xyz / length, length > 1e-6), found.w);
 }
 
-// A row of a stencil a quarter of a cell after its second value, and a quarter before its third.
+// A row of a stencil at the first of two places along it, and at the second.
 struct QuadRow {
-    low: vec4f,
-    high: vec4f,
+    first: vec4f,
+    second: vec4f,
 }
 
-fn map_quad_row(map: u32, place: u32, low: vec4f, high: vec4f) -> QuadRow {
+fn map_quad_row(map: u32, place: u32, first: vec4f, second: vec4f) -> QuadRow {
     let a = map_value(map, place);
     let b = map_value(map, place + 1u);
     let c = map_value(map, place + 2u);
     let d = map_value(map, place + 3u);
-    return QuadRow(weighted(low, a, b, c, d), weighted(high, a, b, c, d));
+    return QuadRow(weighted(first, a, b, c, d), weighted(second, a, b, c, d));
 }
 
-// The same as `map_at_cell` on the grid twice as fine, at two by two cells that share a stencil, of which `id` is the first: those with
-// even numbers and the next. A quarter of the loads do.
-fn map_at_quad(map: u32, id: vec3u, directions: array<vec3f, 4>, cells: u32) -> array<vec4f, 4> {
-    let stride = cells + 2u * HALO;
-    let base = vec2i(id.xy / 2u) + 1 - i32(HALO);
-    let first = padded_index(id.z, base.x - 1, base.y - 1, cells);
-    let middle = vec2u(first + stride, first + 2u * stride);
-    let low = cubic_weights(0.25);
-    let high = cubic_weights(0.75);
-    let a = map_quad_row(map, first, low, high);
-    let b = map_quad_row(map, middle.x, low, high);
-    let c = map_quad_row(map, middle.y, low, high);
-    let d = map_quad_row(map, first + 3u * stride, low, high);
+// The same as `map_at_cell` at two by two cells of a finer grid that share a stencil, of which the first is given: a quarter of the loads do.
+fn map_at_quad(
+    map: u32,
+    first_cell: vec2i,
+    panel: u32,
+    other_cells: u32,
+    directions: array<vec3f, 4>,
+    cells: u32,
+) -> array<vec4f, 4> {
+    let at = centre_of(first_cell, panel, other_cells, cells);
+    let next = at.t + f32(cells) / f32(other_cells);
+    let left = cubic_weights(at.t.x);
+    let right = cubic_weights(next.x);
+    let below = cubic_weights(at.t.y);
+    let above = cubic_weights(next.y);
+    let first = at.place - at.stride - 1u;
+    let middle = vec2u(first + at.stride, first + 2u * at.stride);
+    let a = map_quad_row(map, first, left, right);
+    let b = map_quad_row(map, middle.x, left, right);
+    let c = map_quad_row(map, middle.y, left, right);
+    let d = map_quad_row(map, first + 3u * at.stride, left, right);
     return array(
-        usable_map(map, weighted(low, a.low, b.low, c.low, d.low), middle, directions[0]),
-        usable_map(map, weighted(low, a.high, b.high, c.high, d.high), middle, directions[1]),
-        usable_map(map, weighted(high, a.low, b.low, c.low, d.low), middle, directions[2]),
-        usable_map(map, weighted(high, a.high, b.high, c.high, d.high), middle, directions[3]),
+        usable_map(map, weighted(below, a.first, b.first, c.first, d.first), middle, directions[0]),
+        usable_map(map, weighted(below, a.second, b.second, c.second, d.second), middle, directions[1]),
+        usable_map(map, weighted(above, a.first, b.first, c.first, d.first), middle, directions[2]),
+        usable_map(map, weighted(above, a.second, b.second, c.second, d.second), middle, directions[3]),
     );
 }
 

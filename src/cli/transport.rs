@@ -61,6 +61,9 @@ pub struct Arguments {
     /// How the tracer is moved: the flow map remapped rarely, the same with a finer tracer, or at each step
     #[arg(long, value_name = "bilinear|bicubic|bfecc|map|map-accurate", default_value = "map")]
     scheme: Scheme,
+    /// Cells that a cell of the map spans along each side
+    #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    map_coarsening: u32,
     /// Limiter of over- and undershoots
     #[arg(long, value_name = "on|off", default_value = "off")]
     limiter: Switch,
@@ -126,12 +129,19 @@ fn case(arguments: &Arguments) -> anyhow::Result<Case> {
         None => Tracer::new(arguments.tracer, wind.tracer_rotation()),
     };
     let all = f64::from(arguments.steps) * f64::from(arguments.periods);
+    let map_cells = arguments.cells.div_ceil(arguments.map_coarsening) as usize;
+    anyhow::ensure!(
+        map_cells >= CubedSphere::MIN_N,
+        "the map would have {map_cells} cells along an edge, {} are the fewest: lower --map-coarsening, or raise --cells",
+        CubedSphere::MIN_N
+    );
     Ok(Case {
         grid: CubedSphere::new(arguments.cells as usize)?,
         wind,
         tracer,
         quantity: arguments.kind,
         scheme: arguments.scheme,
+        map_coarsening: arguments.map_coarsening,
         limiter: arguments.limiter == Switch::On,
         steps_a_period: arguments.steps,
         steps: (arguments.until * all).round() as u64,

@@ -44,10 +44,10 @@ pub struct Target {
     pub level: f32,
 }
 
-/// Workgroups that a sum over a grid takes.
+/// Workgroups that a sum over a grid takes, of 256 invocations that first add eight cells each: barriers cost more than sums.
 #[must_use]
 pub fn parts(grid: &Grid) -> u32 {
-    (6 * grid.cells * grid.cells).div_ceil(256).min(256)
+    (6 * grid.cells * grid.cells).div_ceil(8 * 256).min(256)
 }
 
 /// What is summed, and where the sums go.

@@ -28,6 +28,12 @@ impl RemapRule {
     pub fn decision_ticks(self) -> u32 {
         (self.latest_ticks / 8).max(1)
     }
+
+    /// Whether a remap is due so many ticks after the last decision whatever the map: the next decision would come too late.
+    #[must_use]
+    pub fn is_due_after(self, ticks: u32) -> bool {
+        ticks > self.latest_ticks / 2
+    }
 }
 
 /// See `shaders/pass/decide_remap.wgsl`.
@@ -77,17 +83,19 @@ pub fn decide_remap(
         sum_groups: parts(tracer),
         map_groups: film.padded_groups(),
         pad_middle: 0,
-        quad_groups: tracer.quad_groups(),
+        quad_groups: tracer.quad_groups(film.cells),
         pad_end: 0,
     };
     let uniform = recorder.gpu.uniform("decide", &uniform);
     let key = |entry| ComputeKey { pass: "decide_remap", entry, constants: vec![] };
     let [uniform, block, arguments] =
         [&uniform, &control.block, &control.arguments].map(wgpu::Buffer::as_entire_binding);
-    let measured = [(0, uniform.clone()), (1, block.clone()), (2, map.as_entire_binding())];
-    // One invocation for four cells.
-    let half = film.cells.div_ceil(2);
-    recorder.compute_at(name, &key("measure_distortion"), &measured, [half.div_ceil(64), half, 6].into())?;
+    if !rule.is_due_after(ticks) {
+        let measured = [(0, uniform.clone()), (1, block.clone()), (2, map.as_entire_binding())];
+        // One invocation for four cells.
+        let half = film.cells.div_ceil(2);
+        recorder.compute_at(name, &key("measure_distortion"), &measured, [half.div_ceil(64), half, 6].into())?;
+    }
     let decided = [(0, uniform), (1, block), (3, arguments)];
     recorder.compute_at(name, &key("decide_remap"), &decided, Groups::Count([1; 3]))
 }

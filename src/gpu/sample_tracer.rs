@@ -37,7 +37,9 @@ pub struct SampleUniform {
     pub rim_z: f32,
     /// The inversion in it.
     pub inversion: f32,
-    pad: [u32; 3],
+    /// Cells that the first two by two begin before storage does.
+    pub quad_skew: u32,
+    pad: [u32; 2],
 }
 
 /// What a sampling reads and writes.
@@ -65,10 +67,10 @@ pub struct Sampling<'a> {
 }
 
 impl Sampling<'_> {
-    /// Whether it takes two by two cells at once, which share what they need of a map half as fine.
+    /// Whether it takes two by two cells at once, which share what they need of a map of cells an even number of times as wide.
     #[must_use]
     pub fn takes_quads(&self) -> bool {
-        self.map.is_some() && self.cap.is_none() && self.grid.cells == 2 * self.map_cells
+        self.map.is_some() && self.cap.is_none() && self.grid.cells.is_multiple_of(2 * self.map_cells)
     }
 }
 
@@ -82,7 +84,9 @@ pub fn sample_tracer(
     let Sampling { scheme, limiter, gathered, cap, grid, map, map_cells, .. } = *sampling;
     let (tracer, tracer_cells) = sampling.tracer;
     let [rim_z, inversion] = rim_numbers(cap);
-    let uniform = SampleUniform { cells: grid.cells, map_cells, tracer_cells, rim_z, inversion, pad: [0; 3] };
+    let quad_skew = grid.quad_skew(map_cells);
+    let uniform =
+        SampleUniform { cells: grid.cells, map_cells, tracer_cells, rim_z, inversion, quad_skew, pad: [0; 2] };
     let uniform = recorder.gpu.uniform("sample", &uniform);
     let constants = vec![
         ("TAPS", scheme.taps()),

@@ -29,6 +29,8 @@ pub struct Case {
     pub quantity: Quantity,
     /// The scheme.
     pub scheme: Scheme,
+    /// How many of its cells a cell of the map spans along each side.
+    pub map_coarsening: u32,
     /// Whether the limiter is on.
     pub limiter: bool,
     /// Steps in one period of the wind.
@@ -77,8 +79,9 @@ impl Case {
                 error_limit_cells: RemapRule::ERROR_LIMIT_CELLS,
                 latest_ticks: (REMAP_PERIODS * f64::from(self.steps_a_period)).max(1.0) as u32,
             },
-            map_coarsening: 1,
-            flow_cells: u32::MAX,
+            map_coarsening: self.map_coarsening,
+            // To trace steps more finely than the map would be for nothing.
+            flow_cells: (self.grid.n() as u32).div_ceil(self.map_coarsening.max(1)),
             cap: None,
             drop_rad: None,
         }

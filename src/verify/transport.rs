@@ -88,6 +88,7 @@ fn published(run: &mut Run<'_>, test: &Test) -> Result<(), GpuError> {
         steps_a_period: 120,
         steps,
         traces_a_step: 1,
+        map_coarsening: 1,
     };
     let (norms, remaps) = measured(run, &case)?;
     let limited = if test.limiter { ", limited" } else { "" };
@@ -139,6 +140,7 @@ fn l2_on(run: &Run<'_>, n: usize, tracer: TracerKind) -> Result<f64, GpuError> {
         steps_a_period: 2 * n as u32,
         steps: 2 * n as u64,
         traces_a_step: 1,
+        map_coarsening: 1,
     };
     Ok(measured(run, &case)?.0.l2)
 }
@@ -164,6 +166,7 @@ fn seams(run: &mut Run<'_>) -> Result<(), GpuError> {
                 steps_a_period: 77,
                 steps: 77,
                 traces_a_step: 1,
+                map_coarsening: 1,
             };
             let mut field = Field::new(run.gpu, grid, case.rules())?;
             let mut recorder = Recorder::new(run.gpu);
@@ -202,6 +205,7 @@ fn constant_ratio(run: &mut Run<'_>) -> Result<(), GpuError> {
         steps_a_period: 60,
         steps: 60,
         traces_a_step: 1,
+        map_coarsening: 1,
     };
     let mut field = Field::new(run.gpu, case.grid, case.rules())?;
     let mut recorder = Recorder::new(run.gpu);

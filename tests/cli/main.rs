@@ -174,6 +174,7 @@ fn arguments_that_make_no_sense_are_refused() {
         "transport --wind sb --tracer tc1 --cells 4 --steps 10",
         "transport --wind sb --tracer tc1 --cells 16 --steps 0",
         "transport --wind sb --tracer tc1 --cells 16 --steps 10 --axis 0,0,0",
+        "transport --wind nd --tracer cb --cells 16 --steps 10 --map-coarsening 3",
         "transport --wind up --tracer tc1 --cells 16 --steps 10",
         "nonsense --really",
     ] {

@@ -84,6 +84,31 @@ fn the_gpu_does_what_its_f64_twin_does() {
     }
 }
 
+/// Maps of cells so many times as wide as the tracer's lead to the same places, but for the error of interpolating them, which is of the fourth
+/// order. Where the number is even, lookups take two by two cells at once, which begin at odd cells or at even ones.
+#[test]
+fn a_coarser_map_leads_to_the_same_places() {
+    let Some(gpu) = gpu() else { return };
+    let wind = Wind::new(WindKind::NonDivergent, None).unwrap();
+    let hills = Tracer::new(TracerKind::GaussianHills, wind.tracer_rotation());
+    let (grid, dt) = (CubedSphere::new(96).unwrap(), PERIOD / 60.0);
+    let through = |map_coarsening: u32| {
+        let rules = Rules { map_coarsening, flow_cells: 96 / map_coarsening, remap: remap(8), ..RULES };
+        let steps = (0..15).map(|k| Step::wind(&wind, dt * f64::from(k), dt * f64::from(k + 1)));
+        moved(&gpu, grid, rules, |x| hills.value(x), steps)
+    };
+    let finest = through(1);
+    let errors = [2, 3, 4, 6].map(|coarsening| {
+        let (mean, max) = mean_and_max(through(coarsening).iter().zip(&finest).map(|(a, b)| (a - b).abs()));
+        eprintln!("measured: hills through a map of cells {coarsening} wide: mean {mean:.2e}, max {max:.2e}");
+        max
+    });
+    let [two, one_by_one, four, six] = errors;
+    assert!(two <= 0.4 * one_by_one, "{errors:?}: ideal 0.2");
+    assert!(four <= 4.7 * one_by_one, "{errors:?}: ideal 3.2");
+    assert!(six <= 24.0 * one_by_one, "{errors:?}: ideal 16");
+}
+
 /// A film of 128 cells an edge stirred for 1 s on the GPU, in steps of so many ticks.
 fn stirred(gpu: &Gpu, grid: CubedSphere, flow: &PrescribedFlow, ticks_a_step: u32, flow_cells: u32) -> Vec<f64> {
     let length_s = f64::from(ticks_a_step) / 60.0;

@@ -84,11 +84,18 @@ impl Grid {
         [tiles, tiles, 6]
     }
 
-    /// The same with one invocation for two by two cells, of a grid that has an even number along an edge.
+    /// The same with one invocation for two by two cells between the same cells of a map that is coarser by an even number.
     #[must_use]
-    pub fn quad_groups(&self) -> [u32; 3] {
-        let tiles = self.side().div_ceil(16);
+    pub fn quad_groups(&self, map_cells: u32) -> [u32; 3] {
+        let tiles = (self.side() + self.quad_skew(map_cells)).div_ceil(16);
         [tiles, tiles, 6]
+    }
+
+    /// Cells that the first two by two begin before storage does, halo included: 0 or 1. Half as many cells from a panel's edge as lie between two
+    /// of the map's, others of the map's are around them.
+    #[must_use]
+    pub fn quad_skew(&self, map_cells: u32) -> u32 {
+        (HALO as u32 + self.cells / (2 * map_cells)) % 2
     }
 
     /// Workgroups of a pass with one invocation a cell, 64 along a row.

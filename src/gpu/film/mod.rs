@@ -46,7 +46,11 @@ use super::{
     timing::{Groups, Recorder},
     trace_step::{Step, trace_step},
 };
-use crate::physics::{film::Cap, sphere::CubedSphere, transport::Scheme};
+use crate::physics::{
+    film::Cap,
+    sphere::{CubedSphere, GridError},
+    transport::Scheme,
+};
 
 /// Name of the passes that move a film.
 const STEP: &str = "step_field";
@@ -96,7 +100,8 @@ pub struct Field {
     step_map: wgpu::Buffer,
     /// The map, and where its next step goes.
     map: [wgpu::Buffer; 2],
-    /// Whether any step was taken since the film was seeded: until then there is no need to look through a map.
+    /// Whether any step was taken since the film was seeded, or since a remap that did not depend on what the device measured: until then
+    /// the map is the identity, and there is no need to look through it.
     has_moved: bool,
     /// Whether film may have left since then: what did not is not bound to be as thick, or as thin, as it was.
     has_drained: bool,
@@ -134,25 +139,26 @@ pub enum Planted {
     Map,
 }
 
+/// The grid of a film's map, a cell of which spans so many of the film's along each side.
+fn map_sphere(film: CubedSphere, coarsening: u32) -> Result<CubedSphere, GridError> {
+    CubedSphere::new(film.n().div_ceil(coarsening.max(1) as usize))
+}
+
 /// The grid that steps are traced on, where it is coarser than the film's.
 fn flow_sphere(film: CubedSphere, cells: u32) -> Option<CubedSphere> {
     CubedSphere::new(cells as usize).ok().filter(|coarse| coarse.n() < film.n())
 }
 
-/// Workgroups of passes over all cells of a grid, and over two by two of them.
-fn all_of(grid: &Grid) -> [Groups<'static>; 2] {
-    [grid.padded_groups().into(), grid.quad_groups().into()]
-}
-
 impl Field {
-    /// An empty field. Fails where the scheme's tracer would be too fine.
+    /// An empty field. Fails where the scheme's tracer would be too fine, or the map too coarse.
     pub fn new(gpu: &Gpu, sphere: CubedSphere, rules: Rules) -> Result<Self, GpuError> {
         let tracer = rules.scheme.tracer_grid(sphere).map_err(|error| GpuError::Refused(error.to_string()))?;
         let grid = |sphere| Grid::new(gpu, sphere, rules.cap);
         let film = grid(sphere);
         let fine = (tracer != sphere).then(|| grid(tracer));
-        let map_sphere = CubedSphere::new(sphere.n().div_ceil(rules.map_coarsening.max(1) as usize));
-        let smooth = map_sphere.ok().filter(|map| *map != sphere).map(grid);
+        let map =
+            map_sphere(sphere, rules.map_coarsening).map_err(|error| GpuError::Refused(format!("the map: {error}")))?;
+        let smooth = (map != sphere).then(|| grid(map));
         let coarse = flow_sphere(sphere, rules.flow_cells).map(grid);
         let scalars = |label| fine.as_ref().unwrap_or(&film).field(gpu, label, 4);
         Ok(Self {
@@ -218,6 +224,11 @@ impl Field {
         self.smooth.as_ref().unwrap_or(&self.film)
     }
 
+    /// Workgroups of lookups at all of its cells, and at two by two of them.
+    fn all_cells(&self) -> [Groups<'static>; 2] {
+        [self.film.padded_groups().into(), self.film.quad_groups(self.map_grid().cells).into()]
+    }
+
     /// Sets the tracer to a function of direction, and forgets all motion.
     pub fn seed(
         &mut self,
@@ -251,18 +262,23 @@ impl Field {
         self.rules.scheme.keeps_map().then_some(&self.map[0])
     }
 
+    /// The same if it is not known to be the identity.
+    fn map_so_far(&self) -> Option<&wgpu::Buffer> {
+        self.kept_map().filter(|_| self.has_moved)
+    }
+
     /// Moves the liquid by one step that lasts some ticks. Steps back, and those whose times are no numbers, are refused.
     pub fn advance(&mut self, recorder: &mut Recorder<'_>, step: &Step, ticks: u32) -> Result<(), GpuError> {
         if !step.is_forward() {
             return Err(GpuError::Refused("a step of the film needs finite times, the later one last".to_owned()));
         }
         recorder.counts.cells_stepped += self.film.sphere.cells() as u64;
-        self.has_moved = true;
         if !self.rules.scheme.keeps_map() {
             return self.advance_and_remap(recorder, step);
         }
-        self.compose(recorder, STEP, step, self.kept_map(), 1)?;
+        self.compose(recorder, STEP, step, self.map_so_far(), 1)?;
         self.map.swap(0, 1);
+        self.has_moved = true;
         self.ticks_since_decision += ticks;
         if self.ticks_since_decision >= self.remap_rule().decision_ticks() {
             self.remap_if_due(recorder)?;
@@ -280,6 +296,9 @@ impl Field {
         into: usize,
     ) -> Result<(), GpuError> {
         let flow = self.flow_grid();
+        if before.is_none() && flow.cells == self.map_grid().cells {
+            return trace_step(recorder, name, step, flow, &self.map[into]);
+        }
         trace_step(recorder, name, step, flow, &self.step_map)?;
         let composition = Composition {
             grid: self.map_grid(),
@@ -296,7 +315,7 @@ impl Field {
     /// One step of a scheme that keeps no map.
     fn advance_and_remap(&mut self, recorder: &mut Recorder<'_>, step: &Step) -> Result<(), GpuError> {
         let grid = &self.film;
-        let (all, everywhere) = (grid.padded_groups().into(), all_of(grid));
+        let (all, everywhere) = (grid.padded_groups().into(), self.all_cells());
         self.compose(recorder, STEP, step, None, 0)?;
         let back = Some(&self.map[0]);
         self.sample(recorder, STEP, grid, back, [&self.tracer, &self.sampled], everywhere)?;
@@ -340,11 +359,10 @@ impl Field {
     pub fn show(&mut self, recorder: &mut Recorder<'_>, ahead: Option<&Step>) -> Result<(), GpuError> {
         self.shown_map = usize::from(ahead.is_some());
         if let Some(step) = ahead {
-            self.compose(recorder, SHOW, step, self.kept_map(), 1)?;
+            self.compose(recorder, SHOW, step, self.map_so_far(), 1)?;
         }
-        let kept = self.kept_map().filter(|_| self.has_moved);
-        let map = ahead.map_or(kept, |_| Some(&self.map[1]));
-        self.sample(recorder, SHOW, &self.film, map, [&self.tracer, &self.shown], all_of(&self.film))?;
+        let map = ahead.map_or(self.map_so_far(), |_| Some(&self.map[1]));
+        self.sample(recorder, SHOW, &self.film, map, [&self.tracer, &self.shown], self.all_cells())?;
         let sum = Sum {
             grid: &self.film,
             field: &self.shown,

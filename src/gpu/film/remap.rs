@@ -51,9 +51,9 @@ impl Field {
 
     /// Decides on a remap, and lets what it is due for happen: diffusion, drainage, black film.
     pub(super) fn remap_if_due(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
-        let ticks = (std::mem::take(&mut self.ticks_since_decision), self.remap_rule());
+        let (ticks, rule) = (std::mem::take(&mut self.ticks_since_decision), self.remap_rule());
         let grids = (self.map_grid(), self.tracer_grid());
-        decide_remap(recorder, STEP, grids, &self.map[0], &self.control, ticks)?;
+        decide_remap(recorder, STEP, grids, &self.map[0], &self.control, (ticks, rule))?;
         let due = &self.control;
         let tracers = [&self.tracer, &self.sampled];
         let groups = [due.tracer_groups(), due.quad_groups()];
@@ -68,7 +68,9 @@ impl Field {
         if let Some(black) = &self.black {
             self.blacken(recorder, black)?;
         }
-        reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())
+        reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())?;
+        self.has_moved = !rule.is_due_after(ticks);
+        Ok(())
     }
 
     /// Workgroups, if a remap is due, of the sum over the tracer, of its end, and of a pass over the tracer.
