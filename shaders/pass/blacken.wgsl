@@ -1,6 +1,7 @@
 // Thin film collapses to black film, which a real film does within a fraction of a second once its surfaces attract each other: the
-// difference to black film decays at a constant rate. What a cell loses goes to the thicker cells around it, as the rim of a black spot
-// gathers it; the nearest cells of thick film may be too far, then the film as a whole gets it with the correction of its liquid.
+// difference to black film decays at a constant rate. It is the film around a cell that must be thin: black spots are round, and as wide as their
+// rims, while cells that went one by one would leave a maze. What a cell loses goes to the thicker film around it, as the rim of a black spot
+// gathers it; the nearest thick film may be too far, then the film as a whole gets it with the correction of its liquid.
 // The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation a cell, halo included.
 
 import package::film::control::Control;
@@ -25,21 +26,31 @@ struct Blacken {
 @group(0) @binding(2) var<storage, read> tracer: array<f32>;
 @group(0) @binding(3) var<storage, read_write> result: array<f32>;
 @group(0) @binding(4) var<storage, read> shed_around: array<f32>;
+// Means of the tracer around cells.
+@group(0) @binding(5) var<storage, read> means: array<f32>;
 
-// Cells on each side that a cell's liquid goes to.
+// Cells on each side that a cell's liquid goes to, and that count for its mean.
 const REACH: u32 = 3u;
+// Part of the onset within which the collapse sets in: borders are smooth, and some cells wide.
+const ONSET_WIDTH: f32 = 0.1;
 
 fn thickness_nm(place: u32) -> f32 {
     return tracer[place] + blacken.thinned_level_nm;
 }
 
+fn mean_nm(place: u32) -> f32 {
+    return means[place] + blacken.thinned_level_nm;
+}
+
+fn is_thin(place: u32) -> bool {
+    return mean_nm(place) < blacken.onset_nm;
+}
+
 // What a cell loses since the last remap.
-fn lost_nm(thickness_nm: f32) -> f32 {
-    if (thickness_nm >= blacken.onset_nm) {
-        return 0.0;
-    }
-    let decayed = 1.0 - exp(-blacken.rate * f32(control.ticks_remapped));
-    return max(thickness_nm - blacken.black_nm, 0.0) * decayed;
+fn lost_nm(place: u32) -> f32 {
+    let below = (blacken.onset_nm - mean_nm(place)) / (ONSET_WIDTH * blacken.onset_nm);
+    let decayed = 1.0 - exp(-clamp(below, 0.0, 1.0) * blacken.rate * f32(control.ticks_remapped));
+    return max(thickness_nm(place) - blacken.black_nm, 0.0) * decayed;
 }
 
 fn place_of(id: vec3u) -> u32 {
@@ -60,6 +71,32 @@ fn stop_evaporation(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
+// The mean over the cells before and after one that are so far apart in storage, nearer ones counting more.
+fn mean_along(place: u32, stride: u32) -> f32 {
+    var sum = f32(REACH + 1u) * tracer[place];
+    for (var k = 1u; k <= REACH; k++) {
+        sum += f32(REACH + 1u - k) * (tracer[place - k * stride] + tracer[place + k * stride]);
+    }
+    return sum / f32((REACH + 1u) * (REACH + 1u));
+}
+
+// Along rows, those of the halo included, which columns then take.
+@compute @workgroup_size(8, 8)
+fn mean_along_rows(@builtin(global_invocation_id) id: vec3u) {
+    if (id.x >= HALO && id.x < blacken.cells + HALO && is_cell(id, blacken.cells)) {
+        let place = place_of(id);
+        result[place] = mean_along(place, 1u);
+    }
+}
+
+@compute @workgroup_size(8, 8)
+fn mean_along_columns(@builtin(global_invocation_id) id: vec3u) {
+    if (!is_halo(id)) {
+        let place = place_of(id);
+        result[place] = mean_along(place, blacken.cells + 2u * HALO);
+    }
+}
+
 // What each cell gives to each thicker one around it.
 @compute @workgroup_size(8, 8)
 fn shed(@builtin(global_invocation_id) id: vec3u) {
@@ -67,15 +104,14 @@ fn shed(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let place = place_of(id);
-    let lost = lost_nm(thickness_nm(place));
+    let lost = lost_nm(place);
     var share = 0.0;
     if (lost > 0.0) {
         let side = blacken.cells + 2u * HALO;
         var thicker = 0u;
         for (var row = 0u; row <= 2u * REACH; row++) {
             for (var column = 0u; column <= 2u * REACH; column++) {
-                let at = place + row * side + column - REACH * (side + 1u);
-                thicker += select(0u, 1u, thickness_nm(at) >= blacken.onset_nm);
+                thicker += select(1u, 0u, is_thin(place + row * side + column - REACH * (side + 1u)));
             }
         }
         share = select(0.0, lost / f32(thicker), thicker > 0u);
@@ -89,9 +125,8 @@ fn gather(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let place = place_of(id);
-    let nm = thickness_nm(place);
     var gained = 0.0;
-    if (nm >= blacken.onset_nm) {
+    if (!is_thin(place)) {
         let side = blacken.cells + 2u * HALO;
         for (var row = 0u; row <= 2u * REACH; row++) {
             for (var column = 0u; column <= 2u * REACH; column++) {
@@ -99,5 +134,5 @@ fn gather(@builtin(global_invocation_id) id: vec3u) {
             }
         }
     }
-    result[place] = tracer[place] - lost_nm(nm) + gained;
+    result[place] = tracer[place] - lost_nm(place) + gained;
 }

@@ -48,15 +48,18 @@ pub struct BlackFilm {
     pub law: BlackeningLaw,
     /// What the tracer departs from, nm.
     level_nm: f32,
-    /// What each cell gives to each of those around it, nm.
+    /// What each cell gives to each of those around it, nm; before that, means along rows.
     shed: wgpu::Buffer,
+    /// The tracer's means around cells, nm.
+    means: wgpu::Buffer,
 }
 
 impl BlackFilm {
     /// On a film's tracer grid, for a tracer that departs from a level in nm.
     #[must_use]
     pub fn new(gpu: &Gpu, grid: &Grid, law: BlackeningLaw, level_nm: f32) -> Self {
-        Self { law, level_nm, shed: grid.field(gpu, "shed", 4) }
+        let [shed, means] = ["shed", "means"].map(|label| grid.field(gpu, label, 4));
+        Self { law, level_nm, shed, means }
     }
 
     fn uniform(&self, recorder: &Recorder<'_>, grid: &Grid) -> wgpu::Buffer {
@@ -97,11 +100,14 @@ impl BlackFilm {
         to: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
         let uniform = self.uniform(recorder, grid);
-        let (uniform, block, tracer) = ((0, &uniform), (1, &control.block), (2, tracer));
+        let (uniform, block, tracer, means) = ((0, &uniform), (1, &control.block), (2, tracer), (5, &self.means));
         let all = control.tracer_groups();
-        run(recorder, "shed", &[uniform, block, tracer, (3, &self.shed)], all)?;
+        run(recorder, "mean_along_rows", &[uniform, tracer, (3, &self.shed)], all)?;
+        run(recorder, "mean_along_columns", &[uniform, (2, &self.shed), (3, &self.means)], all)?;
+        halo_of_thickness(recorder, grid, &self.means, control.one_group())?;
+        run(recorder, "shed", &[uniform, block, tracer, (3, &self.shed), means], all)?;
         halo_of_thickness(recorder, grid, &self.shed, control.one_group())?;
-        run(recorder, "gather", &[uniform, block, tracer, (3, to), (4, &self.shed)], all)?;
+        run(recorder, "gather", &[uniform, block, tracer, (3, to), (4, &self.shed), means], all)?;
         halo_of_thickness(recorder, grid, to, control.one_group())
     }
 }
