@@ -1,9 +1,9 @@
 // Composes the film's flow map with a step: map(x) = where the liquid now at x was when the tracer was last remapped, and what it has
-// gathered since. One invocation a cell, halo included. The step may have been traced on a coarser grid: flows are smooth.
+// gathered since. Halos are included. The step may have been traced on a coarser grid: flows are smooth.
 
 import package::film::control::Control;
-import package::sphere::cubed::{cell_place, is_cell, panel_direction};
-import package::sphere::lookup::{map_at_cell, healed, map_at};
+import package::sphere::cubed::{cell_place, is_cell, is_quad, panel_direction, quad_cell};
+import package::sphere::lookup::{healed, map_at, map_at_cell, map_at_quad};
 
 // 1: the step was traced on the map's own grid.
 override SAME_GRID: u32;
@@ -17,6 +17,8 @@ struct Compose {
     // Cells along a panel's edge, of the map and of the step.
     cells: u32,
     step_cells: u32,
+    // Cells that the first two by two begin before storage does: 0 or 1.
+    quad_skew: u32,
 }
 
 @group(0) @binding(0) var<uniform> compose: Compose;
@@ -56,24 +58,55 @@ fn tracer_value(place: u32) -> f32 {
     return 0.0;
 }
 
+fn direction_at(id: vec3u) -> vec3f {
+    return normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
+}
+
+// Where the step and then the map before it lead.
+fn composed(step: vec4f) -> vec4f {
+    if (HAS_MAP == 0u) {
+        return step;
+    }
+    let before = map_at(MAP_BEFORE, step.xyz, compose.cells);
+    return vec4f(before.xyz, step.w + before.w);
+}
+
+fn count_healed() {
+    if (healed > 0u) {
+        atomicAdd(&control.healed, healed);
+    }
+}
+
 @compute @workgroup_size(8, 8)
 fn compose_map(@builtin(global_invocation_id) id: vec3u) {
     if (!is_cell(id, compose.cells)) {
         return;
     }
-    let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
-    var origin: vec4f;
+    var step: vec4f;
     if (SAME_GRID == 1u) {
-        origin = step_map[cell_place(id, compose.cells)];
+        step = step_map[cell_place(id, compose.cells)];
     } else {
-        origin = map_at_cell(STEP_MAP, id, compose.cells, x, compose.step_cells);
+        step = map_at_cell(STEP_MAP, id, compose.cells, direction_at(id), compose.step_cells);
     }
-    if (HAS_MAP == 1u) {
-        let before = map_at(MAP_BEFORE, origin.xyz, compose.cells);
-        origin = vec4f(before.xyz, origin.w + before.w);
+    map_after[cell_place(id, compose.cells)] = composed(step);
+    count_healed();
+}
+
+// One invocation for two by two cells, where the step's are an even number of times as wide.
+@compute @workgroup_size(8, 8)
+fn compose_quads(@builtin(global_invocation_id) id: vec3u) {
+    let first = 2 * vec2i(id.xy) - i32(compose.quad_skew);
+    if (!is_quad(first, compose.cells)) {
+        return;
     }
-    if (healed > 0u) {
-        atomicAdd(&control.healed, healed);
+    let direction = direction_at(vec3u(vec2u(max(first, vec2i(0))), id.z));
+    var steps = map_at_quad(STEP_MAP, first, id.z, compose.cells, direction, compose.step_cells);
+    for (var k = 0u; k < 4u; k++) {
+        let cell = quad_cell(first, k, id.z);
+        let origin = composed(steps[k]);
+        if (is_cell(cell, compose.cells)) {
+            map_after[cell_place(cell, compose.cells)] = origin;
+        }
     }
-    map_after[cell_place(id, compose.cells)] = origin;
+    count_healed();
 }

@@ -3,7 +3,7 @@
 
 import package::film::control::Control;
 import package::sphere::cap::{Cap, image};
-import package::sphere::cubed::{HALO, cell_place, is_cell, panel_direction};
+import package::sphere::cubed::{cell_place, is_cell, is_quad, panel_direction, quad_cell};
 import package::sphere::lookup::{healed, map_at, map_at_cell, map_at_quad, tracer_at};
 
 // What the map's fourth number means: see `Gathered` in src/gpu/sample_tracer.rs.
@@ -74,12 +74,6 @@ fn direction_at(id: vec3u) -> vec3f {
     return normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
 }
 
-// The same of the nearest that there is.
-fn direction_near(cell: vec2i, panel: u32) -> vec3f {
-    let last = i32(sample.cells + 2u * HALO) - 1;
-    return direction_at(vec3u(vec2u(clamp(cell, vec2i(0), vec2i(last))), panel));
-}
-
 // One invocation a cell.
 @compute @workgroup_size(8, 8)
 fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
@@ -118,25 +112,15 @@ fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
 // One invocation for two by two cells, through a map of cells an even number of times as wide, of a film without a rim.
 @compute @workgroup_size(8, 8)
 fn sample_quads(@builtin(global_invocation_id) id: vec3u) {
-    // Cells before the first and after the last are other cells' neighbours, whose values nobody wants.
-    let side = sample.cells + 2u * HALO;
     let first = 2 * vec2i(id.xy) - i32(sample.quad_skew);
-    if (any(first >= vec2i(i32(side)))) {
+    if (!is_quad(first, sample.cells)) {
         return;
     }
-    let across = vec2i(1, 0);
-    let up = vec2i(0, 1);
-    let directions = array(
-        direction_near(first, id.z),
-        direction_near(first + across, id.z),
-        direction_near(first + up, id.z),
-        direction_near(first + across + up, id.z),
-    );
-    var origins = map_at_quad(0u, first - i32(HALO), id.z, sample.cells, directions, sample.map_cells);
+    let direction = direction_at(vec3u(vec2u(max(first, vec2i(0))), id.z));
+    var origins = map_at_quad(0u, first, id.z, sample.cells, direction, sample.map_cells);
     for (var k = 0u; k < 4u; k++) {
+        let cell = quad_cell(first, k, id.z);
         let value = value_from(origins[k]);
-        // A cell before the first has a number too large to be one.
-        let cell = vec3u(vec2u(first) + vec2u(k & 1u, k >> 1u), id.z);
         if (is_cell(cell, sample.cells)) {
             sampled[cell_place(cell, sample.cells)] = value;
         }

@@ -77,6 +77,16 @@ fn cell_place(id: vec3u, cells: u32) -> u32 {
     return (id.z * side + id.y) * side + id.x;
 }
 
+// Whether two by two cells have any that is stored.
+fn is_quad(first: vec2i, cells: u32) -> bool {
+    return all(first < vec2i(i32(cells + 2u * HALO)));
+}
+
+// The k-th of two by two cells, numbered like an invocation. The first may lie before storage does: its number is then too large to be a cell's.
+fn quad_cell(first: vec2i, k: u32, panel: u32) -> vec3u {
+    return vec3u(vec2u(first) + vec2u(k & 1u, k >> 1u), panel);
+}
+
 // Weights of the four-point Lagrange interpolation at -1, 0, 1, 2 for a fraction t in [0, 1].
 fn cubic_weights(t: f32) -> vec4f {
     let a = t + 1.0;

@@ -115,16 +115,10 @@ fn map_quad_row(map: u32, place: u32, first: vec4f, second: vec4f) -> QuadRow {
     return QuadRow(weighted(first, a, b, c, d), weighted(second, a, b, c, d));
 }
 
-// The same as `map_at_cell` at two by two cells of a finer grid that share a stencil, of which the first is given: a quarter of the loads do.
-fn map_at_quad(
-    map: u32,
-    first_cell: vec2i,
-    panel: u32,
-    other_cells: u32,
-    directions: array<vec3f, 4>,
-    cells: u32,
-) -> array<vec4f, 4> {
-    let at = centre_of(first_cell, panel, other_cells, cells);
+// The same as `map_at_cell` at two by two cells of a finer grid that share a stencil: a quarter of the loads do. The first is numbered like an
+// invocation that has a cell before storage does, and the direction may be that of any of them, for it stands in alone for what is lost.
+fn map_at_quad(map: u32, first_id: vec2i, panel: u32, other_cells: u32, direction: vec3f, cells: u32) -> array<vec4f, 4> {
+    let at = centre_of(first_id - i32(HALO), panel, other_cells, cells);
     let next = at.t + f32(cells) / f32(other_cells);
     let left = cubic_weights(at.t.x);
     let right = cubic_weights(next.x);
@@ -137,10 +131,10 @@ fn map_at_quad(
     let c = map_quad_row(map, middle.y, left, right);
     let d = map_quad_row(map, first + 3u * at.stride, left, right);
     return array(
-        usable_map(map, weighted(below, a.first, b.first, c.first, d.first), middle, directions[0]),
-        usable_map(map, weighted(below, a.second, b.second, c.second, d.second), middle, directions[1]),
-        usable_map(map, weighted(above, a.first, b.first, c.first, d.first), middle, directions[2]),
-        usable_map(map, weighted(above, a.second, b.second, c.second, d.second), middle, directions[3]),
+        usable_map(map, weighted(below, a.first, b.first, c.first, d.first), middle, direction),
+        usable_map(map, weighted(below, a.second, b.second, c.second, d.second), middle, direction),
+        usable_map(map, weighted(above, a.first, b.first, c.first, d.first), middle, direction),
+        usable_map(map, weighted(above, a.second, b.second, c.second, d.second), middle, direction),
     );
 }
 

@@ -12,7 +12,9 @@ pub struct ComposeUniform {
     pub cells: u32,
     /// The same of the grid that the step was traced on.
     pub step_cells: u32,
-    pad: [u32; 2],
+    /// Cells that the first two by two begin before storage does.
+    pub quad_skew: u32,
+    pad: u32,
 }
 
 /// What a composition reads and writes.
@@ -36,7 +38,7 @@ pub struct Composition<'a> {
 /// Records one composition.
 pub fn compose_map(recorder: &mut Recorder<'_>, name: &'static str, maps: &Composition<'_>) -> Result<(), GpuError> {
     let Composition { grid, step_cells, before, .. } = *maps;
-    let uniform = ComposeUniform { cells: grid.cells, step_cells, pad: [0; 2] };
+    let uniform = ComposeUniform { cells: grid.cells, step_cells, quad_skew: grid.quad_skew(step_cells), pad: 0 };
     let uniform = recorder.gpu.uniform("compose", &uniform);
     let resources = [
         uniform.as_entire_binding(),
@@ -55,6 +57,11 @@ pub fn compose_map(recorder: &mut Recorder<'_>, name: &'static str, maps: &Compo
         ("TAPS", 6),
         ("LIMITER", 0),
     ];
-    let key = ComputeKey { pass: "compose_map", entry: "compose_map", constants };
-    recorder.compute(name, &key, &resources, grid.padded_groups().into())
+    let (entry, groups) = if grid.has_quads_in(step_cells) {
+        ("compose_quads", grid.quad_groups(step_cells))
+    } else {
+        ("compose_map", grid.padded_groups())
+    };
+    let key = ComputeKey { pass: "compose_map", entry, constants };
+    recorder.compute(name, &key, &resources, groups.into())
 }

@@ -70,7 +70,7 @@ impl Sampling<'_> {
     /// Whether it takes two by two cells at once, which share what they need of a map of cells an even number of times as wide.
     #[must_use]
     pub fn takes_quads(&self) -> bool {
-        self.map.is_some() && self.cap.is_none() && self.grid.cells.is_multiple_of(2 * self.map_cells)
+        self.map.is_some() && self.cap.is_none() && self.grid.has_quads_in(self.map_cells)
     }
 }
 

@@ -87,7 +87,7 @@ fn film_mirrors() -> Vec<Mirror> {
             gravity, flux, cells, thinned_level_nm, black_nm, drop_cos, rim_z, inversion, patch_radius,
             patches_count, patches
         } },
-        mirror! { Compose = ComposeUniform { cells, step_cells } },
+        mirror! { Compose = ComposeUniform { cells, step_cells, quad_skew } },
         mirror! { Sample = SampleUniform { cells, map_cells, tracer_cells, rim_z, inversion, quad_skew } },
         mirror! { Blacken = BlackenUniform { cells, level_nm, thinned_level_nm, black_nm, onset_nm, rate } },
         mirror! { Conserve = ConserveUniform { cells, parts, mean, mean_rest, low, high, bounded, level, film_area } },

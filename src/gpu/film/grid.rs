@@ -84,18 +84,24 @@ impl Grid {
         [tiles, tiles, 6]
     }
 
-    /// The same with one invocation for two by two cells between the same cells of a map that is coarser by an even number.
+    /// Whether its cells lie two by two between the same cells of another grid, whose cells are an even number of times as wide.
     #[must_use]
-    pub fn quad_groups(&self, map_cells: u32) -> [u32; 3] {
-        let tiles = (self.side() + self.quad_skew(map_cells)).div_ceil(16);
+    pub fn has_quads_in(&self, other_cells: u32) -> bool {
+        self.cells.is_multiple_of(2 * other_cells)
+    }
+
+    /// Workgroups of a pass with one invocation for two by two cells between the same cells of another grid.
+    #[must_use]
+    pub fn quad_groups(&self, other_cells: u32) -> [u32; 3] {
+        let tiles = (self.side() + self.quad_skew(other_cells)).div_ceil(16);
         [tiles, tiles, 6]
     }
 
-    /// Cells that the first two by two begin before storage does, halo included: 0 or 1. Half as many cells from a panel's edge as lie between two
-    /// of the map's, others of the map's are around them.
+    /// Cells that the first two by two begin before storage does, halo included: 0 or 1. Between two cells of the other grid there are as many of
+    /// this one's as one of them is wide, half as many before the first.
     #[must_use]
-    pub fn quad_skew(&self, map_cells: u32) -> u32 {
-        (HALO as u32 + self.cells / (2 * map_cells)) % 2
+    pub fn quad_skew(&self, other_cells: u32) -> u32 {
+        (HALO as u32 + self.cells / (2 * other_cells)) % 2
     }
 
     /// Workgroups of a pass with one invocation a cell, 64 along a row.
