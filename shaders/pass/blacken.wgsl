@@ -71,11 +71,17 @@ fn stop_evaporation(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
+// The tracer as it counts for means: film is thick or black, and no thicker than makes a level border stand still. Borders that bend then
+// move towards where they bend to, as a line under tension does (Merriman, Bence & Osher 1992), and drops narrower than a rim do not last.
+fn counted(place: u32) -> f32 {
+    return min(tracer[place], 2.0 * blacken.onset_nm - blacken.black_nm - blacken.thinned_level_nm);
+}
+
 // The mean over the cells before and after one that are so far apart in storage, nearer ones counting more.
 fn mean_along(place: u32, stride: u32) -> f32 {
-    var sum = f32(REACH + 1u) * tracer[place];
+    var sum = f32(REACH + 1u) * counted(place);
     for (var k = 1u; k <= REACH; k++) {
-        sum += f32(REACH + 1u - k) * (tracer[place - k * stride] + tracer[place + k * stride]);
+        sum += f32(REACH + 1u - k) * (counted(place - k * stride) + counted(place + k * stride));
     }
     return sum / f32((REACH + 1u) * (REACH + 1u));
 }

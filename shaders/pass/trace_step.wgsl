@@ -42,14 +42,28 @@ fn prescribed_velocity(x: vec3f, moment: u32) -> vec3f {
     return cross(x, gradient);
 }
 
-// Velocity in xyz, divergence in w.
+// Velocity in xyz, divergence in w; of test winds in their own frame.
 fn motion(x: vec3f, moment: u32) -> vec4f {
     if (FLOW == FLOW_PRESCRIBED) {
         return vec4f(prescribed_velocity(x, moment), 0.0);
     }
-    let local = x * step.frame;
     let wind = step.moments[moment];
-    return vec4f(step.frame * wind_velocity(local, wind, step.turn_rad_s), wind_divergence(local, wind));
+    return vec4f(wind_velocity(x, wind, step.turn_rad_s), wind_divergence(x, wind));
+}
+
+// The frame that a trace is in, and back to the world.
+fn in_frame(x: vec3f) -> vec3f {
+    if (FLOW == FLOW_PRESCRIBED) {
+        return x;
+    }
+    return x * step.frame;
+}
+
+fn in_world(x: vec3f) -> vec3f {
+    if (FLOW == FLOW_PRESCRIBED) {
+        return x;
+    }
+    return step.frame * x;
 }
 
 // Way and divergence of a backward trace that starts at x and a moment: the classic Runge-Kutta of fourth order.
@@ -69,10 +83,10 @@ fn trace_step(@builtin(global_invocation_id) id: vec3u) {
     let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
     let dt = step.dt_s / f32(step.traces);
     // Gathered is the logarithm of the area ratio: how much larger a patch was then than it is now.
-    var origin = vec4f(x, 0.0);
+    var origin = vec4f(in_frame(x), 0.0);
     for (var trace = 0u; trace < step.traces; trace++) {
         let earlier = origin - change(origin.xyz, 2u * trace, dt);
         origin = vec4f(normalize(earlier.xyz), earlier.w);
     }
-    step_map[cell_place(id, step.cells)] = origin;
+    step_map[cell_place(id, step.cells)] = vec4f(in_world(origin.xyz), origin.w);
 }

@@ -176,10 +176,12 @@ fn tracer_row(place: u32, w: array<f32, 6>, reference: f32) -> f32 {
 // to the last bit. Where a value of the stencil is not finite a neighbour's is the next best, and at last 0.
 fn tracer_at(direction: vec3f, cells: u32) -> f32 {
     let at = cell_point(direction, cells);
-    let reference = tracer_value(at.place);
     let wi = lagrange_weights(at.t.x);
     let wj = lagrange_weights(at.t.y);
-    let first = at.place - (TAPS / 2u - 1u) * (at.stride + 1u);
+    // Cells before the middle two. Their places are written as the rows write them, so that compilers see that they are loaded already.
+    let before = TAPS / 2u - 1u;
+    let first = at.place - before * (at.stride + 1u);
+    let reference = tracer_value(first + before * at.stride + before);
     var total = wj[0] * tracer_row(first, wi, reference) + wj[1] * tracer_row(first + at.stride, wi, reference);
     if (TAPS > 2u) {
         total += wj[2] * tracer_row(first + 2u * at.stride, wi, reference) +
@@ -189,10 +191,10 @@ fn tracer_at(direction: vec3f, cells: u32) -> f32 {
         total += wj[4] * tracer_row(first + 4u * at.stride, wi, reference) +
             wj[5] * tracer_row(first + 5u * at.stride, wi, reference);
     }
-    let above = tracer_value(at.place + at.stride + 1u);
+    let above = tracer_value(first + (before + 1u) * at.stride + (before + 1u));
     if (LIMITER == 1u) {
-        let across = tracer_value(at.place + 1u) - reference;
-        let up = tracer_value(at.place + at.stride) - reference;
+        let across = tracer_value(first + before * at.stride + (before + 1u)) - reference;
+        let up = tracer_value(first + (before + 1u) * at.stride + before) - reference;
         let low = min(min(0.0, above - reference), min(across, up));
         let high = max(max(0.0, above - reference), max(across, up));
         total = select(total, clamp(total, low, high), is_finite(total));

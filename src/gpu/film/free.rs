@@ -178,7 +178,7 @@ impl FreeMotion {
             inversion,
         };
         let uniform = recorder.gpu.uniform("flow thickness", &uniform);
-        let map = field.kept_map();
+        let map = field.map_so_far();
         let bound = [
             &uniform,
             &flow.tangents,

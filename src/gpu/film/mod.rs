@@ -101,7 +101,7 @@ pub struct Field {
     /// The map, and where its next step goes.
     map: [wgpu::Buffer; 2],
     /// Whether any step was taken since the film was seeded, or since a remap that did not depend on what the device measured: until then
-    /// the map is the identity, and there is no need to look through it.
+    /// the map is the identity, which nobody needs to look through and only pictures need to have written down.
     has_moved: bool,
     /// Whether film may have left since then: what did not is not bound to be as thick, or as thin, as it was.
     has_drained: bool,
@@ -250,10 +250,6 @@ impl Field {
         self.control.reset(gpu, self.level);
         (self.diffusion, self.black, self.drain) = (None, None, None);
         (self.has_moved, self.has_drained, self.ticks_since_decision) = (false, false, 0);
-        if self.rules.scheme.keeps_map() {
-            let grid = self.map_grid();
-            reset_map(recorder, "seed_field", grid, &self.map[0], grid.padded_groups().into())?;
-        }
         Ok(())
     }
 
@@ -362,6 +358,11 @@ impl Field {
             self.compose(recorder, SHOW, step, self.map_so_far(), 1)?;
         }
         let map = ahead.map_or(self.map_so_far(), |_| Some(&self.map[1]));
+        if map.is_none() && self.rules.scheme.keeps_map() {
+            // Pictures look through it wherever it leads.
+            let grid = self.map_grid();
+            reset_map(recorder, SHOW, grid, &self.map[0], grid.padded_groups().into())?;
+        }
         self.sample(recorder, SHOW, &self.film, map, [&self.tracer, &self.shown], self.all_cells())?;
         let sum = Sum {
             grid: &self.film,

@@ -68,9 +68,11 @@ impl Field {
         if let Some(black) = &self.black {
             self.blacken(recorder, black)?;
         }
-        reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())?;
-        self.has_moved = !rule.is_due_after(ticks);
-        Ok(())
+        if rule.is_due_after(ticks) {
+            self.has_moved = false;
+            return Ok(());
+        }
+        reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())
     }
 
     /// Workgroups, if a remap is due, of the sum over the tracer, of its end, and of a pass over the tracer.
