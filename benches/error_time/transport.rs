@@ -76,6 +76,7 @@ fn runners() -> impl Iterator<Item = Runner> {
 /// One row: what a run cost and how far it was from the truth.
 #[derive(Clone, Copy)]
 struct Row {
+    map_coarsening: u32,
     cells: usize,
     steps: u32,
     cpu_s: f64,
@@ -104,8 +105,7 @@ pub fn run(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
             for steps in STEPS.into_iter().take(if smoke { 1 } else { STEPS.len() }) {
                 let rows = sweep(gpu, &mut report, (index, runner), map_coarsening, steps, smoke)?;
                 points.extend(rows.iter().map(|row| [row.cpu_s, row.l2]));
-                let price = price(&rows, map_coarsening);
-                best = best.into_iter().chain(price).min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+                best = best.into_iter().chain(price(&rows)).min_by(|a, b| a.seconds.total_cmp(&b.seconds));
             }
         }
         prices.push((runner.name, best));
@@ -165,17 +165,19 @@ fn measure(gpu: &Gpu, report: &mut Report, index: usize, case: &Case) -> anyhow:
         runs += 1;
     }
     cpu_ms /= f64::from(runs);
-    let (cells, steps) = (case.grid.n(), case.steps_a_period);
+    let Case { map_coarsening, steps_a_period: steps, .. } = *case;
+    let cells = case.grid.n();
     let ((), copy_ms, _) = timed(|| {
         let mut recorder = Recorder::new(gpu);
         (0..case.steps).for_each(|_| field.copy_state(&mut recorder));
         recorder.submit(&Default::default());
         gpu.wait()
     })?;
-    let row = Row { cells, steps, cpu_s: cpu_ms * 1e-3, l2: case.measure(&values(gpu, &mut field)?).l2 };
+    let l2 = case.measure(&values(gpu, &mut field)?).l2;
+    let row = Row { map_coarsening, cells, steps, cpu_s: cpu_ms * 1e-3, l2 };
     report.row(&[
         index as f64,
-        f64::from(case.map_coarsening),
+        f64::from(map_coarsening),
         cells as f64,
         f64::from(steps),
         f64::from(case.traces_a_step),
@@ -194,7 +196,7 @@ fn courant(cells: f64, steps: u32) -> f64 {
 }
 
 /// What the target costs at so many steps a period: between the two grids around it, by the orders that they show.
-fn price(rows: &[Row], map_coarsening: u32) -> Option<Price> {
+fn price(rows: &[Row]) -> Option<Price> {
     let around = rows.windows(2).find(|pair| pair[0].l2 > TARGET_L2 && pair[1].l2 <= TARGET_L2)?;
     let part = (around[0].l2 / TARGET_L2).ln() / (around[0].l2 / around[1].l2).ln();
     let between = |a: f64, b: f64| a * (b / a).powf(part);
@@ -202,7 +204,7 @@ fn price(rows: &[Row], map_coarsening: u32) -> Option<Price> {
     Some(Price {
         seconds: between(around[0].cpu_s, around[1].cpu_s),
         courant: courant(cells, around[0].steps),
-        map_coarsening,
+        map_coarsening: around[0].map_coarsening,
     })
 }
 

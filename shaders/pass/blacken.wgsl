@@ -1,8 +1,9 @@
 // Thin film collapses to black film, which a real film does within a fraction of a second once its surfaces attract each other: the
-// difference to black film decays at a constant rate. It is the film around a cell that must be thin: black spots are round, and as wide as their
-// rims, while cells that went one by one would leave a maze. What a cell loses goes to the thicker film around it, as the rim of a black spot
-// gathers it; the nearest thick film may be too far, then the film as a whole gets it with the correction of its liquid.
-// The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation a cell, halo included.
+// difference to black film decays at a constant rate. It is the film around a cell that must be thin: black spots are round, and as wide as
+// their rims, while cells that went one by one would leave a maze. What a cell loses goes to the thicker film around it, as the rim of a
+// black spot gathers it; the nearest thick film may be too far, then the film as a whole gets it with the correction of its liquid.
+// The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation a cell, halo
+// included.
 
 import package::film::control::Control;
 import package::sphere::cubed::{HALO, is_cell};
@@ -71,8 +72,9 @@ fn stop_evaporation(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-// The tracer as it counts for means: film is thick or black, and no thicker than makes a level border stand still. Borders that bend then
-// move towards where they bend to, as a line under tension does (Merriman, Bence & Osher 1992), and drops narrower than a rim do not last.
+// What a cell counts for means: no thicker than makes a straight border between black film and any thicker one stand still. Bent borders
+// then straighten, as a line under tension does (Merriman, Bence & Osher 1992), and drops narrower than a rim do not last. Means along rows,
+// which columns take, count as they are.
 fn counted(place: u32) -> f32 {
     return min(tracer[place], 2.0 * blacken.onset_nm - blacken.black_nm - blacken.thinned_level_nm);
 }
@@ -86,7 +88,7 @@ fn mean_along(place: u32, stride: u32) -> f32 {
     return sum / f32((REACH + 1u) * (REACH + 1u));
 }
 
-// Along rows, those of the halo included, which columns then take.
+// Along rows, those of the halo included.
 @compute @workgroup_size(8, 8)
 fn mean_along_rows(@builtin(global_invocation_id) id: vec3u) {
     if (id.x >= HALO && id.x < blacken.cells + HALO && is_cell(id, blacken.cells)) {

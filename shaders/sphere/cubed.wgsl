@@ -82,7 +82,8 @@ fn is_quad(first: vec2i, cells: u32) -> bool {
     return all(first < vec2i(i32(cells + 2u * HALO)));
 }
 
-// The k-th of two by two cells, numbered like an invocation. The first may lie before storage does: its number is then too large to be a cell's.
+// The k-th of two by two cells, numbered like an invocation. The first may lie before storage does: its number is then too large to be
+// a cell's.
 fn quad_cell(first: vec2i, k: u32, panel: u32) -> vec3u {
     return vec3u(vec2u(first) + vec2u(k & 1u, k >> 1u), panel);
 }

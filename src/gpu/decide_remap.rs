@@ -29,7 +29,7 @@ impl RemapRule {
         (self.latest_ticks / 8).max(1)
     }
 
-    /// Whether a remap is due so many ticks after the last decision whatever the map: the next decision would come too late.
+    /// Whether a remap is due so many ticks after the last decision whatever the map: after as many again it would come too late.
     #[must_use]
     pub fn is_due_after(self, ticks: u32) -> bool {
         ticks > self.latest_ticks / 2
@@ -98,4 +98,20 @@ pub fn decide_remap(
     }
     let decided = [(0, uniform), (1, block), (3, arguments)];
     recorder.compute_at(name, &key("decide_remap"), &decided, Groups::Count([1; 3]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_remap_is_due_if_the_next_decision_comes_too_late_however_soon_the_last_remap_was() {
+        for latest_ticks in 1..40 {
+            let rule = RemapRule { error_limit_cells: 1.0, latest_ticks };
+            for ticks in 1..40 {
+                // What `decide_remap.wgsl` finds just after a remap, when least is due.
+                assert_eq!(rule.is_due_after(ticks), ticks + ticks > latest_ticks, "{ticks} of {latest_ticks}");
+            }
+        }
+    }
 }

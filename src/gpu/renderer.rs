@@ -247,9 +247,7 @@ impl Renderer {
             Some(film) => slot.insert(film),
             None => slot.insert(MovingFilm::new(Field::new(&self.gpu, sphere, rules(key))?)),
         };
-        let mut recorder = Recorder::new(&self.gpu);
-        film.seed(&mut recorder, &key.initial)?;
-        Self::submit(&self.times, &mut self.counts, recorder);
+        film.seed(&self.gpu, &key.initial);
         Ok(())
     }
 

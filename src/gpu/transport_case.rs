@@ -96,9 +96,7 @@ impl Case {
     /// A field with the tracer at the start.
     pub fn seed(&self, gpu: &Gpu) -> Result<Field, GpuError> {
         let mut field = Field::new(gpu, self.grid, self.rules())?;
-        let mut recorder = Recorder::new(gpu);
-        field.seed(&mut recorder, |x| self.tracer.value(x))?;
-        recorder.submit(&Default::default());
+        field.seed(gpu, |x| self.tracer.value(x));
         Ok(field)
     }
 

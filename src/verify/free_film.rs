@@ -36,9 +36,7 @@ pub fn field(
 ) -> Result<Field, GpuError> {
     let sphere = CubedSphere::new(cells).map_err(|error| GpuError::Refused(error.to_string()))?;
     let mut field = Field::new(gpu, sphere, rules)?;
-    let mut recorder = Recorder::new(gpu);
-    field.seed(&mut recorder, thickness_nm)?;
-    recorder.submit(&Default::default());
+    field.seed(gpu, thickness_nm);
     Ok(field)
 }
 

@@ -9,7 +9,6 @@ use crate::{
         film::{Field, MovingFilm, rules},
         flow::FlowSolver,
         readback::Readback,
-        timing::Recorder,
         transport_case::values,
     },
     physics::{
@@ -35,9 +34,7 @@ impl<'a> Played<'a> {
         let key = key(scene, 0)?;
         let sphere = CubedSphere::new(key.cells as usize).map_err(|error| GpuError::Refused(error.to_string()))?;
         let mut field = Field::new(gpu, sphere, rules(&key))?;
-        let mut recorder = Recorder::new(gpu);
-        field.seed(&mut recorder, key.initial.profile())?;
-        recorder.submit(&Default::default());
+        field.seed(gpu, key.initial.profile());
         Ok(Self { gpu, scene, film: MovingFilm::new(field), tick: 0 })
     }
 

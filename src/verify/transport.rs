@@ -5,7 +5,6 @@ use crate::{
     gpu::{
         GpuError,
         film::Field,
-        timing::Recorder,
         transport_case::{Case, values},
     },
     physics::{
@@ -169,9 +168,7 @@ fn seams(run: &mut Run<'_>) -> Result<(), GpuError> {
                 map_coarsening: 1,
             };
             let mut field = Field::new(run.gpu, grid, case.rules())?;
-            let mut recorder = Recorder::new(run.gpu);
-            field.seed(&mut recorder, zonal)?;
-            recorder.submit(&Default::default());
+            field.seed(run.gpu, zonal);
             case.advance(run.gpu, &mut field)?;
             for (cell, value) in values(run.gpu, &mut field)?.into_iter().enumerate() {
                 let (_, i, j) = grid.cell(cell);
@@ -208,9 +205,7 @@ fn constant_ratio(run: &mut Run<'_>) -> Result<(), GpuError> {
         map_coarsening: 1,
     };
     let mut field = Field::new(run.gpu, case.grid, case.rules())?;
-    let mut recorder = Recorder::new(run.gpu);
-    field.seed(&mut recorder, |_| 0.3)?;
-    recorder.submit(&Default::default());
+    field.seed(run.gpu, |_| 0.3);
     case.advance(run.gpu, &mut field)?;
     let worst = values(run.gpu, &mut field)?.iter().fold(0.0, |worst: f64, value| worst.max((value / 0.3 - 1.0).abs()));
     run.at_most("Divergent, a constant ratio: relative error", worst, 1e-6);

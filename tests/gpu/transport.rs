@@ -48,9 +48,7 @@ fn moved(
     steps: impl Iterator<Item = Step>,
 ) -> Vec<f64> {
     let mut field = Field::new(gpu, grid, rules).unwrap();
-    let mut recorder = Recorder::new(gpu);
-    field.seed(&mut recorder, initial).unwrap();
-    recorder.submit(&Default::default());
+    field.seed(gpu, initial);
     for step in steps {
         let mut recorder = Recorder::new(gpu);
         field.advance(&mut recorder, &step, 1).unwrap();

@@ -16,7 +16,7 @@ pub struct Checkpoint {
 /// The state of a field. What spreads, blackens or drains it is set anew by each step.
 struct FieldCheckpoint {
     buffers: Copies,
-    has_moved: bool,
+    map_is_identity: bool,
     has_drained: bool,
     ticks_since_decision: u32,
 }
@@ -60,16 +60,16 @@ impl Field {
     fn save(&self, recorder: &mut Recorder<'_>) -> FieldCheckpoint {
         FieldCheckpoint {
             buffers: Copies::of(recorder, &self.state()),
-            has_moved: self.has_moved,
+            map_is_identity: self.map_is_identity,
             ticks_since_decision: self.ticks_since_decision,
             has_drained: self.has_drained,
         }
     }
 
     fn restore(&mut self, recorder: &mut Recorder<'_>, checkpoint: &FieldCheckpoint) {
-        let FieldCheckpoint { buffers, has_moved, has_drained, ticks_since_decision } = checkpoint;
+        let FieldCheckpoint { buffers, map_is_identity, has_drained, ticks_since_decision } = checkpoint;
         buffers.restore(recorder, &self.state());
-        (self.has_moved, self.has_drained) = (*has_moved, *has_drained);
+        (self.map_is_identity, self.has_drained) = (*map_is_identity, *has_drained);
         self.ticks_since_decision = *ticks_since_decision;
     }
 }

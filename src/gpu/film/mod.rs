@@ -33,16 +33,13 @@ use super::{
     Gpu, GpuError,
     blacken::BlackFilm,
     compose_map::{Composition, compose_map},
-    conserve::{Excess, Sum, Target, conserve, parts},
+    conserve::{Target, parts},
     correct_error::correct_error,
     decide_remap::RemapRule,
     diffuse::Diffusion,
     drain::DrainLaw,
-    read_film::read_film,
     readback::Readback,
-    reset_map::reset_map,
     sample_tracer::{Gathered, Sampling, sample_tracer},
-    show_film::show_film,
     timing::{Groups, Recorder},
     trace_step::{Step, trace_step},
 };
@@ -100,10 +97,10 @@ pub struct Field {
     step_map: wgpu::Buffer,
     /// The map, and where its next step goes.
     map: [wgpu::Buffer; 2],
-    /// Whether any step was taken since the film was seeded, or since a remap that did not depend on what the device measured: until then
-    /// the map is the identity, which nobody needs to look through and only pictures need to have written down.
-    has_moved: bool,
-    /// Whether film may have left since then: what did not is not bound to be as thick, or as thin, as it was.
+    /// Whether the map is known to be the identity, as it is until a step is taken after the film was seeded or after a remap that was due
+    /// whatever the device measured. Nobody looks through it then, and only pictures need to have it written down.
+    map_is_identity: bool,
+    /// Whether film may have left since the film was seeded: what did not is not bound to be as thick, or as thin, as it was.
     has_drained: bool,
     ticks_since_decision: u32,
     /// The tracer of the last remap.
@@ -164,7 +161,7 @@ impl Field {
         Ok(Self {
             step_map: coarse.as_ref().unwrap_or(&film).field(gpu, "step map", 16),
             map: ["map", "next map"].map(|label| smooth.as_ref().unwrap_or(&film).field(gpu, label, 16)),
-            has_moved: false,
+            map_is_identity: true,
             has_drained: false,
             ticks_since_decision: 0,
             tracer: scalars("tracer"),
@@ -230,12 +227,7 @@ impl Field {
     }
 
     /// Sets the tracer to a function of direction, and forgets all motion.
-    pub fn seed(
-        &mut self,
-        recorder: &mut Recorder<'_>,
-        value: impl Fn(glam::DVec3) -> f64 + Sync,
-    ) -> Result<(), GpuError> {
-        let gpu = recorder.gpu;
+    pub fn seed(&mut self, gpu: &Gpu, value: impl Fn(glam::DVec3) -> f64 + Sync) {
         // A density in a wind that diverges is multiplied on the way, as departures must not be.
         let has_level = self.rules.gathered != Gathered::LogArea;
         self.level = if has_level { level_of(&self.film, &value) } else { 0.0 };
@@ -249,8 +241,7 @@ impl Field {
         });
         self.control.reset(gpu, self.level);
         (self.diffusion, self.black, self.drain) = (None, None, None);
-        (self.has_moved, self.has_drained, self.ticks_since_decision) = (false, false, 0);
-        Ok(())
+        (self.map_is_identity, self.has_drained, self.ticks_since_decision) = (true, false, 0);
     }
 
     /// The map, if the scheme keeps one.
@@ -260,7 +251,7 @@ impl Field {
 
     /// The same if it is not known to be the identity.
     fn map_so_far(&self) -> Option<&wgpu::Buffer> {
-        self.kept_map().filter(|_| self.has_moved)
+        self.kept_map().filter(|_| !self.map_is_identity)
     }
 
     /// Moves the liquid by one step that lasts some ticks. Steps back, and those whose times are no numbers, are refused.
@@ -274,7 +265,7 @@ impl Field {
         }
         self.compose(recorder, STEP, step, self.map_so_far(), 1)?;
         self.map.swap(0, 1);
-        self.has_moved = true;
+        self.map_is_identity = false;
         self.ticks_since_decision += ticks;
         if self.ticks_since_decision >= self.remap_rule().decision_ticks() {
             self.remap_if_due(recorder)?;
@@ -282,7 +273,7 @@ impl Field {
         Ok(())
     }
 
-    /// Traces a step and composes it with a map, into one of the two.
+    /// Traces a step and composes it with a map, into one of the two. Where there is none and the grid is the map's own, that is the trace.
     fn compose(
         &self,
         recorder: &mut Recorder<'_>,
@@ -349,51 +340,6 @@ impl Field {
             to,
         };
         sample_tracer(recorder, name, &sampling, if sampling.takes_quads() { quads } else { cells })
-    }
-
-    /// Makes the thickness ready to be drawn, a part of a step ahead of the state if one is given. The state stays.
-    pub fn show(&mut self, recorder: &mut Recorder<'_>, ahead: Option<&Step>) -> Result<(), GpuError> {
-        self.shown_map = usize::from(ahead.is_some());
-        if let Some(step) = ahead {
-            self.compose(recorder, SHOW, step, self.map_so_far(), 1)?;
-        }
-        let map = ahead.map_or(self.map_so_far(), |_| Some(&self.map[1]));
-        if map.is_none() && self.rules.scheme.keeps_map() {
-            // Pictures look through it wherever it leads.
-            let grid = self.map_grid();
-            reset_map(recorder, SHOW, grid, &self.map[0], grid.padded_groups().into())?;
-        }
-        self.sample(recorder, SHOW, &self.film, map, [&self.tracer, &self.shown], self.all_cells())?;
-        let sum = Sum {
-            grid: &self.film,
-            field: &self.shown,
-            partial_sums: &self.control.partial_sums,
-            balance: &self.control.shown_balance,
-            control: &self.control.block,
-        };
-        if self.rules.conserved {
-            let groups = [[parts(&self.film), 1, 1].into(), [1; 3].into()];
-            conserve(recorder, SHOW, self.target(0), &sum, groups, Excess::Balanced)?;
-        }
-        show_film(recorder, SHOW, &self.film, sum.balance, &self.shown, &self.texture.view)
-    }
-
-    /// What was last shown.
-    #[must_use]
-    pub fn shown(&self) -> Shown<'_> {
-        Shown {
-            film: &self.texture.view,
-            balance: &self.control.shown_balance,
-            map: &self.map[self.shown_map],
-            map_cells: self.map_grid().cells,
-            tracer: &self.tracer,
-            tracer_cells: self.tracer_grid().cells,
-        }
-    }
-
-    /// Brings what was last shown into a buffer, in the grid's order of cells.
-    pub fn read(&self, recorder: &mut Recorder<'_>) -> Result<wgpu::Buffer, GpuError> {
-        read_film(recorder, &self.film, &self.texture.view)
     }
 
     /// Spoils one value of the tracer or of the map, to see that the damage is contained.

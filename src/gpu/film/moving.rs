@@ -46,10 +46,10 @@ impl MovingFilm {
     }
 
     /// Sets the film to its beginning. Checkpoints stay.
-    pub fn seed(&mut self, recorder: &mut Recorder<'_>, initial: &InitialFilm) -> Result<(), GpuError> {
+    pub fn seed(&mut self, gpu: &Gpu, initial: &InitialFilm) {
         self.motion = None;
         self.watch = RestWatch::default();
-        self.field.seed(recorder, initial.profile())
+        self.field.seed(gpu, initial.profile());
     }
 
     /// Since when the film rests, if it does.

@@ -69,7 +69,7 @@ impl Field {
             self.blacken(recorder, black)?;
         }
         if rule.is_due_after(ticks) {
-            self.has_moved = false;
+            self.map_is_identity = true;
             return Ok(());
         }
         reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())
