@@ -1,18 +1,17 @@
-// The camera: rays through pixels.
+// The camera: rays through pixels. Places are relative to the eye: far from the origin, f32 would round the distance between a place and
+// the eye.
 
 // Mirrors `ViewUniform` in src/gpu/draw.rs.
 struct View {
-    eye_m: vec3f,
-    // Height of a pixel on the plane one metre before the eye.
-    pixel_height: f32,
     // Unit vector along the line of sight.
     forward: vec3f,
+    // Height of a pixel on the plane one metre before the eye.
+    pixel_height: f32,
+    right: vec3f,
     // Width and height of the picture in pixels.
     width: f32,
-    right: vec3f,
-    height: f32,
     up: vec3f,
-    pad: f32,
+    height: f32,
 }
 
 // Point on the plane one metre before the eye, relative to the eye, that a picture position (pixels, y down) looks through.

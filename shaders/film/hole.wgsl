@@ -1,5 +1,7 @@
 // A hole in a film that bursts: its f64 twin, with the sources, is src/physics/film/burst.rs.
 
+import package::sphere::axes::perpendicular;
+
 const TAU: f32 = 6.2831853;
 // Meridians about the middle along which the rim is known, evenly spaced.
 override HOLE_MERIDIANS: u32;
@@ -16,8 +18,7 @@ struct Rim {
 
 // Two unit vectors across the middle of a hole, from which meridians are counted.
 fn meridian_axes(middle: vec3f) -> array<vec3f, 2> {
-    let helper = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(middle.x) > 0.7);
-    let first = normalize(cross(middle, helper));
+    let first = perpendicular(middle);
     return array(first, cross(middle, first));
 }
 

@@ -11,14 +11,14 @@ struct Light {
     backdrop: vec3f,
     // 1 where the backdrop is the environment.
     backdrop_is_environment: f32,
-    // Factor that makes daylight's white (1, 1, 1).
+    // Factor that makes daylight's white (1, 1, 1), exposed as the linear picture is.
     scale: vec3f,
     // cos and sin of the environment's turn about the vertical are turn_cos here and turn_sin below.
     turn_cos: f32,
     // Direction along which the electric field passes a polariser before the camera.
     polariser: vec3f,
     turn_sin: f32,
-    // From light to what is seen of it under the illuminant, daylight's white being (1, 1, 1).
+    // From light to what is seen of it under the illuminant, daylight's white being (1, 1, 1), exposed as the linear picture is.
     seen: mat3x3f,
 }
 

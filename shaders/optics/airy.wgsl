@@ -3,19 +3,23 @@
 // Phases are counted in turns and reduced before any trigonometry: WGSL promises sin() only to 2^-11, which would cost
 // up to 0.1 of a colour difference; the polynomial below keeps the whole reflectance at f32 rounding.
 
-// Cosine of the refracted angle inside a film of index n, from the cosine of the angle outside (Snell).
+// n times the cosine of the refracted angle inside a film of index n, from the cosine of the angle outside (Snell). This form keeps its digits
+// near grazing, and is cos theta for n = 1.
+fn n_cos_refracted(n: f32, cos_theta: f32) -> f32 {
+    return sqrt((n - 1.0) * (n + 1.0) + cos_theta * cos_theta);
+}
+
+// Cosine of the refracted angle.
 fn cos_refracted(n: f32, cos_theta: f32) -> f32 {
-    return sqrt(max(1.0 - (1.0 - cos_theta * cos_theta) / (n * n), 0.0));
+    return n_cos_refracted(n, cos_theta) / n;
 }
 
 // Squared Fresnel amplitudes (r_s^2, r_p^2) of one surface, air to film.
 fn surface_reflectance(n: f32, cos_theta: f32) -> vec2f {
-    let cos_t = cos_refracted(n, cos_theta);
+    let inside = n_cos_refracted(n, cos_theta);
+    let outside = vec2f(cos_theta, n * n * cos_theta);
     // The floor only matters at exactly grazing incidence on index 1, which is no surface.
-    let r = vec2f(
-        (cos_theta - n * cos_t) / max(cos_theta + n * cos_t, 1e-30),
-        (n * cos_theta - cos_t) / max(n * cos_theta + cos_t, 1e-30),
-    );
+    let r = (outside - inside) / max(outside + inside, vec2f(1e-30));
     return r * r;
 }
 
@@ -36,7 +40,7 @@ fn sin_pi(x: f32) -> f32 {
 // cancellation, so that a black film comes out right by itself.
 fn film_reflectance(n: f32, cos_theta: f32, thickness_nm: f32, wavelength_nm: f32) -> vec2f {
     let r2 = surface_reflectance(n, cos_theta);
-    let half_turns = 2.0 * n * thickness_nm * cos_refracted(n, cos_theta) / wavelength_nm;
+    let half_turns = 2.0 * n_cos_refracted(n, cos_theta) * thickness_nm / wavelength_nm;
     let s = sin_pi(half_turns - round(half_turns));
     let interference = 4.0 * r2 * s * s;
     let gap = 1.0 - r2;
@@ -58,7 +62,7 @@ fn sin_pi4(x: vec4f) -> vec4f {
 // film_reflectance() for four films that light of one wavelength meets at one angle.
 fn film_reflectances(n: f32, cos_theta: f32, thickness_nm: vec4f, wavelength_nm: f32) -> Reflectances {
     let r2 = surface_reflectance(n, cos_theta);
-    let half_turns = (2.0 * n * cos_refracted(n, cos_theta) / wavelength_nm) * thickness_nm;
+    let half_turns = (2.0 * n_cos_refracted(n, cos_theta) / wavelength_nm) * thickness_nm;
     let sine = sin_pi4(half_turns - round(half_turns));
     let interference = 4.0 * sine * sine;
     let gap = (1.0 - r2) * (1.0 - r2);
@@ -77,7 +81,7 @@ fn damped_reflectances(
     coherence: vec4f,
 ) -> Reflectances {
     let r2 = surface_reflectance(n, cos_theta);
-    let half_turns = (2.0 * n * cos_refracted(n, cos_theta) / wavelength_nm) * thickness_nm;
+    let half_turns = (2.0 * n_cos_refracted(n, cos_theta) / wavelength_nm) * thickness_nm;
     let sine = sin_pi4(half_turns - round(half_turns));
     let interference = 4.0 * sine * sine;
     return Reflectances(damped(r2.x, interference, coherence), damped(r2.y, interference, coherence));

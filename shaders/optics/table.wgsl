@@ -40,7 +40,8 @@ fn film_of_texel(axes: TableAxes, texel: vec2f) -> FilmPoint {
     let u = texel.x / (axes.size.x - 1.0);
     let cos_theta = u * u;
     let path_nm = axes.max_thickness_nm * path_of_row(texel.y / (axes.size.y - 1.0));
-    return FilmPoint(cos_theta, path_nm / cos_refracted(axes.index, cos_theta), 0.0);
+    // Light that grazes a film of index 1 goes along it: the floor only matters there, where nothing is reflected.
+    return FilmPoint(cos_theta, path_nm / max(cos_refracted(axes.index, cos_theta), 1e-6), 0.0);
 }
 
 // Texture coordinates of a film: the inverse of film_of_texel.

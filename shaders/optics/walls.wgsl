@@ -9,7 +9,7 @@
 // the bubble vanishes exactly. R0 (E0 - B) and R1 (E1 - B) are single walls, which a table can hold; the rest are products of
 // reflectances, which must be formed wavelength by wavelength.
 
-import package::optics::airy::{Reflectances, cos_refracted, damped_reflectances, film_reflectances};
+import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, n_cos_refracted};
 import package::optics::band::Band;
 import package::optics::film_colour::FILTERED;
 
@@ -100,7 +100,7 @@ fn wall_reflectances(band: Band, cos_theta: f32, hits: Hits) -> Reflectances {
         return film_reflectances(band.index, cos_theta, hits.walls_nm, band.wavelength_nm);
     }
     // Of a Gaussian as wide as the box of thicknesses: its variance is w^2 / 12, and contrast falls by exp(-delta^2 / 2).
-    let turns = 2.0 * band.index * cos_refracted(band.index, cos_theta) / band.wavelength_nm * hits.spread_nm;
+    let turns = 2.0 * n_cos_refracted(band.index, cos_theta) / band.wavelength_nm * hits.spread_nm;
     let coherence = exp(-1.645 * turns * turns);
     return damped_reflectances(band.index, cos_theta, hits.walls_nm, band.wavelength_nm, coherence);
 }

@@ -1,5 +1,7 @@
 // Light adds up: the sum of the linear pictures of a scene in two lights.
 
+import package::light::stored::storable;
+
 @group(0) @binding(0) var first: texture_2d<f32>;
 @group(0) @binding(1) var second: texture_2d<f32>;
 
@@ -11,5 +13,5 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 @fragment
 fn add_light(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy);
-    return vec4f(textureLoad(first, pixel, 0).rgb + textureLoad(second, pixel, 0).rgb, 1.0);
+    return vec4f(storable(textureLoad(first, pixel, 0).rgb + textureLoad(second, pixel, 0).rgb), 1.0);
 }

@@ -2,6 +2,7 @@
 
 import package::camera::view::{View, view_ray, pixel_angle};
 import package::light::environment::{Light, backdrop_radiance};
+import package::light::stored::storable;
 import package::light::water::{crossing, upward};
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -18,5 +19,5 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 fn backdrop(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let ray = view_ray(view, position.xy);
     let behind = backdrop_radiance(environment, environment_sampler, light, upward(ray), pixel_angle(view, ray));
-    return vec4f(light.seen * (crossing(1.0, ray.z, ray) * behind), 1.0);
+    return vec4f(storable(light.seen * (crossing(1.0, ray.z, ray) * behind)), 1.0);
 }

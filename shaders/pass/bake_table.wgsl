@@ -2,7 +2,7 @@
 // greatest reflectance at its angle so that half floats and filtering spend their precision where the eye does. Layers: what is seen of
 // white light, or of each primary; of s and p light together, or first of s and then of p.
 
-import package::optics::airy::{cos_refracted, damped_reflectance, film_reflectance, max_reflectance};
+import package::optics::airy::{damped_reflectance, film_reflectance, max_reflectance, n_cos_refracted};
 import package::optics::band::Band;
 import package::optics::table::{FilmPoint, TableAxes, film_of_texel};
 
@@ -39,7 +39,7 @@ const RESOLVED_STEP: f32 = 0.2;
 // (R_s, R_p) of the part of the spectrum that a sample stands for. Fringes that move by much of a turn within it fade to their mean before
 // sums over samples would show them as colours that are not there.
 fn sample_reflectance(sample: Band, film: FilmPoint) -> vec2f {
-    let path_nm = 2.0 * sample.index * film.thickness_nm * cos_refracted(sample.index, film.cos_theta);
+    let path_nm = 2.0 * n_cos_refracted(sample.index, film.cos_theta) * film.thickness_nm;
     let step = TAU * path_nm / sample.wavelength_nm * (sample.width_nm / sample.wavelength_nm);
     if (step <= RESOLVED_STEP) {
         return film_reflectance(sample.index, film.cos_theta, film.thickness_nm, sample.wavelength_nm);

@@ -6,12 +6,14 @@ import package::film::control::{Balance, balanced};
 import package::film::hole::{HOLE_MERIDIANS, Rim, TAU, angle_from, meridian_of, mixed, pierced};
 import package::film::shown::film_at;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
+import package::light::stored::storable;
 import package::light::water::{crossing, past_meniscus, upward};
 import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::band::Band;
 import package::optics::film_colour::{FILTERED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{BANDS, EVERYTHING, FURTHER, Hits, INNER, Walls, band_radiance, resolved};
+import package::sphere::axes::perpendicular;
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::path::{Path, footprint, polarisation_along};
 import package::sphere::silhouette::{Silhouette, silhouette};
@@ -33,7 +35,8 @@ override ON_RING: u32;
 
 // Mirrors `BubbleUniform` in src/gpu/draw.rs.
 struct Bubble {
-    centre_m: vec3f,
+    // From the eye to the centre.
+    to_centre_m: vec3f,
     radius_m: f32,
     // Inner and outer edge of the ring: cos and sin of the angle to the direction of the centre.
     inner: vec2f,
@@ -84,9 +87,8 @@ override SIDES: u32;
 // every pixel belongs to one of them.
 @vertex
 fn ring(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let to_centre = normalize(to_round(bubble.centre_m - view.eye_m));
-    let helper = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(to_centre.x) > 0.7);
-    let right = normalize(cross(to_centre, helper));
+    let to_centre = normalize(to_round(bubble.to_centre_m));
+    let right = perpendicular(to_centre);
     let up = cross(right, to_centre);
     let turn = TAU * f32((index >> 1u) % SIDES) / f32(SIDES);
     let edge = select(bubble.inner, bubble.outer, (index & 1u) == 1u);
@@ -229,13 +231,13 @@ fn followed(path: Path, before: Followed) -> Followed {
 // What a bath leaves of light between the eye and beyond the front wall.
 fn left_before(path: Path) -> f32 {
     let front_z = path.foot.z - path.half_chord * path.round.z;
-    return crossing(view.eye_m.z - bubble.centre_m.z, front_z, path.direction) * past_meniscus(front_z, bubble.radius_m);
+    return crossing(-bubble.to_centre_m.z, front_z, path.direction) * past_meniscus(front_z, bubble.radius_m);
 }
 
 // The ray straight through, which heads for the back wall.
 fn straight_through(path: Path, is_inside: bool) -> Followed {
     let back = path.foot + path.half_chord * path.round;
-    let start_z = select(path.foot.z - path.half_chord * path.round.z, view.eye_m.z - bubble.centre_m.z, is_inside);
+    let start_z = select(path.foot.z - path.half_chord * path.round.z, -bubble.to_centre_m.z, is_inside);
     let left = select(left_before(path), 1.0, is_inside) * crossing(start_z, back.z, path.direction)
         * past_meniscus(back.z, bubble.radius_m);
     let light = crossing(back.z, path.direction.z, path.direction) * backdrop(path.direction, path.pixel);
@@ -347,7 +349,7 @@ fn wall_reflection(path: Path, nm: f32, spread_nm: f32, polarisation: vec2f, ste
 
 // Geometry of a view ray that meets the sphere.
 fn path_along(direction: vec3f, width: f32) -> Path {
-    let eye = to_round(view.eye_m - bubble.centre_m) / bubble.radius_m;
+    let eye = to_round(-bubble.to_centre_m) / bubble.radius_m;
     var round = direction;
     if (STRETCHED == 1u) {
         round = normalize(to_round(direction));
@@ -361,7 +363,8 @@ fn path_along(direction: vec3f, width: f32) -> Path {
         cos_theta = select(0.5 * (front + back), back, eye_is_inside());
     }
     let distance = length(eye);
-    let cos_view = abs(dot(eye, round)) / distance;
+    // At the centre no direction leads there, and what a bubble reflects is as wide as the pixel whichever is taken.
+    let is_central = distance < 1e-6;
     return Path(
         direction,
         round,
@@ -369,27 +372,26 @@ fn path_along(direction: vec3f, width: f32) -> Path {
         half_chord,
         cos_theta,
         width * pixel_angle(view, direction),
-        distance * cos_view / max(cos_theta, 1e-3),
-        length(foot) / distance,
-        normalize(bubble.centre_m - view.eye_m),
+        abs(dot(eye, round)) / max(cos_theta, 1e-3),
+        select(length(foot) / max(distance, 1e-6), 1.0, is_central),
+        select(bubble.to_centre_m / max(length(bubble.to_centre_m), 1e-30), perpendicular(direction), is_central),
         cross(direction, to_round(foot)),
     );
 }
 
 fn eye_is_inside() -> bool {
-    return length(to_round(view.eye_m - bubble.centre_m)) <= bubble.radius_m;
+    return length(to_round(bubble.to_centre_m)) <= bubble.radius_m;
 }
 
 // The outline, which is that of a sphere where the bubble is round.
 fn outline(plane: vec3f, width: f32) -> Silhouette {
     if (STRETCHED == 0u) {
-        return silhouette(view, bubble.centre_m, bubble.radius_m, plane, width);
+        return silhouette(view, bubble.to_centre_m, bubble.radius_m, plane, width);
     }
     var round = view;
-    round.eye_m = to_round(view.eye_m - bubble.centre_m);
     round.right = to_round(view.right);
     round.up = to_round(view.up);
-    let edge = silhouette(round, vec3f(0.0), bubble.radius_m, to_round(plane), width);
+    let edge = silhouette(round, to_round(bubble.to_centre_m), bubble.radius_m, to_round(plane), width);
     return Silhouette(edge.coverage, normalize(from_round(edge.inside)));
 }
 
@@ -426,9 +428,9 @@ fn mean_radiance(position: vec2f, side: u32) -> vec3f {
 @fragment
 fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if (SAMPLES == 1u) {
-        return vec4f(sample_radiance(position.xy, 1.0), 1.0);
+        return vec4f(storable(sample_radiance(position.xy, 1.0)), 1.0);
     }
-    return vec4f(mean_radiance(position.xy, SAMPLES), 1.0);
+    return vec4f(storable(mean_radiance(position.xy, SAMPLES)), 1.0);
 }
 
 // The yardstick of the frame's cost: a plain mirror with one filtered environment lookup.
@@ -438,10 +440,10 @@ fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let edge = outline(plane, 1.0);
     let behind = light.seen * beside(normalize(plane), view.pixel_height);
     if (edge.coverage <= 0.0) {
-        return vec4f(behind, 1.0);
+        return vec4f(storable(behind), 1.0);
     }
     let path = path_along(edge.inside, 1.0);
     let direction = mirrored(path, path.foot - path.half_chord * path.round);
     let shown = light.seen * surroundings(direction, footprint(path, direction, 2.0));
-    return vec4f(mix(behind, shown, edge.coverage), 1.0);
+    return vec4f(storable(mix(behind, shown, edge.coverage)), 1.0);
 }

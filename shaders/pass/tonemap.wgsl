@@ -11,7 +11,7 @@ struct Tonemap {
     // From the display's linear RGB to XYZ relative to its white, and back.
     to_xyz: mat3x3f,
     from_xyz: mat3x3f,
-    // Factor on radiance: 2^exposure_ev.
+    // Factor on radiance, of which the linear picture has taken a part already.
     exposure: f32,
     // Seed of the dither; its amplitude in steps of the 8-bit display, 0 for none.
     dither_seed: u32,

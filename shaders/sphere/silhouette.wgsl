@@ -1,6 +1,7 @@
 // Analytic coverage of a pixel by a sphere's outline, which in perspective is an ellipse.
 
 import package::camera::view::View;
+import package::sphere::axes::perpendicular;
 
 struct Silhouette {
     // Part of the sample's square inside the outline, 0 to 1.
@@ -9,16 +10,15 @@ struct Silhouette {
     inside: vec3f,
 }
 
-// `plane` is the sample's point on the plane one metre before the eye, relative to the eye; `width` its square's side in pixels.
+// `to_centre_m` leads from the eye to the centre; `plane` is the sample's point on the plane one metre before the eye, relative to the eye; `width` its square's side in pixels.
 // The distance to the outline is measured as an angle, asin(R/D) minus the angle to the centre, and divided by how fast that angle
 // changes from pixel to pixel.
-fn silhouette(view: View, centre_m: vec3f, radius_m: f32, plane: vec3f, width: f32) -> Silhouette {
-    let offset = centre_m - view.eye_m;
-    let distance = length(offset);
+fn silhouette(view: View, to_centre_m: vec3f, radius_m: f32, plane: vec3f, width: f32) -> Silhouette {
+    let distance = length(to_centre_m);
     if (distance <= radius_m) {
         return Silhouette(1.0, normalize(plane));
     }
-    let to_centre = offset / distance;
+    let to_centre = to_centre_m / distance;
     let ray = normalize(plane);
     // The part of the ray across the axis to the centre; its length is the sine of the angle between them.
     let across = ray - dot(ray, to_centre) * to_centre;
@@ -30,8 +30,9 @@ fn silhouette(view: View, centre_m: vec3f, radius_m: f32, plane: vec3f, width: f
     if (dot(ray, to_centre) <= 0.0) {
         return Silhouette(0.0, ray);
     }
-    let outward = across / max(sine, 1e-9);
-    // Unit vector along which the ray turns away from the centre, and its rate a pixel along x and y.
+    // Unit vector along which the ray turns away from the centre, and its rate per pixel along x and y. Straight at the centre all directions
+    // lead away from it.
+    let outward = select(across / max(sine, 1e-9), perpendicular(ray), sine < 1e-9);
     let turn = normalize(outward - dot(outward, ray) * ray);
     let rate = vec2f(dot(turn, view.right), dot(turn, view.up)) * view.pixel_height / length(plane);
     let pixel = max(length(rate), 1e-12) * width;

@@ -104,7 +104,7 @@ pub type OpenWindow = fn(LoadedScene, &AdapterChoice) -> anyhow::Result<()>;
 
 /// Runs the program with its arguments, the program's own name first. The window belongs to another layer, so it is handed in.
 pub fn main(arguments: impl IntoIterator<Item = OsString>, open_window: OpenWindow) -> ExitCode {
-    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("off")).init();
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error")).init();
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => return explain(&error),

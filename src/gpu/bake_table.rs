@@ -61,7 +61,11 @@ impl Table {
     pub fn new(gpu: &Gpu, key: &TableKey) -> Self {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("film table"),
-            size: wgpu::Extent3d { width: key.columns, height: key.rows, depth_or_array_layers: key.layers() },
+            size: wgpu::Extent3d {
+                width: key.columns,
+                height: key.rows,
+                depth_or_array_layers: gpu.array_layers(key.layers()),
+            },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,

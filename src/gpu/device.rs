@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicBool, AtomicU64, Ordering},
 };
 
-use super::{pipelines::Pipelines, shaders::ShaderError};
+use super::{abilities::missing_ability, pipelines::Pipelines, shaders::ShaderError};
 
 /// What a user asked for; without a name or backend the best adapter there is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,6 +68,16 @@ pub enum GpuError {
         /// The adapter's name.
         adapter: String,
         /// What the driver said.
+        reason: String,
+    },
+    /// The adapter cannot make pictures in full precision, as EXR files have it.
+    #[error(
+        "adapter {adapter} cannot make pictures in full precision: {reason}; write a .png, or choose another adapter with --adapter or --backend"
+    )]
+    NoFullPrecision {
+        /// The adapter's name.
+        adapter: String,
+        /// What it lacks.
         reason: String,
     },
     /// The device went away while in use.
@@ -146,6 +156,9 @@ impl Gpu {
 
     async fn on_adapter(instance: wgpu::Instance, adapter: wgpu::Adapter) -> Result<Self, GpuError> {
         let info = adapter.get_info();
+        if let Some(reason) = missing_ability(&adapter) {
+            return Err(GpuError::NoDevice { adapter: adapter_name(&info), reason });
+        }
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("soapfilm"),
             required_features: adapter.features() & OPTIONAL_FEATURES,
@@ -155,7 +168,7 @@ impl Gpu {
         let (device, queue) = adapter
             .request_device(&descriptor)
             .await
-            .map_err(|error| GpuError::NoDevice { adapter: info.name.clone(), reason: error.to_string() })?;
+            .map_err(|error| GpuError::NoDevice { adapter: adapter_name(&info), reason: error.to_string() })?;
         let lost = Arc::new(AtomicBool::new(false));
         let failure = Arc::new(Mutex::new(None));
         watch(&device, &lost, &failure);
@@ -166,8 +179,7 @@ impl Gpu {
     /// Name of the adapter, with its backend: what every command prints.
     #[must_use]
     pub fn adapter_name(&self) -> String {
-        let info = self.adapter.get_info();
-        format!("{} ({:?})", info.name, info.backend)
+        adapter_name(&self.adapter.get_info())
     }
 
     /// The driver's name and version.
@@ -183,12 +195,12 @@ impl Gpu {
         self.device.features().contains(wgpu::Features::TIMESTAMP_QUERY)
     }
 
-    /// Fails if the device was lost or refused a command since the last call.
+    /// Fails if the device was lost, or refused a command or a shader, since the last call.
     pub fn check(&self) -> Result<(), GpuError> {
         match self.failure.lock().map(|mut failure| failure.take()) {
             Ok(Some(error)) => Err(error),
             _ if self.is_lost() => Err(GpuError::Lost("make a new one".to_owned())),
-            _ => Ok(()),
+            _ => self.pipelines.late_error().map_or(Ok(()), |error| Err(error.into())),
         }
     }
 
@@ -226,6 +238,14 @@ impl Gpu {
         let bytes: &[u8] = bytemuck::cast_slice(data);
         self.count_upload(bytes.len());
         self.queue.write_buffer(buffer, 0, bytes);
+    }
+
+    /// Layers to make of a texture that is seen as an array of some. wgpu's OpenGL backend tells what a texture is from its size: it takes one
+    /// layer for a plain texture and squares in sixes for a cube map, so that there it gets a layer more.
+    #[must_use]
+    pub fn array_layers(&self, layers: u32) -> u32 {
+        let is_mistaken = layers == 1 || layers.is_multiple_of(6);
+        layers + u32::from(is_mistaken && self.adapter.get_info().backend == wgpu::Backend::Gl)
     }
 
     /// A buffer of a given size and use, filled with zeros.
@@ -285,6 +305,10 @@ impl Gpu {
         self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Lost(error.to_string()))?;
         self.check()
     }
+}
+
+fn adapter_name(info: &wgpu::AdapterInfo) -> String {
+    format!("{} ({:?})", info.name, info.backend)
 }
 
 /// What is used where it exists and done without elsewhere.

@@ -15,7 +15,7 @@ use super::{
     timing::Recorder,
 };
 use crate::{
-    physics::{film::HOLE_MERIDIANS, optics::FilmMaterial, transport::Scheme},
+    physics::{film::HOLE_MERIDIANS, transport::Scheme},
     plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmKey, Lighting},
 };
 
@@ -23,21 +23,18 @@ use crate::{
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct ViewUniform {
-    /// The eye.
-    pub eye_m: [f32; 3],
-    /// Height of a pixel on the plane one metre before the eye.
-    pub pixel_height: f32,
     /// Line of sight.
     pub forward: [f32; 3],
-    /// Picture width in pixels.
-    pub width: f32,
+    /// Height of a pixel on the plane one metre before the eye.
+    pub pixel_height: f32,
     /// Right of the picture.
     pub right: [f32; 3],
-    /// Picture height in pixels.
-    pub height: f32,
+    /// Picture width in pixels.
+    pub width: f32,
     /// Top of the picture.
     pub up: [f32; 3],
-    pad: f32,
+    /// Picture height in pixels.
+    pub height: f32,
 }
 
 /// The light: see `shaders/light/environment.wgsl`.
@@ -52,7 +49,7 @@ pub struct LightUniform {
     pub backdrop: [f32; 3],
     /// 1 where the backdrop is the environment.
     pub backdrop_is_environment: f32,
-    /// Factor that makes daylight's white (1, 1, 1).
+    /// Factor that makes daylight's white (1, 1, 1), exposed as the linear picture is.
     pub scale: [f32; 3],
     /// Cosine of the environment's turn.
     pub turn_cos: f32,
@@ -60,7 +57,7 @@ pub struct LightUniform {
     pub polariser: [f32; 3],
     /// Sine of the environment's turn.
     pub turn_sin: f32,
-    /// From light to what is seen of it: columns of a matrix, the fourth number of each is padding.
+    /// From light to what is seen of it, exposed as the linear picture is: columns of a matrix, the fourth number of each is padding.
     pub seen: [[f32; 4]; 3],
 }
 
@@ -68,8 +65,8 @@ pub struct LightUniform {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct BubbleUniform {
-    /// Centre.
-    pub centre_m: [f32; 3],
+    /// From the eye to the centre: the difference of two places in f64, so that a scene looks the same wherever it stands.
+    pub to_centre_m: [f32; 3],
     /// Radius.
     pub radius_m: f32,
     /// Inner edge of the ring: cos and sin of the angle to the direction of the centre.
@@ -144,7 +141,7 @@ impl DrawPass {
     /// Makes ready what a key asks for in one of its lights.
     pub fn new(gpu: &Gpu, key: &DrawKey, lighting: &Lighting, inputs: &DrawInputs<'_>) -> Result<Self, GpuError> {
         let view = gpu.uniform("view", &view_uniform(key));
-        let light = gpu.uniform("light", &light_uniform(lighting));
+        let light = gpu.uniform("light", &light_uniform(lighting, key.exposed_ev));
         let shared = [
             view.as_entire_binding(),
             light.as_entire_binding(),
@@ -156,7 +153,7 @@ impl DrawPass {
             vertex: "cover",
             fragment: "backdrop",
             format: radiance_format(key.full_precision),
-            constants: vec![("ON_BATH", u32::from(key.on_bath))],
+            constants: vec![("ON_BATH", u32::from(key.on_bath)), ("FULL_PRECISION", u32::from(key.full_precision))],
         };
         let pipeline = gpu.pipelines.render(gpu, &backdrop_key)?;
         let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &shared);
@@ -171,7 +168,7 @@ impl DrawPass {
             let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
             for ring in bubble_rings(key, bubble) {
                 let pipeline = gpu.pipelines.render(gpu, &ring_pipeline(key, lighting, bubble, &ring, bands))?;
-                let uniform = bubble_uniform(&lighting.bands.optics.film, bubble, &ring, &film);
+                let uniform = bubble_uniform(key, lighting, bubble, &ring, &film);
                 let uniform = gpu.uniform("bubble", &uniform);
                 let own = [
                     uniform.as_entire_binding(),
@@ -241,7 +238,22 @@ pub fn radiance_format(full_precision: bool) -> wgpu::TextureFormat {
 }
 
 fn bubble_rings(key: &DrawKey, bubble: &BubbleKey) -> Vec<Ring> {
-    if key.yardstick { vec![disc(&key.camera, bubble)] } else { rings(&key.camera, bubble, key.lighting.bands.quality) }
+    let bands = &key.lighting.bands;
+    match key.yardstick {
+        true => vec![disc(&key.camera, bubble)],
+        false => rings(&key.camera, bubble, bands.quality, &bands.optics.film),
+    }
+}
+
+/// Iterations that the loops of one fragment may take in all: llvmpipe ends them after 65,535, without a word.
+const MAX_ITERATIONS: u32 = 60_000;
+
+/// Iterations of a sample's loops beside that over the bands: further hits and lookups of the film.
+const ITERATIONS_BESIDE_BANDS: u32 = 64;
+
+/// Samples along each side of a pixel for which a fragment's loops run to their end.
+fn max_samples(bands: &Bands) -> u32 {
+    (MAX_ITERATIONS / (bands.count + ITERATIONS_BESIDE_BANDS)).isqrt()
 }
 
 fn ring_pipeline(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey, ring: &Ring, bands: &Bands) -> RenderKey {
@@ -256,11 +268,12 @@ fn ring_pipeline(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey, ring: &
             ("SIDES", SIDES),
             ("UNIFORM_FILM", u32::from(uniform)),
             ("MAGNIFIED", u32::from(bubble.magnified)),
-            ("SAMPLES", ring.samples),
+            ("SAMPLES", ring.samples.min(max_samples(bands))),
             ("OUTLINE", u32::from(ring.outline)),
             ("FILTERED", u32::from(bubble.filtered)),
             ("STRETCHED", u32::from(bubble.stretch != DMat3::IDENTITY)),
             ("BURST", u32::from(bubble.hole.is_some())),
+            ("FULL_PRECISION", u32::from(key.full_precision)),
             ("ON_BATH", u32::from(key.on_bath)),
             ("ON_RING", u32::from(bubble.cap.is_some() && !key.on_bath)),
             ("HOLE_MERIDIANS", HOLE_MERIDIANS as u32),
@@ -288,19 +301,18 @@ fn floats(vector: DVec3) -> [f32; 3] {
 fn view_uniform(key: &DrawKey) -> ViewUniform {
     let camera = &key.camera;
     ViewUniform {
-        eye_m: floats(camera.eye_m),
-        pixel_height: camera.pixel_height_m as f32,
         forward: floats(camera.forward),
-        width: key.size[0] as f32,
+        pixel_height: camera.pixel_height_m as f32,
         right: floats(camera.right),
-        height: key.size[1] as f32,
+        width: key.size[0] as f32,
         up: floats(camera.up),
-        pad: 0.0,
+        height: key.size[1] as f32,
     }
 }
 
-fn light_uniform(lighting: &Lighting) -> LightUniform {
+fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUniform {
     let light = &lighting.light;
+    let exposure = f64::from(exposed_ev).exp2();
     let (backdrop, is_environment) = match light.backdrop {
         BackdropKey::Environment => (DVec3::ZERO, 1.0),
         BackdropKey::Colour(colour) => (colour, 0.0),
@@ -310,15 +322,22 @@ fn light_uniform(lighting: &Lighting) -> LightUniform {
         texel_angle: texel_angle(lighting.environment.size()),
         backdrop: floats(backdrop),
         backdrop_is_environment: is_environment,
-        scale: floats(light.scale),
+        scale: floats(exposure * light.scale),
         turn_cos: light.rotation_rad.cos() as f32,
         polariser: floats(light.polariser.unwrap_or(DVec3::ZERO)),
         turn_sin: light.rotation_rad.sin() as f32,
-        seen: matrix(light.seen),
+        seen: matrix(exposure * light.seen),
     }
 }
 
-fn bubble_uniform(film: &FilmMaterial, bubble: &BubbleKey, ring: &Ring, shown: &Shown<'_>) -> BubbleUniform {
+fn bubble_uniform(
+    key: &DrawKey,
+    lighting: &Lighting,
+    bubble: &BubbleKey,
+    ring: &Ring,
+    shown: &Shown<'_>,
+) -> BubbleUniform {
+    let film = &lighting.bands.optics.film;
     let [inner, outer] = ring.corners();
     let (thickness_nm, cells) = match &bubble.film {
         FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0),
@@ -326,7 +345,7 @@ fn bubble_uniform(film: &FilmMaterial, bubble: &BubbleKey, ring: &Ring, shown: &
     };
     let column = |axis: DVec3| (bubble.to_film * axis).extend(0.0).as_vec4().to_array();
     BubbleUniform {
-        centre_m: floats(bubble.centre_m),
+        to_centre_m: floats(bubble.centre_m - key.camera.eye_m),
         radius_m: bubble.radius_m as f32,
         inner,
         outer,

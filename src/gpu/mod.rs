@@ -2,6 +2,7 @@
 //!
 //! Nothing here decides whether a pass runs: a pass is recorded from its key alone, and the plan says which.
 
+mod abilities;
 pub mod add_light;
 pub mod bake_table;
 pub mod bands;
@@ -21,6 +22,7 @@ pub mod flow;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod flow_case;
 pub mod flow_halo;
+mod late_errors;
 pub mod open_hole;
 pub mod pipelines;
 #[cfg(not(target_arch = "wasm32"))]

@@ -10,6 +10,7 @@ use std::{
 
 use super::{
     Gpu, GpuError,
+    late_errors::LateErrors,
     shaders::{Composed, Library, ShaderError},
 };
 use crate::physics::sphere::HALO;
@@ -47,6 +48,7 @@ pub struct RenderKey {
 pub struct Pipelines {
     library: Mutex<Library>,
     made: Mutex<Made>,
+    late: LateErrors,
     count: AtomicU32,
 }
 
@@ -58,7 +60,12 @@ struct Made {
 
 impl Pipelines {
     pub(super) fn new() -> Self {
-        Self { library: Mutex::default(), made: Mutex::default(), count: AtomicU32::new(0) }
+        Self {
+            library: Mutex::default(),
+            made: Mutex::default(),
+            late: LateErrors::default(),
+            count: AtomicU32::new(0),
+        }
     }
 
     /// How many pipelines were made so far.
@@ -67,12 +74,17 @@ impl Pipelines {
         self.count.load(Ordering::Relaxed)
     }
 
+    /// What a compiler has said of a shader since the pipeline was made, as in browsers.
+    pub fn late_error(&self) -> Option<ShaderError> {
+        self.late.take()
+    }
+
     /// The compute pipeline of a key, made now if need be.
     pub fn compute(&self, gpu: &Gpu, key: &ComputeKey) -> Result<wgpu::ComputePipeline, GpuError> {
         if let Some(pipeline) = self.made().compute.get(key) {
             return Ok(pipeline.clone());
         }
-        let pipeline = make_compute(gpu, &self.library(), key)?;
+        let pipeline = make_compute(gpu, (&self.library(), &self.late), key)?;
         self.count.fetch_add(1, Ordering::Relaxed);
         self.made().compute.insert(key.clone(), pipeline.clone());
         Ok(pipeline)
@@ -83,7 +95,7 @@ impl Pipelines {
         if let Some(pipeline) = self.made().render.get(key) {
             return Ok(pipeline.clone());
         }
-        let pipeline = make_render(gpu, &self.library(), key)?;
+        let pipeline = make_render(gpu, (&self.library(), &self.late), key)?;
         self.count.fetch_add(1, Ordering::Relaxed);
         self.made().render.insert(key.clone(), pipeline.clone());
         Ok(pipeline)
@@ -93,10 +105,10 @@ impl Pipelines {
     pub fn reload(&self, gpu: &Gpu, library: Library) -> Result<(), GpuError> {
         let mut fresh = Made::default();
         for key in self.made().compute.keys() {
-            fresh.compute.insert(key.clone(), make_compute(gpu, &library, key)?);
+            fresh.compute.insert(key.clone(), make_compute(gpu, (&library, &self.late), key)?);
         }
         for key in self.made().render.keys() {
-            fresh.render.insert(key.clone(), make_render(gpu, &library, key)?);
+            fresh.render.insert(key.clone(), make_render(gpu, (&library, &self.late), key)?);
         }
         self.count.fetch_add((fresh.compute.len() + fresh.render.len()) as u32, Ordering::Relaxed);
         *self.made() = fresh;
@@ -114,8 +126,12 @@ impl Pipelines {
     }
 }
 
-fn make_compute(gpu: &Gpu, library: &Library, key: &ComputeKey) -> Result<wgpu::ComputePipeline, GpuError> {
-    make(gpu, library, key.pass, &key.constants, |module, compilation_options| {
+fn make_compute(
+    gpu: &Gpu,
+    source: (&Library, &LateErrors),
+    key: &ComputeKey,
+) -> Result<wgpu::ComputePipeline, GpuError> {
+    make(gpu, source, key.pass, &key.constants, |module, compilation_options| {
         gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(key.entry),
             layout: None,
@@ -127,8 +143,8 @@ fn make_compute(gpu: &Gpu, library: &Library, key: &ComputeKey) -> Result<wgpu::
     })
 }
 
-fn make_render(gpu: &Gpu, library: &Library, key: &RenderKey) -> Result<wgpu::RenderPipeline, GpuError> {
-    make(gpu, library, key.pass, &key.constants, |module, compilation_options| {
+fn make_render(gpu: &Gpu, source: (&Library, &LateErrors), key: &RenderKey) -> Result<wgpu::RenderPipeline, GpuError> {
+    make(gpu, source, key.pass, &key.constants, |module, compilation_options| {
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(key.fragment),
             layout: None,
@@ -153,10 +169,11 @@ fn make_render(gpu: &Gpu, library: &Library, key: &RenderKey) -> Result<wgpu::Re
     })
 }
 
-/// Composes a pass and builds a pipeline of it; what the compiler or the driver refuses comes back as an error.
+/// Composes a pass and builds a pipeline of it. What the compiler or the driver refuses comes back as an error, here or later from
+/// [`Pipelines::late_error`].
 fn make<P>(
     gpu: &Gpu,
-    library: &Library,
+    (library, late): (&Library, &LateErrors),
     pass: &'static str,
     constants: &[(&'static str, u32)],
     build: impl FnOnce(&wgpu::ShaderModule, wgpu::PipelineCompilationOptions<'_>) -> P,
@@ -172,15 +189,25 @@ fn make<P>(
     let constants: Vec<(&str, f64)> =
         constants.iter().chain(shared).map(|(name, value)| (*name, f64::from(*value))).collect();
     let pipeline = build(&module, wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() });
-    match ready(scope.pop()).flatten() {
-        Some(error) => Err(shader_error(pass, &composed, &module, &error).into()),
+    let errors = scope.pop();
+    let answer = async move {
+        let error = errors.await?;
+        let messages = module.get_compilation_info().await.messages;
+        Some(shader_error(pass, &composed, messages, &error))
+    };
+    match late.ask(Box::pin(answer)) {
+        Some(error) => Err(error.into()),
         None => Ok(pipeline),
     }
 }
 
 /// The first thing the compiler said, with the file and line it means.
-fn shader_error(pass: &str, composed: &Composed, module: &wgpu::ShaderModule, error: &wgpu::Error) -> ShaderError {
-    let messages = ready(module.get_compilation_info()).map(|info| info.messages).unwrap_or_default();
+fn shader_error(
+    pass: &str,
+    composed: &Composed,
+    messages: Vec<wgpu::CompilationMessage>,
+    error: &wgpu::Error,
+) -> ShaderError {
     let told = messages.into_iter().find_map(|message| {
         let line = message.location?.line_number as usize;
         Some(ShaderError { place: composed.place(line), message: one_line(&message.message) })
@@ -190,13 +217,4 @@ fn shader_error(pass: &str, composed: &Composed, module: &wgpu::ShaderModule, er
 
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// The value of a future that is ready at once, as error scopes and compilation messages are outside browsers.
-fn ready<T>(future: impl Future<Output = T>) -> Option<T> {
-    let mut context = std::task::Context::from_waker(std::task::Waker::noop());
-    match std::pin::pin!(future).poll(&mut context) {
-        std::task::Poll::Ready(value) => Some(value),
-        std::task::Poll::Pending => None,
-    }
 }

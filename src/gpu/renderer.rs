@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::{
     Gpu, GpuError,
+    abilities::missing_for_measurement,
     add_light::add_light,
     bake_table::Table,
     bands::Bands,
@@ -45,6 +46,22 @@ struct LightProducts {
     baking: Option<Table>,
     bands: Option<Bands>,
     environment: Option<Environment>,
+}
+
+impl Products {
+    /// Drops what the books no longer know.
+    fn keep(&mut self, have: &Have) {
+        self.lights.truncate(have.lights.len());
+        if have.lights.len() <= 1 {
+            (self.lamp, self.sum) = (None, None);
+        }
+        self.films.truncate(have.fields.len());
+        let films = self.films.iter_mut().zip(&have.fields);
+        films.filter(|(_, have)| have.is_none()).for_each(|(film, _)| *film = None);
+        self.holes.truncate(have.holes.len());
+        let holes = self.holes.iter_mut().zip(&have.holes);
+        holes.filter(|(_, have)| have.is_none()).for_each(|(hole, _)| *hole = None);
+    }
 }
 
 /// A picture on the device.
@@ -127,6 +144,7 @@ impl Renderer {
         let result = plan.steps.iter().try_for_each(|(pass, _)| self.run(pass)).and_then(|()| self.gpu.check());
         // After a failure nobody knows what is there: everything is made anew.
         self.have = if result.is_ok() { plan.after.clone() } else { Have::default() };
+        self.products.keep(&self.have);
         for (have, film) in self.have.fields.iter_mut().zip(&self.products.films) {
             if let (Some(have), Some(film)) = (have, film) {
                 have.rest = film.rest();
@@ -298,6 +316,11 @@ impl Renderer {
 
     /// The picture in the scene's own light, and that in each lamp's added to it.
     fn draw(&mut self, key: &DrawKey) -> Result<(), GpuError> {
+        if key.full_precision
+            && let Some(reason) = missing_for_measurement(&self.gpu.adapter)
+        {
+            return Err(GpuError::NoFullPrecision { adapter: self.gpu.adapter_name(), reason });
+        }
         let format = radiance_format(key.full_precision);
         let mut radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
         self.draw_light(key, 0, &radiance)?;
@@ -306,7 +329,7 @@ impl Renderer {
                 .map(|slot| Target::fit(slot, &self.gpu, "lamp", key.size, format));
             self.draw_light(key, light, &lamp)?;
             let mut recorder = Recorder::new(&self.gpu);
-            add_light(&mut recorder, format, [&radiance.view, &lamp.view], &sum.view)?;
+            add_light(&mut recorder, key.full_precision, [&radiance.view, &lamp.view], &sum.view)?;
             Self::submit(&self.times, &mut self.counts, recorder);
             self.products.lamp = Some(lamp);
             self.products.sum = Some(std::mem::replace(&mut radiance, sum));

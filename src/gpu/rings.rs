@@ -2,7 +2,10 @@
 //! faster than pixels do: rings there follow more reflections and take more samples, and the middle does not pay for it.
 
 use crate::{
-    physics::bubble::reach,
+    physics::{
+        bubble::reach,
+        optics::{FilmMaterial, max_reflectance},
+    },
     plan::{BubbleKey, CameraKey},
     scene::Quality,
 };
@@ -23,6 +26,11 @@ pub struct Ring {
     pub outline: bool,
 }
 
+/// Index of water, of which the numbers below were measured.
+const WATER_INDEX: f64 = 1.333;
+/// A film that reflects as much at every angle as water does at this cosine of incidence is a mirror that keeps light for long: from index 2.
+const MIRROR_COS: f64 = 0.35;
+
 /// How much a quality takes care of what is near the outline.
 struct Care {
     /// Cosine of incidence below which more inner reflections are followed than three.
@@ -41,7 +49,20 @@ const RIM_PIXELS: f64 = 3.0;
 const MARGIN_PIXELS: f64 = 1.0;
 
 impl Care {
-    fn of(quality: Quality) -> Self {
+    /// Denser films mirror more at every angle: what water leaves near the outline, they leave further inside.
+    fn of(quality: Quality, film: &FilmMaterial) -> Self {
+        let care = Self::of_water(quality);
+        if film.max_reflectance(1.0) >= max_reflectance(WATER_INDEX, MIRROR_COS) {
+            let reflections = if quality == Quality::Fast { 7 } else { 11 };
+            return Self { deep_cos: 1.0, deep_reflections: reflections, rim_reflections: reflections, ..care };
+        }
+        let enough = max_reflectance(WATER_INDEX, care.deep_cos);
+        let cosines = (0..=100).map(|k| 0.01 * f64::from(k));
+        let deep_cos = cosines.filter(|cos| film.max_reflectance(*cos) >= enough).fold(care.deep_cos, f64::max);
+        Self { deep_cos, ..care }
+    }
+
+    fn of_water(quality: Quality) -> Self {
         match quality {
             Quality::Fast => Self { deep_cos: 0.0, deep_reflections: 3, rim_reflections: 3, rim_samples: 2 },
             Quality::Standard => Self { deep_cos: 0.35, deep_reflections: 7, rim_reflections: 7, rim_samples: 2 },
@@ -82,8 +103,8 @@ fn pixel_rad(camera: &CameraKey, bubble: &BubbleKey) -> f64 {
 
 /// The rings of a bubble, from the middle outwards.
 #[must_use]
-pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality) -> Vec<Ring> {
-    let care = Care::of(quality);
+pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality, film: &FilmMaterial) -> Vec<Ring> {
+    let care = Care::of(quality, film);
     let deep_sin = (1.0 - care.deep_cos * care.deep_cos).sqrt();
     let Some(limb_rad) = limb_rad(camera, bubble) else {
         let is_deep = eye_radii(camera, bubble) > deep_sin;
@@ -110,4 +131,22 @@ pub fn disc(camera: &CameraKey, bubble: &BubbleKey) -> Ring {
     let Some(limb_rad) = limb_rad(camera, bubble) else { return Ring::everywhere(3, 1) };
     let edges_rad = Some([0.0, limb_rad + MARGIN_PIXELS * pixel_rad(camera, bubble)]);
     Ring { edges_rad, outline: true, ..Ring::everywhere(3, 1) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::optics::FilmIndex;
+
+    #[test]
+    fn denser_films_are_followed_for_longer_at_more_angles() {
+        let care = |quality, index| Care::of(quality, &FilmMaterial::from(FilmIndex::Constant(index)));
+        for quality in [Quality::Fast, Quality::Standard, Quality::Spectral] {
+            let water = Care::of(quality, &FilmMaterial::default());
+            assert_eq!(water.deep_cos, Care::of_water(quality).deep_cos);
+            let deep_cos = [1.0, 1.333, 1.6, 1.9, 2.4, 4.0].map(|index| care(quality, index).deep_cos);
+            assert!(deep_cos.is_sorted(), "{deep_cos:?}");
+            assert!(care(quality, 4.0).deep_reflections > water.deep_reflections);
+        }
+    }
 }

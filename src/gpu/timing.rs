@@ -4,8 +4,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::{Gpu, GpuError, pipelines::ComputeKey};
 
-/// Passes that one submission can time; later ones run untimed.
-const SLOTS: u32 = 64;
+/// Passes that one query set can time; a submission takes as many sets as it needs.
+const PASSES_PER_SET: usize = 64;
 
 /// GPU time of one pass.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +53,7 @@ pub struct Recorder<'g> {
     /// Counts so far.
     pub counts: Counts,
     encoder: wgpu::CommandEncoder,
-    queries: Option<wgpu::QuerySet>,
+    queries: Vec<wgpu::QuerySet>,
     names: Vec<&'static str>,
 }
 
@@ -61,22 +61,32 @@ impl<'g> Recorder<'g> {
     /// An empty submission.
     #[must_use]
     pub fn new(gpu: &'g Gpu) -> Self {
-        let queries = gpu.can_time().then(|| {
-            gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: Some("pass times"),
-                ty: wgpu::QueryType::Timestamp,
-                count: 2 * SLOTS,
-            })
-        });
         let encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("soapfilm") });
-        Self { gpu, counts: Counts { submissions: 1, ..Counts::default() }, encoder, queries, names: Vec::new() }
+        Self {
+            gpu,
+            counts: Counts { submissions: 1, ..Counts::default() },
+            encoder,
+            queries: Vec::new(),
+            names: Vec::new(),
+        }
     }
 
-    /// Indices of the next pass's two timestamps, or nothing if all are taken.
-    fn slot(&mut self, name: &'static str) -> Option<u32> {
-        let slot = self.names.len() as u32;
+    /// Where the next pass writes when it begins and ends, if the adapter can tell.
+    fn next_timestamps(&mut self, name: &'static str) -> Option<(wgpu::QuerySet, u32)> {
+        let place = self.names.len();
         self.names.push(name);
-        (slot < SLOTS).then_some(2 * slot)
+        if !self.gpu.can_time() {
+            return None;
+        }
+        if place.is_multiple_of(PASSES_PER_SET) {
+            self.queries.push(self.gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("pass times"),
+                ty: wgpu::QueryType::Timestamp,
+                count: 2 * PASSES_PER_SET as u32,
+            }));
+        }
+        let set = self.queries.last()?.clone();
+        Some((set, 2 * (place % PASSES_PER_SET) as u32))
     }
 
     /// One dispatch of a compute pass whose resources are bound from 0 on.
@@ -114,13 +124,12 @@ impl<'g> Recorder<'g> {
         bindings: &wgpu::BindGroup,
         groups: impl Into<Groups<'a>>,
     ) {
-        let slot = self.slot(name);
-        let timestamp_writes =
-            self.queries.as_ref().zip(slot).map(|(query_set, slot)| wgpu::ComputePassTimestampWrites {
-                query_set,
-                beginning_of_pass_write_index: Some(slot),
-                end_of_pass_write_index: Some(slot + 1),
-            });
+        let timestamps = self.next_timestamps(name);
+        let timestamp_writes = timestamps.as_ref().map(|(query_set, first)| wgpu::ComputePassTimestampWrites {
+            query_set,
+            beginning_of_pass_write_index: Some(*first),
+            end_of_pass_write_index: Some(*first + 1),
+        });
         let mut pass =
             self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes });
         pass.set_pipeline(pipeline);
@@ -139,13 +148,12 @@ impl<'g> Recorder<'g> {
         target: &wgpu::TextureView,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) {
-        let slot = self.slot(name);
-        let timestamp_writes =
-            self.queries.as_ref().zip(slot).map(|(query_set, slot)| wgpu::RenderPassTimestampWrites {
-                query_set,
-                beginning_of_pass_write_index: Some(slot),
-                end_of_pass_write_index: Some(slot + 1),
-            });
+        let timestamps = self.next_timestamps(name);
+        let timestamp_writes = timestamps.as_ref().map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
+            query_set,
+            beginning_of_pass_write_index: Some(*first),
+            end_of_pass_write_index: Some(*first + 1),
+        });
         let attachment = wgpu::RenderPassColorAttachment {
             view: target,
             depth_slice: None,
@@ -166,19 +174,25 @@ impl<'g> Recorder<'g> {
         &mut self.encoder
     }
 
+    /// Records that all timestamps come into a buffer: two numbers per pass.
+    fn resolve_timestamps(&mut self) -> wgpu::Buffer {
+        let size = 16 * self.names.len() as u64;
+        let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
+        let resolved = self.gpu.buffer("resolved pass times", size, usage);
+        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
+        let readable = self.gpu.buffer("pass times", size, usage);
+        for (number, queries) in self.queries.iter().enumerate() {
+            let first = number * PASSES_PER_SET;
+            let passes = (self.names.len() - first).min(PASSES_PER_SET);
+            self.encoder.resolve_query_set(queries, 0..2 * passes as u32, &resolved, 16 * first as u64);
+        }
+        self.encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, size);
+        readable
+    }
+
     /// Submits what was recorded. Times arrive in `times` once the device has done it and was polled.
     pub fn submit(mut self, times: &TimeLog) -> Counts {
-        let slots = 2 * (self.names.len() as u32).min(SLOTS);
-        let readable = self.queries.as_ref().filter(|_| slots > 0).map(|queries| {
-            let size = u64::from(slots) * 8;
-            let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
-            let resolved = self.gpu.buffer("resolved pass times", size, usage);
-            let readable =
-                self.gpu.buffer("pass times", size, wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
-            self.encoder.resolve_query_set(queries, 0..slots, &resolved, 0);
-            self.encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, size);
-            readable
-        });
+        let readable = (!self.queries.is_empty()).then(|| self.resolve_timestamps());
         self.gpu.queue.submit([self.encoder.finish()]);
         match readable {
             Some(readable) => times.expect(&readable, self.names, self.gpu.queue.get_timestamp_period()),

@@ -20,7 +20,7 @@ pub struct TonemapUniform {
     pub to_xyz: [[f32; 4]; 3],
     /// And back.
     pub from_xyz: [[f32; 4]; 3],
-    /// Factor on radiance.
+    /// Factor on radiance beside that of the linear picture.
     pub exposure: f32,
     /// Seed of the dither.
     pub dither_seed: u32,
@@ -37,7 +37,7 @@ impl TonemapUniform {
             to_display: matrix(key.gamut.from_bt2020()),
             to_xyz: matrix(to_xyz),
             from_xyz: matrix(to_xyz.inverse()),
-            exposure: key.exposure_ev.exp2() as f32,
+            exposure: (key.exposure_ev - f64::from(key.draw.exposed_ev)).exp2() as f32,
             dither_seed: key.dither.unwrap_or(0),
             dither_steps: if key.dither.is_some() { 1.0 } else { 0.0 },
             pad: 0.0,

@@ -4,10 +4,38 @@ use std::ops::Range;
 
 use super::{FieldHave, FieldKey, Moment, Pace, Pass, Planner, Reason};
 
-/// Cells stepped a frame while a window waits for a film to catch up.
-const CELLS_A_FRAME: u64 = 800_000;
+/// Cells of all films together that are stepped per frame while a window waits for films to catch up.
+const CELLS_PER_FRAME: u64 = 800_000;
+
+/// What is left of a frame's cells.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepBudget {
+    cells: u64,
+}
+
+impl StepBudget {
+    /// That of a whole frame; none for a file, for which all is done at once.
+    pub fn of(pace: Pace) -> Option<Self> {
+        (pace == Pace::Frame).then_some(Self { cells: CELLS_PER_FRAME })
+    }
+
+    /// Steps that a film of some cells may take. The first one may always take one: each frame gets on.
+    fn max_steps(self, cells: u64) -> usize {
+        let is_first = self.cells == CELLS_PER_FRAME;
+        (self.cells / cells).max(is_first.into()) as usize
+    }
+
+    fn spend(&mut self, cells: u64) {
+        self.cells = self.cells.saturating_sub(cells);
+    }
+}
 
 impl Planner {
+    /// The tick that a film has reached. The film that is furthest behind goes first, so that none waits for ever.
+    pub(super) fn reached_tick(&self, film: usize) -> u64 {
+        self.after.fields.get(film).and_then(Option::as_ref).map_or(0, |have| have.state.moment.tick)
+    }
+
     /// Plans a film's field and returns the key of what will be shown.
     pub(super) fn field(&mut self, film: usize, wanted: &FieldKey) -> FieldKey {
         if self.after.fields.len() <= film {
@@ -54,10 +82,8 @@ impl Planner {
     /// Plans a film's steps, with checkpoints on the way for a window, and returns the tick at which they end.
     fn step(&mut self, film: usize, wanted: &FieldKey, have: &mut FieldHave) -> u64 {
         let first = have.state.moment.tick;
-        let most = match self.pace {
-            Pace::Frame => (CELLS_A_FRAME / wanted.cell_count()).max(1) as usize,
-            Pace::Whole => usize::MAX,
-        };
+        let cells = wanted.cell_count();
+        let max_steps = self.budget.map_or(usize::MAX, |budget| budget.max_steps(cells));
         let mut steps = wanted.steps_from(first).peekable();
         let mut start = first;
         if let Some(rest) = have.rest {
@@ -67,8 +93,10 @@ impl Planner {
             have.rest = have.rest.filter(|_| steps.peek().is_none());
         }
         let mut end = start;
-        for step in steps.take(most) {
+        for step in steps.take(max_steps) {
             end = step.end;
+            self.budget.iter_mut().for_each(|budget| budget.spend(cells));
+            // Only in windows people go back in time.
             if self.pace == Pace::Whole {
                 continue;
             }

@@ -64,6 +64,11 @@ pub(super) fn initial_film(bubble: &Bubble, generation: u32) -> InitialFilm {
     }
 }
 
+/// Whether the film of a bubble can move: one of a single thickness looks the same however it flows.
+pub(super) fn has_field(bubble: &Bubble) -> bool {
+    !matches!(initial_film(bubble, 0), InitialFilm::Uniform { .. })
+}
+
 /// Where the film of a bubble ends, if anything lies beyond.
 pub(super) fn cap(bubble: &Bubble) -> Option<Cap> {
     match bubble.boundary {

@@ -18,11 +18,12 @@ use std::{fmt, ops::Range};
 
 pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
+use fields::StepBudget;
 pub use films::{centre_path, film_key, film_turn};
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmEnd, FilmKey,
     FlowLaw, FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, RestingFilm,
-    TableKey, TonemapKey, left_nm, range_nm,
+    TableKey, TonemapKey, exposed_ev, left_nm, range_nm,
 };
 pub use want::{Lamp, Resources, Shot, WantError, want};
 
@@ -41,6 +42,8 @@ pub enum Pace {
 pub struct Want {
     /// The finished picture; the keys of everything before it are inside.
     pub picture: TonemapKey,
+    /// For each bubble of the scene, in sight or not, whether its film can move: fields of no other films are kept.
+    pub has_field: Vec<bool>,
     /// How much may be done at once.
     pub pace: Pace,
 }
@@ -267,7 +270,14 @@ const COARSE: u32 = 16;
 /// The passes that lead from what is there to what is wanted.
 #[must_use]
 pub fn plan(want: &Want, have: &Have) -> Plan {
-    let mut planner = Planner { steps: Vec::new(), after: have.clone(), pace: want.pace, complete: true };
+    let mut planner = Planner {
+        steps: Vec::new(),
+        after: have.clone(),
+        pace: want.pace,
+        budget: StepBudget::of(want.pace),
+        complete: true,
+    };
+    planner.drop_unneeded(want);
     let mut picture = want.picture.clone();
     let draw = &mut picture.draw;
     let (has_bubbles, needs_environment) = (!draw.bubbles.is_empty(), draw.needs_environment());
@@ -281,7 +291,9 @@ pub fn plan(want: &Want, have: &Have) -> Plan {
             planner.environment(light, &lighting.environment);
         }
     }
-    for index in 0..draw.bubbles.len() {
+    let mut order: Vec<usize> = (0..draw.bubbles.len()).collect();
+    order.sort_by_key(|index| planner.reached_tick(draw.bubbles[*index].index));
+    for index in order {
         if let FilmKey::Field(field) = &mut draw.bubbles[index].film {
             *field = planner.field(want.picture.draw.bubbles[index].index, field);
         }
@@ -297,10 +309,25 @@ struct Planner {
     steps: Vec<(Pass, Reason)>,
     after: Have,
     pace: Pace,
+    budget: Option<StepBudget>,
     complete: bool,
 }
 
 impl Planner {
+    /// Forgets what no picture of the scene can need: lights, films and holes of other scenes. A film out of sight stays, for its past is long.
+    fn drop_unneeded(&mut self, want: &Want) {
+        let draw = &want.picture.draw;
+        self.after.lights.truncate(1 + draw.lamps.len());
+        self.after.fields.truncate(want.has_field.len());
+        for (field, _) in self.after.fields.iter_mut().zip(&want.has_field).filter(|(_, has_field)| !**has_field) {
+            *field = None;
+        }
+        for (film, hole) in self.after.holes.iter_mut().enumerate() {
+            *hole =
+                hole.take().filter(|_| draw.bubbles.iter().any(|bubble| bubble.index == film && bubble.hole.is_some()));
+        }
+    }
+
     fn push(&mut self, pass: Pass, reason: Reason) {
         self.steps.push((pass, reason));
     }

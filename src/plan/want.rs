@@ -6,8 +6,8 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, LightKey, Lighting, Moment,
-    OpticsKey, Pace, TableKey, TonemapKey, Want,
-    films::{cap, centre_path, evaporation, film, film_turn, fold_seed, shape},
+    OpticsKey, Pace, TableKey, TonemapKey, Want, exposed_ev,
+    films::{cap, centre_path, evaporation, film, film_turn, fold_seed, has_field, shape},
     keys::evaporated_nm,
     lives::{life, since},
     range_nm,
@@ -100,6 +100,7 @@ pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, W
     let draw = DrawKey {
         size: shot.size,
         full_precision: shot.full_precision,
+        exposed_ev: if shot.full_precision { 0 } else { exposed_ev(scene.view.exposure_ev) },
         yardstick: shot.yardstick,
         camera,
         lighting: lighting(&own, light),
@@ -111,7 +112,8 @@ pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, W
     let balances = scene.view.white_balance && !resources.illuminant.is_monochromatic();
     let balance = if balances { white_balance(&resources.illuminant) } else { DMat3::IDENTITY };
     let exposure_ev = scene.view.exposure_ev;
-    Ok(Want { picture: TonemapKey { draw, exposure_ev, balance, gamut: shot.gamut, dither }, pace: shot.pace })
+    let picture = TonemapKey { draw, exposure_ev, balance, gamut: shot.gamut, dither };
+    Ok(Want { picture, has_field: scene.bubbles.iter().map(has_field).collect(), pace: shot.pace })
 }
 
 fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {

@@ -57,12 +57,12 @@ macro_rules! mirror {
 /// What pictures and their colours are made from.
 fn picture_mirrors() -> Vec<Mirror> {
     vec![
-        mirror! { View = ViewUniform { eye_m, pixel_height, forward, width, right, height, up } },
+        mirror! { View = ViewUniform { forward, pixel_height, right, width, up, height } },
         mirror! { Light = LightUniform {
             gain, texel_angle, backdrop, backdrop_is_environment, scale, turn_cos, polariser, turn_sin, seen
         } },
         mirror! { Bubble = BubbleUniform {
-            centre_m, radius_m, inner, outer, thickness_nm, cells, tracer_cells, thinned_nm, to_film,
+            to_centre_m, radius_m, inner, outer, thickness_nm, cells, tracer_cells, thinned_nm, to_film,
             stretch, unstretch, black_nm, extra_nm, skins_nm, map_cells, rim_z
         } },
         mirror! { TableAxes = TableAxes { size, max_thickness_nm, index } },

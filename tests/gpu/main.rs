@@ -5,6 +5,7 @@ mod support;
 
 mod boundaries;
 mod bursting;
+mod extremes;
 mod far;
 mod flow;
 mod history;

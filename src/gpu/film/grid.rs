@@ -130,7 +130,7 @@ impl FilmTexture {
     pub(super) fn new(gpu: &Gpu, side: u32) -> Self {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("film"),
-            size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 6 },
+            size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: gpu.array_layers(6) },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,

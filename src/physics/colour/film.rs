@@ -72,7 +72,7 @@ fn front_and_back(front: Polarised, back: Polarised, exit: Polarised) -> Polaris
     Polarised { s: joined(front.s, back.s, exit.s), p: joined(front.p, back.p, exit.p) }
 }
 
-/// The thickest film whose fringes samples 1 nm apart resolve at every angle, nm.
+/// The thickest film of water whose fringes samples 1 nm apart resolve at every angle, nm.
 const ONE_NM_RESOLVES_NM: f64 = 3000.0;
 
 /// One film under one illuminant, with all that does not change from point to point: what a table of colours is baked from.
@@ -91,13 +91,15 @@ impl FilmOptics {
         Self { film, indices, weights }
     }
 
-    /// As [`FilmOptics::new`], with as fine a spectrum as the fringes of films up to a thickness need: a sample a nanometre for each 3 µm.
+    /// As [`FilmOptics::new`], with as fine a spectrum as the fringes of films up to a thickness need: a sample per nanometre for each 3 µm of
+    /// water, or of another liquid with as many fringes.
     ///
     /// Light that grazes a film is resonant in it, and fringes are then much narrower than their distance. With fewer samples some fall between
     /// two: at cos θ from 0.02 to 0.26, CIEDE2000 0.7 for films to 10 µm and 1.6 for films to 30 µm with a sample a nanometre, below 0.03 with
     /// these.
     pub fn resolving(film: impl Into<FilmMaterial>, illuminant: &Illuminant, thickest_nm: f64) -> Self {
-        let samples_per_nm = (thickest_nm / ONE_NM_RESOLVES_NM).ceil() as usize;
+        let film = film.into();
+        let samples_per_nm = (thickest_nm * film.fringes_over_water() / ONE_NM_RESOLVES_NM).ceil() as usize;
         if samples_per_nm > 1 {
             Self::new(film, &illuminant.as_lines(samples_per_nm))
         } else {

@@ -29,7 +29,8 @@ impl FilmTable {
         let t = row as f64 / (self.rows - 1) as f64;
         let cos_theta = (column as f64 / (self.columns - 1) as f64).powi(2);
         let path_nm = self.max_thickness_nm * t * (t + EVEN) / (1.0 + EVEN);
-        (cos_theta, path_nm / cos_refracted(self.index, cos_theta))
+        // Light that grazes a film of index 1 goes along it: the floor only matters there, where nothing is reflected.
+        (cos_theta, path_nm / cos_refracted(self.index, cos_theta).max(1e-6))
     }
 
     /// Where a film lies: columns and rows from the centre of the first texel.

@@ -2,6 +2,9 @@
 
 use super::{FilmIndex, Incidence, Polarised, REFERENCE_NM, coated_reflectance, equivalent_extra_nm, max_reflectance};
 
+/// Index of water at the sodium line, above that of warm water.
+const WATER_INDEX: f64 = 1.334;
+
 /// A film's liquid and skins.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmMaterial {
@@ -21,6 +24,11 @@ impl FilmMaterial {
     /// Index of the liquid at the sodium line, the one number that stands for the film.
     pub fn reference_index(&self) -> f64 {
         self.index.n(REFERENCE_NM)
+    }
+
+    /// How many times as many fringes the film has as one of water with the same thickness: fringes go with the optical path. At least 1.
+    pub fn fringes_over_water(&self) -> f64 {
+        (self.reference_index() / WATER_INDEX).max(1.0)
     }
 
     /// Light of one wavelength that meets the film at an angle; `n` is the liquid's index there.

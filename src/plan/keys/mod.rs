@@ -11,5 +11,7 @@ pub use film::{
     evaporated_nm, left_nm,
 };
 pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
-pub use picture::{BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey};
+pub use picture::{
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey, exposed_ev,
+};
 pub use rest::RestingFilm;

@@ -136,12 +136,18 @@ impl BandsKey {
     pub fn resolved_nm(&self) -> f64 {
         let measured = if self.needs_table() { self.measured_beside_table() } else { self.measured() };
         // A fiftieth less than measured is no less good, and makes it 30 µm.
-        1.02 * Self::MOST as f64 / measured * TableKey::MIN_RANGE_NM
+        1.02 * Self::MOST as f64 / (measured * self.bands_over_water()) * TableKey::MIN_RANGE_NM
     }
 
-    /// How many would do where so many do for 1500 nm: thicker films have more fringes, and need as many more.
+    /// How many would do where so many do for 1500 nm of water: films with more fringes need as many more.
     fn wanted(&self, measured: f64) -> usize {
-        (measured * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
+        (measured * self.bands_over_water() * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
+    }
+
+    /// How many times as many bands as water a film of the same thickness needs. One of a denser liquid has more fringes, and as its faces
+    /// reflect more they are sharper: measured from index 2 to 4, so that errors are as small as water's. Up to 1.4, water's do.
+    fn bands_over_water(&self) -> f64 {
+        1.0 + 4.3 * (self.optics.film.reference_index() - 1.4).max(0.0)
     }
 
     /// How many do for 1500 nm where single walls come from a table: more than standard's are of little use.

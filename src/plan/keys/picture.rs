@@ -114,6 +114,8 @@ pub struct DrawKey {
     pub size: [u32; 2],
     /// Whether radiance is kept as f32, for measurements, or as f16, for looking at.
     pub full_precision: bool,
+    /// Stops by which the linear picture is exposed already, so that half floats hold what will be seen; see [`exposed_ev`].
+    pub exposed_ev: i32,
     /// Whether each film is replaced by a sphere with one environment lookup: the yardstick of the frame's cost.
     pub yardstick: bool,
     /// The camera.
@@ -141,6 +143,16 @@ pub struct Lighting {
     pub bands: BandsKey,
 }
 
+/// Stops in which pictures of half floats are exposed. Half floats have sixteen between black and white to spare, so that small changes of the
+/// exposure leave the linear picture as it is.
+const EXPOSED_STOPS: f64 = 8.0;
+
+/// Stops by which a picture of half floats is exposed when it is drawn, for an exposure in stops.
+#[must_use]
+pub fn exposed_ev(exposure_ev: f64) -> i32 {
+    (EXPOSED_STOPS * (exposure_ev / EXPOSED_STOPS).round()) as i32
+}
+
 impl DrawKey {
     /// All lights, the scene's own first.
     pub fn lights(&self) -> impl Iterator<Item = &Lighting> {
@@ -158,6 +170,8 @@ impl DrawKey {
     pub fn difference(&self, other: &Self) -> &'static str {
         if self.size != other.size {
             "the picture's size"
+        } else if self.exposed_ev != other.exposed_ev {
+            "the exposure, by more than half floats have room for"
         } else if self.camera != other.camera {
             "the camera"
         } else if self.lighting != other.lighting {

@@ -287,6 +287,60 @@ fn films_have_as_many_checkpoints_as_there_is_room_for() {
     }
 }
 
+/// Some bubbles side by side.
+fn side_by_side(count: usize) -> Scene {
+    let mut scene = stirred_scene();
+    let bubble = |k: usize| {
+        let mut bubble = scene.bubbles[0].clone();
+        bubble.center_m[1] = 0.03 * k as f64;
+        bubble
+    };
+    scene.bubbles = (0..count).map(bubble).collect();
+    scene
+}
+
+#[test]
+fn films_share_the_cells_of_a_frame_and_all_get_on() {
+    let mut scene = side_by_side(4);
+    scene.bubbles.iter_mut().for_each(|bubble| bubble.film.cells = 256);
+    let (want, mut have) = (wanted(&scene, 40, Pace::Frame), Have::default());
+    let cells = |pass: &Pass| match pass {
+        Pass::StepField { key, ticks, .. } => {
+            key.cell_count() * key.at(Moment::tick(ticks.end)).steps_from(ticks.start).count() as u64
+        }
+        _ => 0,
+    };
+    for frame in 0.. {
+        assert!(frame < 400, "some film waits for ever");
+        let plan = plan(&want, &have);
+        let stepped: u64 = plan.steps.iter().map(|(pass, _)| cells(pass)).sum();
+        assert!(stepped <= 800_000, "{stepped} cells in one frame");
+        let ticks: Vec<_> = plan.after.fields.iter().flatten().map(|have| have.state.moment.tick).collect();
+        let behind = ticks.iter().max().unwrap() - ticks.iter().min().unwrap();
+        assert!(behind <= 16, "films drift apart: {ticks:?}");
+        have = plan.after;
+        if plan.complete {
+            assert_eq!(ticks, [40; 4]);
+            return;
+        }
+    }
+}
+
+#[test]
+fn what_no_picture_of_the_scene_can_need_is_dropped() {
+    let (three, mut one) = (side_by_side(3), side_by_side(1));
+    let have = after(&three, 4);
+    assert_eq!(have.fields.iter().flatten().count(), 3);
+    let mut away = three.clone();
+    away.camera.azimuth_deg = 180.0;
+    away.camera.target_m = [10.0, 0.0, 0.0];
+    let plan_of = |scene: &Scene| plan(&wanted(scene, 4, Pace::Whole), &have);
+    assert_eq!(plan_of(&away).after.fields.iter().flatten().count(), 3, "films out of sight stay");
+    assert_eq!(plan_of(&one).after.fields.len(), 1);
+    one.bubbles[0].film.state = crate::scene::FilmStateName::Uniform;
+    assert_eq!(plan_of(&one).after.fields.iter().flatten().count(), 0, "a film of one thickness needs no field");
+}
+
 #[test]
 fn a_picture_for_a_file_leaves_no_checkpoints() {
     let passes = names(&plan(&wanted(&free_scene(), 600, Pace::Whole), &Have::default()));

@@ -108,6 +108,20 @@ fn the_same_scene_again_costs_nothing() {
 }
 
 #[test]
+fn half_floats_are_exposed_in_wide_steps() {
+    let exposed = |exposure_ev: f64| {
+        let mut scene = uniform_scene();
+        scene.view.exposure_ev = exposure_ev;
+        let draw = wanted(&scene, 0, Pace::Whole).picture.draw;
+        assert!((f64::from(draw.exposed_ev) - exposure_ev).abs() <= 4.0);
+        draw
+    };
+    assert_eq!(exposed(1.5).exposed_ev, 0);
+    assert_eq!(exposed(3.9), exposed(-3.9), "small changes draw nothing anew");
+    assert_ne!(exposed(-20.0), exposed(0.0));
+}
+
+#[test]
 fn exposure_costs_a_tonemap() {
     let mut brighter = stirred_scene();
     brighter.view.exposure_ev = 1.0;
