@@ -119,6 +119,7 @@ mod tests {
         let left = messages.at(10.0 + NOTE_S);
         assert_eq!(left.iter().map(|message| message.text.as_str()).collect::<Vec<_>>(), ["layer `beauty`", "failed"]);
         messages.dismiss(7);
+        messages.dismiss(1);
         messages.dismiss(0);
         assert!(!messages.clear());
     }

@@ -26,7 +26,7 @@ use window::Placement;
 /// program. Block by block: its readers of whole pictures refuse a file with any deep part, and cannot tell layers apart.
 pub(super) fn decode(path: &Path, mut file: impl BufRead + Seek) -> Result<DecodedPicture, InputError> {
     let in_words = |error| in_words(path, error);
-    let meta = MetaData::read_from_buffered(&mut file, false).map_err(in_words)?;
+    let meta = read_meta(&mut file).map_err(in_words)?;
     let (layer, note) = layers::choose(path, &meta.headers)?;
     let header = &meta.headers[layer.part];
     check_decoder(path, header)?;
@@ -42,6 +42,19 @@ pub(super) fn decode(path: &Path, mut file: impl BufRead + Seek) -> Result<Decod
         space: rgb_space(header),
         notes: note.into_iter().chain(placement.note()).collect(),
     })
+}
+
+fn read_meta(file: &mut (impl BufRead + Seek)) -> openexr::Result<MetaData> {
+    let lenient = MetaData::read_from_buffered(&mut *file, false);
+    if !matches!(lenient, Err(openexr::Error::Invalid(_))) {
+        return lenient;
+    }
+    // A lenient reader takes an attribute that it does not know for a missing one, where a strict one tells why.
+    file.rewind()?;
+    match MetaData::read_from_buffered(file, true) {
+        Err(reason @ openexr::Error::NotSupported(_)) => Err(reason),
+        _ => lenient,
+    }
 }
 
 /// Refuses what the decoder cannot do, before it calls the file invalid.

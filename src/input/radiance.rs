@@ -68,8 +68,10 @@ impl Header {
             header.take_line(path, &line)?;
         }
         let line = next()?;
-        let damaged =
-            || InputError::Damaged { path: path.to_owned(), reason: format!("its resolution line is `{line}`") };
+        let damaged = || InputError::Damaged {
+            path: path.to_owned(),
+            reason: format!("its resolution line is `{}`", excerpt(&line)),
+        };
         header.resolution = Resolution::parse(&line).ok_or_else(damaged)?;
         if header.is_xyz {
             header.space = CIE_XYZ;
@@ -104,7 +106,7 @@ impl Header {
     }
 
     fn ignore(&mut self, line: &str, reason: &str) {
-        self.notes.push(format!("has a line `{line}` in its header, which {reason} and is ignored"));
+        self.notes.push(format!("has a line `{}` in its header, which {reason} and is ignored", excerpt(line)));
     }
 
     /// What takes the stored values back to radiance.
@@ -119,8 +121,16 @@ fn is_xyz(path: &Path, format: &str) -> Result<bool, InputError> {
     match format {
         "32-bit_rle_rgbe" => Ok(false),
         "32-bit_rle_xyze" => Ok(true),
-        _ => Err(InputError::Unsupported { path: path.to_owned(), reason: format!("its FORMAT is `{format}`") }),
+        _ => Err(InputError::Unsupported {
+            path: path.to_owned(),
+            reason: format!("its FORMAT is `{}`", excerpt(format)),
+        }),
     }
+}
+
+/// The beginning of a line, for messages: what is no header may be long and hold anything.
+fn excerpt(line: &str) -> String {
+    line.chars().filter(|character| !character.is_control()).take(60).collect()
 }
 
 /// So many numbers and nothing else.

@@ -81,9 +81,10 @@ impl Separator {
             line.trim_start_matches([' ', '\t', '"'])
                 .starts_with(|first: char| first.is_ascii_digit() || "+-.".contains(first))
         };
-        let mut rows: Vec<&str> = lines.iter().map(|(_, line)| line.trim()).filter(starts_with_number).collect();
+        let mut rows: Vec<&str> =
+            lines.iter().map(|(_, line)| line.trim_matches(' ')).filter(starts_with_number).collect();
         if rows.is_empty() {
-            rows = lines.iter().map(|(_, line)| line.trim()).collect();
+            rows = lines.iter().map(|(_, line)| line.trim_matches(' ')).collect();
         }
         let most = |test: &dyn Fn(&str) -> bool| 2 * rows.iter().filter(|row| test(row)).count() > rows.len();
         if most(&|row| row.contains('\t')) {

@@ -310,7 +310,7 @@ mod tests {
     #[test]
     fn likely_causes_are_named() {
         for (text, told) in [
-            ("300,1,3533\n800,1,3247\n", "line 2: an extinction coefficient k of 3533"),
+            ("300,1,3533\n800,1,3247\n", "line 1: an extinction coefficient k of 3533"),
             ("300,1,3533\n800,1,3247\n", "if those are the decimal marks, use semicolons"),
             ("300,1.35,0.2\n800,1.3,0.2\n", "an extinction coefficient k of 0.2 is no clear film's"),
             (
