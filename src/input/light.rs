@@ -40,12 +40,12 @@ pub fn load_environment(
     let mut names: Vec<&str> = light.patches.iter().map(|patch| patch.illuminant.as_str()).collect();
     names.sort_unstable();
     names.dedup();
-    let mut lamp = |name: &str| {
+    let lamp = |name: &str| {
         let environment =
             Arc::new(CubeMap::from_fn(size, 1, |direction| of_lamp(light, &patches, name, &map, direction)));
         Ok(Lamp { environment, illuminant: Arc::new(load_illuminant(name, folder, notes)?) })
     };
-    let lamps = names.into_iter().map(&mut lamp).collect::<Result<_, LoadError>>()?;
+    let lamps = names.into_iter().map(lamp).collect::<Result<_, LoadError>>()?;
     Ok((Arc::new(rest), lamps))
 }
 

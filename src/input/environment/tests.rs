@@ -138,9 +138,8 @@ fn part(name: &str, channels: &[&str], red: f32) -> openexr::Layer<openexr::AnyC
         )
     };
     let attributes = openexr::LayerAttributes::named(name);
-    let encoding = openexr::Encoding { blocks: openexr::Blocks::ScanLines, ..openexr::Encoding::FAST_LOSSLESS };
     let channels = openexr::AnyChannels::sort(channels.iter().map(channel).collect());
-    openexr::Layer::new((8, 4), attributes, encoding, channels)
+    openexr::Layer::new((8, 4), attributes, openexr::Encoding::UNCOMPRESSED, channels)
 }
 
 #[test]
