@@ -43,7 +43,7 @@ fn all_eight_orders_of_pixels_are_one_picture() {
         oriented("-Y 2 -X 4", |line, pixel| at(flip(pixel, 4), line), [2, 4]),
         oriented("+Y 2 +X 4", |line, pixel| at(pixel, flip(line, 2)), [2, 4]),
         oriented("+Y 2 -X 4", |line, pixel| at(flip(pixel, 4), flip(line, 2)), [2, 4]),
-        oriented("+X 4 -Y 2", |line, pixel| at(line, pixel), [4, 2]),
+        oriented("+X 4 -Y 2", at, [4, 2]),
         oriented("-X 4 -Y 2", |line, pixel| at(flip(line, 4), pixel), [4, 2]),
         oriented("+X 4 +Y 2", |line, pixel| at(line, flip(pixel, 2)), [4, 2]),
         oriented("-X 4 +Y 2", |line, pixel| at(flip(line, 4), flip(pixel, 2)), [4, 2]),
