@@ -25,7 +25,7 @@ const UNSEEN: Duration = Duration::from_millis(250);
 /// What came of a piece of work.
 enum Outcome {
     Scene(Box<LoadedScene>),
-    Light(Box<Light>, Resources),
+    Light(Box<Light>, Resources, Vec<String>),
     Chosen(Target, PathBuf),
     Done(String),
     Failed(String),
@@ -75,7 +75,7 @@ impl Files {
             == (&light.environment, light.constant, &light.patches);
         let resources = model.resources.clone();
         self.run(move || match load_light(&light, &folder, same, resources) {
-            Ok(resources) => Outcome::Light(Box::new(light), resources),
+            Ok((resources, notes)) => Outcome::Light(Box::new(light), resources, notes),
             Err(error) => Outcome::Failed(error.to_string()),
         });
     }
@@ -154,7 +154,10 @@ impl Files {
                 model.adopt(*loaded);
                 return Some(Arrival::Scene);
             }
-            Outcome::Light(light, resources) if current => model.adopt_light(*light, resources),
+            Outcome::Light(light, resources, notes) if current => {
+                model.adopt_light(*light, resources);
+                notes.into_iter().for_each(|note| model.messages.remark(note));
+            }
             Outcome::Chosen(target, path) => return Some(Arrival::Chosen(target, path)),
             Outcome::Done(text) => model.messages.note(text),
             Outcome::Failed(text) => {
@@ -167,14 +170,20 @@ impl Files {
     }
 }
 
-/// What a scene names, with another light; its environment and lamps are loaded only if they are not known.
-fn load_light(light: &Light, folder: &Path, known: bool, resources: Resources) -> Result<Resources, LoadError> {
-    let illuminant = Arc::new(load_illuminant(&light.illuminant, folder)?);
+/// What a scene names, with another light, and notes about its files; its environment and lamps are loaded only if they are not known.
+fn load_light(
+    light: &Light,
+    folder: &Path,
+    known: bool,
+    resources: Resources,
+) -> Result<(Resources, Vec<String>), LoadError> {
+    let mut notes = Vec::new();
+    let illuminant = Arc::new(load_illuminant(&light.illuminant, folder, &mut notes)?);
     if known {
-        return Ok(Resources { illuminant, ..resources });
+        return Ok((Resources { illuminant, ..resources }, notes));
     }
-    let (environment, lamps) = load_environment(light, folder)?;
-    Ok(Resources { environment, illuminant, lamps, ..resources })
+    let (environment, lamps) = load_environment(light, folder, &mut notes)?;
+    Ok((Resources { environment, illuminant, lamps, ..resources }, notes))
 }
 
 #[cfg(test)]

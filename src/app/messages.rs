@@ -1,4 +1,4 @@
-//! What the window has to say: notes that go by themselves, and problems that stay until somebody has read them.
+//! What the window has to say: notes that go by themselves, and remarks and problems that stay until somebody has read them.
 
 /// How long a note stays, s.
 const NOTE_S: f64 = 4.0;
@@ -8,6 +8,8 @@ const NOTE_S: f64 = 4.0;
 pub enum Kind {
     /// Something was done.
     Note,
+    /// Something to know.
+    Remark,
     /// Something could not be done.
     Problem,
 }
@@ -31,6 +33,11 @@ impl Messages {
     /// Says that something was done.
     pub fn note(&mut self, text: impl Into<String>) {
         self.push(text.into(), Kind::Note);
+    }
+
+    /// Says what a user should know, such as how a file was read.
+    pub fn remark(&mut self, text: impl Into<String>) {
+        self.push(text.into(), Kind::Remark);
     }
 
     /// Says that something could not be done. What is on show already is not said twice.
@@ -105,12 +112,14 @@ mod tests {
     fn notes_go_and_problems_stay() {
         let mut messages = Messages::default();
         messages.note("saved");
+        messages.remark("layer `beauty`");
         messages.problem("failed");
-        assert_eq!(messages.at(10.0).len(), 2);
+        assert_eq!(messages.at(10.0).len(), 3);
         assert_eq!(messages.next_change_s(10.0), Some(NOTE_S));
         let left = messages.at(10.0 + NOTE_S);
-        assert_eq!(left.iter().map(|message| message.text.as_str()).collect::<Vec<_>>(), ["failed"]);
+        assert_eq!(left.iter().map(|message| message.text.as_str()).collect::<Vec<_>>(), ["layer `beauty`", "failed"]);
         messages.dismiss(7);
+        messages.dismiss(1);
         messages.dismiss(0);
         assert!(!messages.clear());
     }

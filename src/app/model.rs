@@ -114,7 +114,7 @@ impl Model {
         // The camera moves from now on, and no film shall begin anew for that.
         settle_detail(&mut loaded.scene);
         let mut messages = Messages::default();
-        warn(&mut messages, &loaded.scene);
+        warn(&mut messages, &loaded);
         Self {
             scene: loaded.scene,
             resources: loaded.resources,
@@ -139,7 +139,7 @@ impl Model {
     /// Shows another scene, from its beginning.
     pub fn adopt(&mut self, mut loaded: LoadedScene) {
         settle_detail(&mut loaded.scene);
-        warn(&mut self.messages, &loaded.scene);
+        warn(&mut self.messages, &loaded);
         self.scene = loaded.scene;
         self.resources = loaded.resources;
         self.name = loaded.name;
@@ -279,9 +279,10 @@ impl Model {
     }
 }
 
-/// Says what of a scene no real bubble does.
-fn warn(messages: &mut Messages, scene: &Scene) {
-    scene.warnings().into_iter().for_each(|warning| messages.problem(warning));
+/// Says what of a scene no real bubble does, and how its files were read where that is in doubt.
+fn warn(messages: &mut Messages, loaded: &LoadedScene) {
+    loaded.scene.warnings().into_iter().for_each(|warning| messages.problem(warning));
+    loaded.notes.iter().for_each(|note| messages.remark(note));
 }
 
 /// A seed that was not there before, short enough to be written down.

@@ -9,11 +9,12 @@ use glam::DVec3;
 use super::{AdapterArguments, parse, strip};
 use crate::{
     gpu::probe_colour::{ColourProbe, ProbePoint},
-    input::{load_illuminant, load_liquid, read_text},
+    input::{load_illuminant, load_liquid, read_table_text},
     output::{Metadata, write_text},
     physics::{
         colour::{BT2020, FilmOptics, Walls},
         optics::FilmMaterial,
+        table::{Row, Table},
     },
     plan::OpticsKey,
     scene::Quality,
@@ -22,7 +23,7 @@ use crate::{
 /// Report the colour that a film reflects.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --thickness 320 --back 500 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n  soapfilm colour --strip strip.png\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall, R0 + T0 R1 T2 with\nthickness_nm, back_nm and exit_nm for 0, 1 and 2. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), and linear BT.2020 r,g,b."
+    after_help = "Example:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --thickness 320 --back 500 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n  soapfilm colour --strip strip.png\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall, R0 + T0 R1 T2 with\nthickness_nm, back_nm and exit_nm for 0, 1 and 2. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), and linear BT.2020 r,g,b.\n\nCSV files may have commas, semicolons, tabs or spaces between columns, decimal points or commas, and lines of # comments. Spectra\nare in nm (or µm, where only that covers the visible range) and cover 380 to 780 nm; from there down to 360 nm the first value goes on."
 )]
 pub struct Arguments {
     /// Thickness in nm, of the front wall where there are two
@@ -43,13 +44,13 @@ pub struct Arguments {
     /// Paint the colours of films from 0 to 1500 nm at normal incidence, a column a nanometre, in place of reporting any
     #[arg(long, value_name = "FILE.png", conflicts_with_all = ["thickness", "cos", "back", "points", "spectrum", "output"])]
     strip: Option<PathBuf>,
-    /// `water`, `water 25C`, `glycerol 30%`, a refractive index, or a CSV file of wavelength_nm,n
+    /// `water`, `water 25C`, `glycerol 30%`, a refractive index, or a CSV file of wavelengths and indices
     #[arg(long, value_name = "FILM", default_value = "water", allow_negative_numbers = true)]
     film: String,
     /// Thickness in nm of the layer of soap molecules on each face
     #[arg(long, value_name = "NM", default_value = "0", allow_negative_numbers = true, value_parser = parse::skin_nm)]
     skin: f64,
-    /// The light: D65, D50, A, E, FL2, FL11, LED, sodium, a black body like `3000 K`, or a CSV file of wavelength_nm,power
+    /// The light: D65, D50, A, E, FL2, FL11, LED, sodium, a black body like `3000 K`, or a CSV file of wavelengths and powers
     #[arg(long, value_name = "LIGHT", default_value = "D65")]
     illuminant: String,
     /// `fast`, `standard`, `spectral` (as pictures of that quality have it) or `reference` (f64 on the CPU, no GPU needed)
@@ -70,9 +71,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         anyhow::ensure!(is_png, "{}: write to a file that ends in .png", path.display());
     }
-    let folder = Path::new("");
-    let film = FilmMaterial { index: load_liquid(&arguments.film, folder)?, skin_nm: arguments.skin };
-    let key = OpticsKey { film, illuminant: load_illuminant(&arguments.illuminant, folder)?.into() };
+    let (folder, mut notes) = (Path::new(""), Vec::new());
+    let film = FilmMaterial { index: load_liquid(&arguments.film, folder, &mut notes)?, skin_nm: arguments.skin };
+    let key = OpticsKey { film, illuminant: load_illuminant(&arguments.illuminant, folder, &mut notes)?.into() };
+    super::tell(&notes);
     let points = points(arguments)?;
     let thickest_nm = points.films.iter().map(|film| film.walls.thickest_nm()).fold(0.0, f64::max);
     let optics = key.spectra_to(thickest_nm);
@@ -138,53 +140,46 @@ fn films_of_strip() -> Points {
 }
 
 fn read_points(path: &Path) -> anyhow::Result<Points> {
-    let text = read_text(path)?;
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
-    let header: Vec<String> =
-        reader.headers().with_context(|| path.display().to_string())?.iter().map(str::to_owned).collect();
-    let column = |name: &str| header.iter().position(|known| known == name);
-    let needed = |name: &str| column(name).with_context(|| format!("{}:1: no column `{name}`", path.display()));
+    let table = Table::parse(&read_table_text(path)?);
+    let file = path.display();
+    let block = table.blocks.first().with_context(|| format!("{file}: no points"))?;
+    if let Some(second) = table.blocks.get(1) {
+        anyhow::bail!("{file}:{}: no numbers, but a heading; keep one table in the file", second.line);
+    }
+    let column = |name: &str| block.heading.iter().position(|known| known == name);
+    let needed = |name: &str| {
+        let told =
+            || format!("{file}:{}: no column `{name}`; the line above the numbers names the columns", block.line);
+        column(name).with_context(told)
+    };
     let columns = [
         needed("thickness_nm")?,
         needed("cos_theta")?,
         column("back_nm").unwrap_or(usize::MAX),
         column("exit_nm").unwrap_or(usize::MAX),
     ];
-    let (mut rows, mut films) = (Vec::new(), Vec::new());
-    for record in reader.records() {
-        let record = record.with_context(|| path.display().to_string())?;
-        let place = || format!("{}:{}", path.display(), line_of(&text, &record));
-        anyhow::ensure!(
-            record.len() == header.len(),
-            "{}: {} values for {} columns",
-            place(),
-            record.len(),
-            header.len()
-        );
-        films.push(film_of(&record, columns).with_context(place)?);
-        rows.push(record.iter().map(str::to_owned).collect());
-    }
-    anyhow::ensure!(!films.is_empty(), "{}: no points below the header", path.display());
-    Ok(Points { header, rows, films })
+    let film = |row: &Row| {
+        let (found, named) = (row.fields.len(), block.heading.len());
+        anyhow::ensure!(found == named, "{found} values for {named} columns ({})", table.separator.hint());
+        film_of(&row.fields, columns)
+    };
+    let films = block.rows.iter().map(|row| film(row).with_context(|| format!("{file}:{}", row.line)));
+    let films: Vec<FilmPoint> = films.collect::<Result<_, _>>()?;
+    anyhow::ensure!(!films.is_empty(), "{file}: no points below the header");
+    Ok(Points { header: block.heading.clone(), rows: block.rows.iter().map(|row| row.fields.clone()).collect(), films })
 }
 
-/// The line that a record stands in, from 1; where the reader places it empty lines may follow.
-fn line_of(text: &str, record: &csv::StringRecord) -> usize {
-    let start = record.position().map_or(0, |position| position.byte() as usize);
-    let empty = text[start..].len() - text[start..].trim_start().len();
-    1 + text[..start + empty].matches('\n').count()
-}
-
-fn film_of(record: &csv::StringRecord, [thickness, cosine, back, exit]: [usize; 4]) -> anyhow::Result<FilmPoint> {
+fn film_of(fields: &[String], [thickness, cosine, back, exit]: [usize; 4]) -> anyhow::Result<FilmPoint> {
+    let text_at = |column: usize| fields.get(column).map_or("", String::as_str);
     let parsed = |column: usize, name: &str, parser: fn(&str) -> Result<f64, String>| {
-        let text = record.get(column).unwrap_or("");
+        let text = text_at(column);
         anyhow::ensure!(
             !text.is_empty(),
             "{name} is missing; a film needs thickness_nm and cos_theta, two walls back_nm and exit_nm too"
         );
         parser(text).map_err(|reason| anyhow::anyhow!("{name} `{text}`: {reason}"))
     };
-    let given = |column: usize| record.get(column).is_some_and(|text| !text.is_empty());
+    let given = |column: usize| !text_at(column).is_empty();
     let front_nm = parsed(thickness, "thickness_nm", parse::thickness_nm)?;
     let cos_theta = parsed(cosine, "cos_theta", parse::cosine)?;
     let walls = if given(back) || given(exit) {

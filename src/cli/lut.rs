@@ -56,9 +56,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         "{}: write to a file that ends in .exr",
         arguments.output.display()
     );
-    let folder = Path::new("");
-    let film = FilmMaterial { index: load_liquid(&arguments.film, folder)?, skin_nm: arguments.skin };
-    let optics = FilmOptics::new(film, &load_illuminant(&arguments.illuminant, folder)?);
+    let (folder, mut notes) = (Path::new(""), Vec::new());
+    let film = FilmMaterial { index: load_liquid(&arguments.film, folder, &mut notes)?, skin_nm: arguments.skin };
+    let optics = FilmOptics::new(film, &load_illuminant(&arguments.illuminant, folder, &mut notes)?);
+    super::tell(&notes);
     let [columns, rows] = arguments.size.map(|size| size as usize);
     let index = optics.film().reference_index();
     let table = FilmTable { columns, rows, max_thickness_nm: arguments.range, index };

@@ -135,13 +135,19 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
     }
 }
 
-/// Loads a scene, and says on stderr what of it no real bubble does.
+/// Loads a scene, and says on stderr what of it no real bubble does, and how its files were read where that is in doubt.
 fn load(name: &str) -> Result<LoadedScene, LoadError> {
     let loaded = load_scene(name)?;
     for warning in loaded.scene.warnings() {
         eprintln!("warning: {warning}");
     }
+    tell(&loaded.notes);
     Ok(loaded)
+}
+
+/// Says on stderr what a user should know of how files were read.
+fn tell(notes: &[String]) {
+    notes.iter().for_each(|note| eprintln!("note: {note}"));
 }
 
 /// What is wrong with the arguments in one line; help and version as they are.

@@ -7,7 +7,7 @@ use std::path::Path;
 use glam::{DMat3, Vec3};
 use rayon::prelude::*;
 
-use super::chromaticities::RgbSpace;
+use super::chromaticities::{BT709, RgbSpace};
 use super::panic_guard::catch_panic;
 use super::{InputError, exr, radiance, text};
 use crate::physics::environment::Equirect;
@@ -26,31 +26,39 @@ pub(super) struct DecodedPicture {
     /// Linear RGB, row by row from the top left.
     pub pixels: Vec<[f32; 3]>,
     pub space: RgbSpace,
+    /// What a user should know of how it was read, a sentence each that goes on from the file's name.
+    pub notes: Vec<String>,
 }
 
 /// Reads an equirectangular panorama from an OpenEXR or Radiance .hdr file, told apart by content, not by name.
 ///
 /// RGB is taken as linear BT.709 unless the file names other chromaticities, and converted to linear BT.2020. Values that no
-/// light can have are repaired and counted: [`Equirect::repairs`].
+/// light can have are repaired and counted: [`Equirect::repairs`]. What a user should know of it, such as the layer that was taken or
+/// what was repaired, is added to `notes`, a line each.
 ///
 /// # Errors
 /// Every [`InputError`] but those about text: the file is missing, a folder, unreadable, empty, of another format, damaged,
-/// without colours, too large, too small, or not twice as wide as high.
-pub fn read_environment(path: &Path) -> Result<Equirect, InputError> {
+/// stored in a way that no decoder here knows, without colours, too large, too small, or not twice as wide as high.
+pub fn read_environment(path: &Path, notes: &mut Vec<String>) -> Result<Equirect, InputError> {
     let mut file = BufReader::new(text::open(path)?);
     let format = recognise(&mut file, path)?;
     let decode = || match format {
         Format::OpenExr => exr::decode(path, file),
         Format::Radiance => radiance::decode(path, file),
     };
-    let damaged =
-        || InputError::Damaged { path: path.to_owned(), reason: "its parts contradict each other".to_owned() };
-    let picture = catch_panic(decode).unwrap_or_else(|| Err(damaged()))?;
-    let unsupported =
-        || InputError::Unsupported { path: path.to_owned(), reason: "its chromaticities span no colours".to_owned() };
-    let to_bt2020 = picture.space.to_bt2020().ok_or_else(unsupported)?;
-    let pixels = convert(picture.pixels, to_bt2020);
-    Equirect::new(picture.width, picture.height, pixels).map_err(|_| damaged())
+    let failed = || InputError::DecoderFailed { path: path.to_owned() };
+    let mut picture = catch_panic(decode).unwrap_or_else(|| Err(failed()))?;
+    let to_bt2020 = picture.space.to_bt2020().or_else(|| {
+        picture.notes.push("has chromaticities of no colour space and is taken as BT.709".to_owned());
+        BT709.to_bt2020()
+    });
+    let pixels = convert(picture.pixels, to_bt2020.ok_or_else(failed)?);
+    let panorama = Equirect::new(picture.width, picture.height, pixels).map_err(|_| failed())?;
+    if panorama.repairs().total() > 0 {
+        picture.notes.push(format!("has pixels that no light can have: {}", panorama.repairs()));
+    }
+    notes.extend(picture.notes.into_iter().map(|note| format!("{} {note}", path.display())));
+    Ok(panorama)
 }
 
 /// Checks the size that a file's header claims, before memory is set aside for it.

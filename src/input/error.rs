@@ -50,8 +50,17 @@ pub enum InputError {
         /// What the decoder met.
         reason: String,
     },
+    /// Its decoder broke off without a reason.
+    #[error("{} cannot be decoded: it is damaged, or stored in a rare way; save it again, an OpenEXR picture with ZIP compression", path.display())]
+    DecoderFailed {
+        /// The file.
+        path: PathBuf,
+    },
     /// Valid, but stored in a way that cannot be read here.
-    #[error("{} is stored in a way that is not supported ({reason}): save it as a plain RGB OpenEXR picture", path.display())]
+    #[error(
+        "{} is stored in a way that is not supported ({reason}): save it as a plain RGB OpenEXR picture with ZIP or PIZ compression",
+        path.display()
+    )]
     Unsupported {
         /// The file.
         path: PathBuf,

@@ -4,7 +4,7 @@ use std::{path::Path, sync::Arc};
 
 use glam::DVec3;
 
-use super::{LoadError, is_table, read_environment, read_text};
+use super::{LoadError, is_table, read_environment, read_table_text};
 use crate::{
     physics::{
         colour::{Illuminant, bt709_to_bt2020},
@@ -17,13 +17,18 @@ use crate::{
 /// Texels that a cube map with patches has along an edge at least: their edges are then sharp to a third of a degree.
 const MIN_PATCHED_SIZE: usize = 256;
 
-/// Loads the environment that a light names, and the lamps that its patches take out of it; file paths start from a folder.
-pub fn load_environment(light: &Light, folder: &Path) -> Result<(Arc<CubeMap>, Vec<Lamp>), LoadError> {
+/// Loads the environment that a light names, and the lamps that its patches take out of it; file paths start from a folder. What a user
+/// should know of how files were read is added to `notes`, a line each.
+pub fn load_environment(
+    light: &Light,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<(Arc<CubeMap>, Vec<Lamp>), LoadError> {
     let map = match &light.environment {
         _ if light.constant.is_some() => CubeMap::constant(DVec3::ONE),
         Environment::Tent => CubeMap::from_procedural(Procedural::Tent),
         Environment::Windows => CubeMap::from_procedural(Procedural::Windows),
-        Environment::File(path) => CubeMap::from_equirect(&read_environment(&folder.join(path))?),
+        Environment::File(path) => CubeMap::from_equirect(&read_environment(&folder.join(path), notes)?),
     };
     if light.patches.is_empty() {
         return Ok((Arc::new(map), Vec::new()));
@@ -38,7 +43,7 @@ pub fn load_environment(light: &Light, folder: &Path) -> Result<(Arc<CubeMap>, V
     let lamp = |name: &str| {
         let environment =
             Arc::new(CubeMap::from_fn(size, 1, |direction| of_lamp(light, &patches, name, &map, direction)));
-        Ok(Lamp { environment, illuminant: Arc::new(load_illuminant(name, folder)?) })
+        Ok(Lamp { environment, illuminant: Arc::new(load_illuminant(name, folder, notes)?) })
     };
     let lamps = names.into_iter().map(lamp).collect::<Result<_, LoadError>>()?;
     Ok((Arc::new(rest), lamps))
@@ -62,12 +67,12 @@ fn of_lamp(light: &Light, patches: &[Patch], illuminant: &str, map: &CubeMap, di
     own.map(|(patch, share)| share * patch.radiance.map_or(there, linear)).sum()
 }
 
-/// A light by its name, or from the `.csv` file of that path.
-pub fn load_illuminant(name: &str, folder: &Path) -> Result<Illuminant, LoadError> {
+/// A light by its name, or from the `.csv` file of that path. What a user should know of how it was read is added to `notes`.
+pub fn load_illuminant(name: &str, folder: &Path, notes: &mut Vec<String>) -> Result<Illuminant, LoadError> {
     if !is_table(name) {
         return Ok(name.parse()?);
     }
-    Ok(Illuminant::from_csv(name, &read_text(&folder.join(name))?)?)
+    Ok(Illuminant::from_csv(name, &read_table_text(&folder.join(name))?, notes)?)
 }
 
 #[cfg(test)]
@@ -76,7 +81,7 @@ mod tests {
 
     fn lit(patches: Vec<LightPatch>) -> (Arc<CubeMap>, Vec<Lamp>) {
         let light = Light { constant: Some([0.5, 0.4, 0.3]), patches, ..Light::default() };
-        load_environment(&light, Path::new("")).expect("all is built in")
+        load_environment(&light, Path::new(""), &mut Vec::new()).expect("all is built in")
     }
 
     #[test]

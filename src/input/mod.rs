@@ -15,4 +15,4 @@ pub use error::InputError;
 pub use light::{load_environment, load_illuminant};
 use scene::is_table;
 pub use scene::{LoadError, LoadedScene, load_liquid, load_scene};
-pub use text::{MAX_TEXT_BYTES, read_text};
+pub use text::{MAX_TEXT_BYTES, read_table_text, read_text};

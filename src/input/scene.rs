@@ -1,12 +1,12 @@
 //! Brings a scene and what it names into memory.
 
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
     sync::Arc,
 };
 
-use super::{InputError, load_environment, load_illuminant, read_text};
+use super::{InputError, load_environment, load_illuminant, read_table_text, read_text};
 use crate::{
     physics::{
         colour::UnknownIlluminant,
@@ -28,6 +28,8 @@ pub struct LoadedScene {
     pub folder: PathBuf,
     /// What it names.
     pub resources: Resources,
+    /// What a user should know of how the files that it names were read, a line each.
+    pub notes: Vec<String>,
 }
 
 /// Why a scene cannot be loaded.
@@ -74,22 +76,26 @@ pub fn load_scene(name: &str) -> Result<LoadedScene, LoadError> {
             (Scene::from_toml(&text, name)?, path.parent().map(Path::to_owned).unwrap_or_default())
         }
     };
-    let (environment, lamps) = load_environment(&scene.light, &folder)?;
+    let mut notes = Vec::new();
+    let (environment, lamps) = load_environment(&scene.light, &folder, &mut notes)?;
     let resources = Resources {
         environment,
-        illuminant: Arc::new(load_illuminant(&scene.light.illuminant, &folder)?),
+        illuminant: Arc::new(load_illuminant(&scene.light.illuminant, &folder, &mut notes)?),
         lamps,
-        liquids: load_liquids(&scene, &folder)?,
+        liquids: load_liquids(&scene, &folder, &mut notes)?,
     };
-    Ok(LoadedScene { scene, name: name.to_owned(), folder, resources })
+    // Several lamps or films may come from one file.
+    let mut told = BTreeSet::new();
+    notes.retain(|note| told.insert(note.clone()));
+    Ok(LoadedScene { scene, name: name.to_owned(), folder, resources, notes })
 }
 
-/// A liquid by its name or index, or from the `.csv` file of that path.
-pub fn load_liquid(name: &str, folder: &Path) -> Result<FilmIndex, LoadError> {
+/// A liquid by its name or index, or from the `.csv` file of that path. What a user should know of how it was read is added to `notes`.
+pub fn load_liquid(name: &str, folder: &Path, notes: &mut Vec<String>) -> Result<FilmIndex, LoadError> {
     if !is_table(name) {
         return Ok(name.parse()?);
     }
-    Ok(FilmIndex::from_csv(name, &read_text(&folder.join(name))?)?)
+    Ok(FilmIndex::from_csv(name, &read_table_text(&folder.join(name))?, notes)?)
 }
 
 pub(super) fn is_table(name: &str) -> bool {
@@ -97,10 +103,14 @@ pub(super) fn is_table(name: &str) -> bool {
 }
 
 /// The liquids that a scene's films name.
-fn load_liquids(scene: &Scene, folder: &Path) -> Result<BTreeMap<String, FilmIndex>, LoadError> {
+fn load_liquids(
+    scene: &Scene,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<BTreeMap<String, FilmIndex>, LoadError> {
     let named = scene.bubbles.iter().filter_map(|bubble| match &bubble.film.index {
         FilmIndexName::Named(name) => Some(name),
         FilmIndexName::Water | FilmIndexName::Constant(_) => None,
     });
-    named.map(|name| Ok((name.clone(), load_liquid(name, folder)?))).collect()
+    named.map(|name| Ok((name.clone(), load_liquid(name, folder, notes)?))).collect()
 }

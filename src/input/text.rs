@@ -17,7 +17,36 @@ pub fn read_text(path: &Path) -> Result<String, InputError> {
     read_text_up_to(path, MAX_TEXT_BYTES)
 }
 
+/// The whole text of a table of numbers, in whatever encoding spreadsheets write: UTF-8, UTF-16 with a byte order mark, or else
+/// Latin-1, in which a heading may be garbled but no number is.
+///
+/// # Errors
+/// The file is missing, a folder, unreadable, longer than [`MAX_TEXT_BYTES`] or no text at all.
+pub fn read_table_text(path: &Path) -> Result<String, InputError> {
+    let bytes = read_bytes_up_to(path, MAX_TEXT_BYTES)?;
+    let utf16 = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
+        let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+        char::decode_utf16(units).map(|character| character.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
+    };
+    match bytes.as_slice() {
+        [0xff, 0xfe, rest @ ..] => Ok(utf16(rest, u16::from_le_bytes)),
+        [0xfe, 0xff, rest @ ..] => Ok(utf16(rest, u16::from_be_bytes)),
+        bytes => match (std::str::from_utf8(bytes), bytes.iter().position(|byte| *byte == 0)) {
+            (_, Some(byte)) => Err(InputError::NotText { path: path.to_owned(), byte }),
+            (Ok(text), None) => Ok(text.to_owned()),
+            (Err(_), None) => Ok(bytes.iter().copied().map(char::from).collect()),
+        },
+    }
+}
+
 fn read_text_up_to(path: &Path, limit_bytes: u64) -> Result<String, InputError> {
+    let bytes = read_bytes_up_to(path, limit_bytes)?;
+    let text = String::from_utf8(bytes)
+        .map_err(|error| InputError::NotText { path: path.to_owned(), byte: error.utf8_error().valid_up_to() })?;
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+}
+
+fn read_bytes_up_to(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, InputError> {
     let mut bytes = Vec::new();
     // One byte more than the limit tells a long file, and a pipe without end, from one that just fits.
     let file = open(path)?;
@@ -25,9 +54,7 @@ fn read_text_up_to(path: &Path, limit_bytes: u64) -> Result<String, InputError> 
     if bytes.len() as u64 > limit_bytes {
         return Err(InputError::TextTooLong { path: path.to_owned(), limit_bytes });
     }
-    let text = String::from_utf8(bytes)
-        .map_err(|error| InputError::NotText { path: path.to_owned(), byte: error.utf8_error().valid_up_to() })?;
-    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+    Ok(bytes)
 }
 
 /// Opens a file to read, and tells a folder from a file (not every system does so before the first read).
@@ -54,6 +81,25 @@ mod tests {
         assert_eq!(read("Seifenblase µ\n".as_bytes(), 100).unwrap(), "Seifenblase µ\n");
         assert_eq!(read(b"\xef\xbb\xbfversion = 1", 100).unwrap(), "version = 1");
         assert_eq!(read(b"", 100).unwrap(), "");
+    }
+
+    #[test]
+    fn tables_come_in_the_encodings_of_spreadsheets() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let table = |bytes: &[u8]| {
+            std::fs::write(file.path(), bytes).unwrap();
+            read_table_text(file.path()).unwrap()
+        };
+        let utf16 = |mark: u16, bytes: fn(u16) -> [u8; 2]| {
+            let units = [mark].into_iter().chain("λ;n\n300;1,3\n".encode_utf16());
+            units.flat_map(bytes).collect::<Vec<u8>>()
+        };
+        assert_eq!(table(&utf16(0xfeff, u16::to_le_bytes)), "λ;n\n300;1,3\n");
+        assert_eq!(table(&utf16(0xfeff, u16::to_be_bytes)), "λ;n\n300;1,3\n");
+        assert_eq!(table("λ;n\n300;1,3\n".as_bytes()), "λ;n\n300;1,3\n");
+        std::fs::write(file.path(), b"PK\x03\x04\x00\xff").unwrap();
+        assert!(matches!(read_table_text(file.path()), Err(InputError::NotText { byte: 4, .. })));
+        assert_eq!(table(b"Wellenl\xe4nge;n\n300;1,3\n"), "Wellenlänge;n\n300;1,3\n");
     }
 
     #[test]

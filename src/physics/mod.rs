@@ -12,4 +12,5 @@ pub mod optics;
 pub mod picture;
 pub mod spectra;
 pub mod sphere;
+pub mod table;
 pub mod transport;

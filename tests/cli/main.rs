@@ -1,6 +1,7 @@
 //! The command line as scripts see it: exit codes, one clear line on stderr, no file left behind, columns and keys.
 
 mod colour;
+mod files;
 #[path = "../support/mod.rs"]
 mod support;
 

@@ -47,7 +47,7 @@ fn the_picture_in_two_lights_is_the_f64_one() {
     loaded.scene.bubbles[0].film.cells = 64;
     loaded.scene.motion.flow = Flow::Rest;
     loaded.scene.light.environment = Environment::Tent;
-    let (environment, lamps) = load_environment(&loaded.scene.light, Path::new("")).unwrap();
+    let (environment, lamps) = load_environment(&loaded.scene.light, Path::new(""), &mut Vec::new()).unwrap();
     (loaded.resources.environment, loaded.resources.lamps) = (environment, lamps);
     for quality in Quality::ALL {
         loaded.scene.view.quality = quality;

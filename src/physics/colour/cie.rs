@@ -16,7 +16,8 @@ pub struct Observer {
 static CIE_1931_2DEG: LazyLock<Observer> = LazyLock::new(|| {
     let text = include_str!("../../../assets/spectra/cie_1931_2deg.csv");
     // The text is part of the program, and every test of colour parses it.
-    let matching = Spectrum::columns_from_csv("cie_1931_2deg.csv", text).expect("the built-in observer is valid");
+    let matching =
+        Spectrum::columns_from_csv("cie_1931_2deg.csv", text, &mut Vec::new()).expect("the built-in observer is valid");
     Observer { matching }
 });
 

@@ -75,8 +75,8 @@ impl Illuminant {
     }
 
     /// Reads a light source from the text of a CSV file, see [`Spectrum::from_csv`]; `name` is the file's name.
-    pub fn from_csv(name: &str, text: &str) -> Result<Self, SpectrumError> {
-        Spectrum::from_csv(name, text).and_then(|spectrum| Self::new(name, spectrum))
+    pub fn from_csv(name: &str, text: &str, notes: &mut Vec<String>) -> Result<Self, SpectrumError> {
+        Spectrum::from_csv(name, text, notes).and_then(|spectrum| Self::new(name, spectrum))
     }
 
     /// A black body (M. Planck 1901), 800 to 100 000 K.
@@ -127,7 +127,7 @@ impl Illuminant {
 
     fn built_in(name: &str, text: &str) -> Self {
         // The text is part of the program, and a test below parses every built-in.
-        let light = Self::from_csv(name, text).expect("built-in illuminants are valid");
+        let light = Self::from_csv(name, text, &mut Vec::new()).expect("built-in illuminants are valid");
         Self { name: name.into(), ..light }
     }
 }

@@ -21,7 +21,10 @@ pub struct Uplift {
 static BT709: LazyLock<Uplift> = LazyLock::new(|| {
     let text = include_str!("../../../assets/spectra/uplift_bt709.csv");
     // The text is part of the program, and tests parse it.
-    Uplift { rho: Spectrum::columns_from_csv("uplift_bt709.csv", text).expect("the built-in uplift is valid") }
+    Uplift {
+        rho: Spectrum::columns_from_csv("uplift_bt709.csv", text, &mut Vec::new())
+            .expect("the built-in uplift is valid"),
+    }
 });
 
 impl Uplift {

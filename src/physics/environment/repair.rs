@@ -58,14 +58,18 @@ impl Sum for Repairs {
     }
 }
 
+/// Counts of pixels by what was wrong with them; empty without any.
 impl fmt::Display for Repairs {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { not_a_number, negative, too_bright } = self;
-        write!(
-            formatter,
-            "{not_a_number} pixels that are not a number and {negative} negative ones taken as black, \
-             {too_bright} brighter than {MAX_RADIANCE} clamped"
-        )
+        let bright = format!("brighter than {MAX_RADIANCE} or infinite (clamped)");
+        let kinds = [
+            (self.not_a_number, "NaN (made black)"),
+            (self.negative, "negative (raised to 0)"),
+            (self.too_bright, bright.as_str()),
+        ];
+        let told: Vec<String> =
+            kinds.iter().filter(|(count, _)| *count > 0).map(|(n, what)| format!("{n} {what}")).collect();
+        formatter.write_str(&told.join(", "))
     }
 }
 
@@ -91,6 +95,10 @@ mod tests {
         let repairs: Repairs = pixels.iter_mut().map(Repairs::repair).sum();
         assert_eq!(repairs, Repairs { not_a_number: 1, negative: 2, too_bright: 1 });
         assert_eq!(repairs.total(), 4);
+        assert_eq!(
+            repairs.to_string(),
+            "1 NaN (made black), 2 negative (raised to 0), 1 brighter than 65000 or infinite (clamped)"
+        );
         let expected = [[0.0, 0.0, MAX_RADIANCE], [0.0, 2.0, MAX_RADIANCE], [MAX_RADIANCE, 1.0, 2.0], [0.0, 3.0, 4.0]];
         assert_eq!(pixels, expected);
     }

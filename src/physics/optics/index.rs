@@ -67,9 +67,9 @@ impl FilmIndex {
         if (0.0..=100.0).contains(&percent) { Ok(Self::Glycerol(percent)) } else { Err(FilmIndexError::Share(percent)) }
     }
 
-    /// Reads lines `wavelength_nm,n` from 360 to 780 nm; `name` is the file's name.
-    pub fn from_csv(name: &str, text: &str) -> Result<Self, SpectrumError> {
-        Ok(Self::Table(name.into(), Arc::new(Spectrum::index_from_csv(name, text)?)))
+    /// Reads a table of wavelengths and indices, see [`Spectrum::index_from_csv`]; `name` is the file's name.
+    pub fn from_csv(name: &str, text: &str, notes: &mut Vec<String>) -> Result<Self, SpectrumError> {
+        Ok(Self::Table(name.into(), Arc::new(Spectrum::index_from_csv(name, text, notes)?)))
     }
 
     /// Refractive index, relative to vacuum, at a vacuum wavelength of 360 to 780 nm.
@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn tables_are_read_between_their_lines() {
-        let film = FilmIndex::from_csv("n.csv", "nm,n\n360,1.5\n780,1.4\n").expect("valid");
+        let film = FilmIndex::from_csv("n.csv", "nm,n\n360,1.5\n780,1.4\n", &mut Vec::new()).expect("valid");
         assert!((film.n(570.0) - 1.45).abs() < 1e-12);
         assert_eq!(film.to_string(), "n.csv");
     }
