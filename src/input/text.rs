@@ -25,18 +25,40 @@ fn read_text_up_to(path: &Path, limit_bytes: u64) -> Result<String, InputError> 
     if bytes.len() as u64 > limit_bytes {
         return Err(InputError::TextTooLong { path: path.to_owned(), limit_bytes });
     }
-    let text = String::from_utf8(bytes)
-        .map_err(|error| InputError::NotText { path: path.to_owned(), byte: error.utf8_error().valid_up_to() })?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let byte = error.utf8_error().valid_up_to();
+        let line = 1 + error.as_bytes()[..byte].iter().filter(|byte| **byte == b'\n').count();
+        InputError::NotText { path: path.to_owned(), line, byte }
+    })?;
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }
 
-/// Opens a file to read, and tells a folder from a file (not every system does so before the first read).
+/// Opens an ordinary file to read. To open a pipe would wait for a writer, perhaps for ever; a device may have no end.
 pub(super) fn open(path: &Path) -> Result<File, InputError> {
     let in_words = |reason| InputError::from_io(path, reason);
-    if std::fs::metadata(path).map_err(in_words)?.is_dir() {
+    let kind = std::fs::metadata(path).map_err(in_words)?.file_type();
+    if kind.is_dir() {
         return Err(InputError::Folder { path: path.to_owned() });
     }
+    if !kind.is_file() {
+        return Err(InputError::NotAFile { path: path.to_owned(), kind: kind_in_words(kind) });
+    }
     File::open(path).map_err(in_words)
+}
+
+#[cfg(unix)]
+fn kind_in_words(kind: std::fs::FileType) -> &'static str {
+    use std::os::unix::fs::FileTypeExt;
+    match kind {
+        kind if kind.is_fifo() => "a pipe",
+        kind if kind.is_socket() => "a socket",
+        _ => "a device",
+    }
+}
+
+#[cfg(not(unix))]
+fn kind_in_words(_: std::fs::FileType) -> &'static str {
+    "a pipe or a device"
 }
 
 #[cfg(test)]
@@ -65,8 +87,21 @@ mod tests {
 
     #[test]
     fn names_the_byte_that_is_not_text() {
-        let error = read(b"ok \xff\xfe", 100).unwrap_err();
-        assert!(matches!(error, InputError::NotText { byte: 3, .. }), "{error}");
+        let error = read(b"ok\n \xff\xfe", 100).unwrap_err();
+        assert!(matches!(error, InputError::NotText { line: 2, byte: 4, .. }), "{error}");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn pipes_sockets_and_devices_are_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let [pipe, socket] = ["pipe", "socket"].map(|name| folder.path().join(name));
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        for (path, kind) in [(pipe.as_path(), "pipe"), (&socket, "socket"), (Path::new("/dev/zero"), "device")] {
+            let error = read_text(path).unwrap_err().to_string();
+            assert_eq!(error, format!("{} is a {kind}: name an ordinary file", path.display()));
+        }
     }
 
     #[test]
