@@ -1,6 +1,9 @@
 //! The command line as scripts see it: exit codes, one clear line on stderr, no file left behind, columns and keys.
 
 mod colour;
+mod mistakes;
+#[cfg(unix)]
+mod streams;
 #[path = "../support/mod.rs"]
 mod support;
 
