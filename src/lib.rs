@@ -18,6 +18,8 @@
 //! | [`physics`] | what is TRUE: f64 on the CPU | wgpu, scene files |
 
 #![warn(missing_docs)]
+// They panic where a stream is closed or full: `output::print` and `output::tell` do not.
+#![cfg_attr(not(test), warn(clippy::print_stdout, clippy::print_stderr))]
 
 #[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
 pub mod app;

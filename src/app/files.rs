@@ -16,7 +16,7 @@ use crate::{
     input::{LoadError, LoadedScene, load_environment, load_illuminant, load_scene},
     output::{Metadata, Picture, write_text},
     plan::Resources,
-    scene::Light,
+    scene::{Light, Scene},
 };
 
 /// A dialog that ends sooner than this without an answer was never seen.
@@ -85,11 +85,13 @@ impl Files {
         model.loading = Some(what.to_owned());
     }
 
-    /// Saves a scene.
-    pub fn save_scene(&self, path: PathBuf, toml: String) {
-        self.run(move || match write_text(&path, &toml) {
-            Ok(()) => Outcome::Done(format!("Saved {}", path.display())),
-            Err(error) => Outcome::Failed(error.to_string()),
+    /// Saves a scene whose relative paths start from a folder. In another folder they still name the files that they do.
+    pub fn save_scene(&self, path: PathBuf, scene: Scene, folder: PathBuf) {
+        self.run(move || {
+            let saved = moved(scene, &folder, path.parent().unwrap_or(Path::new("")));
+            let written =
+                saved.and_then(|scene| write_text(&path, &scene.to_toml()).map_err(|error| error.to_string()));
+            written.map_or_else(Outcome::Failed, |()| Outcome::Done(format!("Saved {}", path.display())))
         });
     }
 
@@ -170,6 +172,24 @@ impl Files {
     }
 }
 
+/// A scene whose relative paths start from another folder: they lead from there to the files inside it, and from the root to all others.
+fn moved(mut scene: Scene, from: &Path, to: &Path) -> Result<Scene, String> {
+    let absolute = |path: &Path| std::path::absolute(path).map_err(|error| format!("{}: {error}", path.display()));
+    let current = PathBuf::from(".");
+    let [from, to] = [from, to].map(|folder| if folder.as_os_str().is_empty() { &current } else { folder });
+    let [from, to] = [absolute(from)?, absolute(to)?];
+    if from == to {
+        return Ok(scene);
+    }
+    for path in scene.paths_mut().filter(|path| Path::new(path).is_relative()) {
+        let whole = from.join(&*path);
+        let named = whole.strip_prefix(&to).unwrap_or(&whole).to_str();
+        *path =
+            named.ok_or_else(|| format!("{}: no scene can name it, for it is not UTF-8", whole.display()))?.to_owned();
+    }
+    Ok(scene)
+}
+
 /// What a scene names, with another light, and notes about its files; its environment and lamps are loaded only if they are not known.
 fn load_light(
     light: &Light,
@@ -234,6 +254,51 @@ mod tests {
         assert_eq!(files.collect(&mut model), []);
         assert_eq!(model.scene.light, light);
         assert_ne!(model.resources.environment.id(), before);
+    }
+
+    #[test]
+    fn a_scene_saved_elsewhere_finds_all_of_its_files() {
+        let folder = tempfile::tempdir().unwrap();
+        let [old, new] = ["old", "new"].map(|name| folder.path().join(name));
+        std::fs::create_dir_all(&old).unwrap();
+        std::fs::create_dir_all(&new).unwrap();
+        let table = |value: &str| format!("360,{value}\n780,{value}\n");
+        for (path, value) in [(old.join("lamp.csv"), "1"), (new.join("patch.csv"), "2"), (old.join("n.csv"), "1.4")] {
+            std::fs::write(path, table(value)).unwrap();
+        }
+        let text = "version = 1\n[light]\nilluminant = 'lamp.csv'\nconstant = [1, 1, 1]\n\
+                    [[light.patch]]\nilluminant = '../new/patch.csv'\n[[bubble]]\n[bubble.film]\nindex = 'n.csv'\n";
+        std::fs::write(old.join("scene.toml"), text).unwrap();
+        let loaded = load_scene(old.join("scene.toml")).unwrap();
+        let (files, arrived) = files();
+        let saved = new.join("saved.toml");
+        files.save_scene(saved.clone(), loaded.scene.clone(), loaded.folder.clone());
+        arrived.recv_timeout(PATIENCE).unwrap();
+        let read = load_scene(&saved).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(read.resources.illuminant.spectrum(), loaded.resources.illuminant.spectrum());
+        assert_eq!(read.resources.lamps[0].illuminant.spectrum(), loaded.resources.lamps[0].illuminant.spectrum());
+        assert_eq!(read.resources.liquids.len(), 1);
+
+        files.save_scene(old.join("again.toml"), loaded.scene.clone(), loaded.folder);
+        arrived.recv_timeout(PATIENCE).unwrap();
+        assert_eq!(
+            load_scene(old.join("again.toml")).unwrap().scene,
+            loaded.scene,
+            "in its own folder nothing changes"
+        );
+    }
+
+    #[test]
+    fn paths_into_the_new_folder_are_relative_and_others_are_whole() {
+        let environment = |path: &str| Scene {
+            light: Light { environment: Environment::File(path.to_owned()), ..Light::default() },
+            ..Scene::default()
+        };
+        let at =
+            |path: &str, to: &str| moved(environment(path), Path::new("/a"), Path::new(to)).unwrap().light.environment;
+        assert_eq!(at("hall.exr", "/b"), Environment::File("/a/hall.exr".to_owned()));
+        assert_eq!(at("sky/hall.exr", "/a/sky"), Environment::File("hall.exr".to_owned()));
+        assert_eq!(at("/c/hall.exr", "/b"), Environment::File("/c/hall.exr".to_owned()));
     }
 
     #[test]

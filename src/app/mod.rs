@@ -39,17 +39,36 @@ use crate::{
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
     /// No display, or one that fails.
-    #[error("no window can be opened here ({0}); `soapfilm render` draws without one")]
-    EventLoop(#[from] winit::error::EventLoopError),
+    #[error("no window can be opened here ({}); `soapfilm render` draws without one", without_place(.0))]
+    EventLoop(winit::error::EventLoopError),
     /// The system refuses a window.
-    #[error("the system refuses a window: {0}")]
-    Window(#[from] winit::error::OsError),
+    #[error("the system refuses a window: {}", without_place(.0))]
+    Window(winit::error::OsError),
     /// The adapter cannot draw into the window.
     #[error("the graphics driver cannot draw into a window: {0}; choose another with --adapter or --backend")]
     Surface(String),
     /// No GPU, or one that fails for good.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+}
+
+impl From<winit::error::EventLoopError> for AppError {
+    fn from(error: winit::error::EventLoopError) -> Self {
+        Self::EventLoop(error)
+    }
+}
+
+impl From<winit::error::OsError> for AppError {
+    fn from(error: winit::error::OsError) -> Self {
+        Self::Window(error)
+    }
+}
+
+/// What winit says without the place in its source, which it puts before what the system says.
+fn without_place(error: &dyn std::fmt::Display) -> String {
+    let told = error.to_string();
+    let place = told.strip_prefix("os error at ").and_then(|told| told.split_once(": "));
+    place.map_or(told.as_str(), |(_, reason)| reason).trim_end_matches('.').to_owned()
 }
 
 /// Opens the window on a scene, and returns once it is closed.

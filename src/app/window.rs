@@ -25,7 +25,8 @@ use super::{
 };
 use crate::{
     gpu::{AdapterChoice, Gpu},
-    scene::{Environment, Light, Scene},
+    output::tell,
+    scene::{Environment, Light},
 };
 
 /// What reaches the loop from outside the window.
@@ -84,7 +85,7 @@ impl Handler {
         let stage = Stage::new(instance, &self.choice, &window, egui.egui_ctx())?;
         let gpu = &stage.renderer.gpu;
         self.model.costs.adapter = format!("{}, {}", gpu.adapter_name(), gpu.driver());
-        eprintln!("adapter: {}", self.model.costs.adapter);
+        tell(format_args!("adapter: {}", self.model.costs.adapter));
         egui.set_max_texture_side(gpu.device.limits().max_texture_dimension_2d as usize);
         window.set_visible(true);
         Ok(View::new(window, egui, stage, self.choice.clone()))
@@ -133,8 +134,11 @@ impl Handler {
             match arrival {
                 Arrival::Scene => view.window.set_title(&title(&self.model)),
                 Arrival::Chosen(Target::SaveScene, path) => {
-                    let toml = portable(&self.model.scene, &self.model.folder).to_toml();
-                    self.files.save_scene(with_ending(path, "toml"), toml);
+                    self.files.save_scene(
+                        with_ending(path, "toml"),
+                        self.model.scene.clone(),
+                        self.model.folder.clone(),
+                    );
                 }
                 Arrival::Chosen(Target::SavePng, path) => {
                     view.capture(&mut self.model, false, with_ending(path, "png"));
@@ -171,18 +175,6 @@ impl Handler {
 
 fn title(model: &Model) -> String {
     format!("soapfilm – {}", model.name)
-}
-
-/// The scene so that it can be read from any folder.
-fn portable(scene: &Scene, folder: &Path) -> Scene {
-    let mut scene = scene.clone();
-    if let Environment::File(path) = &mut scene.light.environment
-        && let Ok(whole) = std::path::absolute(folder.join(&*path))
-        && let Some(whole) = whole.to_str()
-    {
-        whole.clone_into(path);
-    }
-    scene
 }
 
 /// A path that ends as its kind of file does, where the user gave no ending.
@@ -272,15 +264,6 @@ impl Handler {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_saved_scene_finds_its_environment_from_anywhere() {
-        let mut scene = Scene::default();
-        assert_eq!(portable(&scene, Path::new("/scenes")), scene);
-        scene.light.environment = Environment::File("hall.exr".to_owned());
-        let saved = portable(&scene, Path::new("/scenes"));
-        assert_eq!(saved.light.environment, Environment::File("/scenes/hall.exr".to_owned()));
-    }
 
     #[test]
     fn a_name_without_ending_gets_one() {

@@ -10,7 +10,7 @@ use super::{AdapterArguments, parse, strip};
 use crate::{
     gpu::probe_colour::{ColourProbe, ProbePoint},
     input::{load_illuminant, load_liquid, read_table_text},
-    output::{Metadata, write_text},
+    output::{Metadata, print, write_text},
     physics::{
         colour::{BT2020, FilmOptics, Walls},
         optics::FilmMaterial,
@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let (folder, mut notes) = (Path::new(""), Vec::new());
     let film = FilmMaterial { index: load_liquid(&arguments.film, folder, &mut notes)?, skin_nm: arguments.skin };
     let key = OpticsKey { film, illuminant: load_illuminant(&arguments.illuminant, folder, &mut notes)?.into() };
-    super::tell(&notes);
+    super::tell_notes(&notes);
     let points = points(arguments)?;
     let thickest_nm = points.films.iter().map(|film| film.walls.thickest_nm()).fold(0.0, f64::max);
     let optics = key.spectra_to(thickest_nm);
@@ -82,6 +82,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         parse::Quality::Reference => points.films.iter().map(|film| optics.xyz(film.cos_theta, film.walls)).collect(),
         parse::Quality::Gpu(quality) => through_shaders(arguments, &key, quality, &points.films)?,
     };
+    anyhow::ensure!(
+        colours.iter().all(|xyz| xyz.is_finite()),
+        "this film has no colour in finite numbers; please report it"
+    );
     if let Some(path) = &arguments.strip {
         let metadata = Metadata::new()
             .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
@@ -92,7 +96,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let text = table(&points, &colours, arguments.spectrum.then_some(&optics))?;
     match &arguments.output {
         Some(path) => write_text(path, &text)?,
-        None => print!("{text}"),
+        None => print(text)?,
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! `soapfilm flow`: the flow solver against flows whose answer is known, on the GPU.
 
-use std::path::PathBuf;
+use std::{ops::RangeInclusive, path::PathBuf};
 
 use clap::Args;
 use glam::DVec3;
@@ -12,7 +12,7 @@ use crate::{
         flow::Cycles,
         flow_case::{FlowOutcome, FlowRun},
     },
-    output::write_text,
+    output::{check_target, print, write_text},
     physics::flow::{FlowCase, FlowCaseKind, Mode},
 };
 
@@ -42,16 +42,16 @@ pub struct Arguments {
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = parse::direction, allow_hyphen_values = true)]
     axis: DVec3,
     /// ω, the solid rotation of rossby-haurwitz and stationary
-    #[arg(long, value_name = "W", default_value_t = 1.0, value_parser = parse::finite, allow_hyphen_values = true)]
+    #[arg(long, value_name = "W", default_value_t = 1.0, value_parser = parse::within(LARGEST), allow_hyphen_values = true)]
     omega: f64,
     /// K, the strength of the wave, or of the jet's P₃ [default: 1 for rossby-haurwitz, 0.1 for stationary]
-    #[arg(long, value_name = "K", value_parser = parse::finite, allow_hyphen_values = true)]
+    #[arg(long, value_name = "K", value_parser = parse::within(LARGEST), allow_hyphen_values = true)]
     k: Option<f64>,
     /// a of ln h = -a z in sloshing; negative is upside down, and grows
-    #[arg(long, value_name = "A", default_value_t = 1.0, value_parser = parse::finite, allow_hyphen_values = true)]
+    #[arg(long, value_name = "A", default_value_t = 1.0, value_parser = parse::within(-20.0..=20.0), allow_hyphen_values = true)]
     stratification: f64,
     /// Drag of the air in sloshing, 1/s
-    #[arg(long, value_name = "ALPHA", default_value_t = 0.0, value_parser = parse::finite)]
+    #[arg(long, value_name = "ALPHA", default_value_t = 0.0, value_parser = parse::within(0.0..=1e6))]
     drag: f64,
     /// Write the norms to a JSON file
     #[arg(long, value_name = "FILE")]
@@ -60,8 +60,12 @@ pub struct Arguments {
     adapter: AdapterArguments,
 }
 
+/// What a GPU's numbers bear of speeds: their squares are summed.
+const LARGEST: RangeInclusive<f64> = -1e6..=1e6;
+
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let case = case(arguments)?;
+    arguments.json.as_deref().map_or(Ok(()), check_target)?;
     let run = FlowRun {
         case,
         cells: arguments.cells,
@@ -71,19 +75,30 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     };
     let gpu = arguments.adapter.open()?;
     let outcome = run.measure(&gpu)?;
-    print!("{}: l2 {:.3e}", case.kind().name(), outcome.l2);
+    anyhow::ensure!(
+        is_finite(&outcome),
+        "the flow has left the numbers that a GPU holds: take more --steps, or less of what drives it"
+    );
+    let mut line = format!("{}: l2 {:.3e}", case.kind().name(), outcome.l2);
     if outcome.energy_drift.is_finite() {
-        print!(", energy drift {:.2e}", outcome.energy_drift);
+        line += &format!(", energy drift {:.2e}", outcome.energy_drift);
     }
     if let (FlowCaseKind::Sloshing, Some(found)) = (case.kind(), outcome.oscillation) {
-        print!("; frequency {:.6} (exact {:.6})", found.frequency, case.frequency());
-        print!(", growth {:.6} (exact {:.6})", found.growth, case.growth());
+        line += &format!("; frequency {:.6} (exact {:.6})", found.frequency, case.frequency());
+        line += &format!(", growth {:.6} (exact {:.6})", found.growth, case.growth());
     }
-    println!("; {} dispatches and {:.2} ms of process CPU a step", outcome.dispatches, outcome.cpu.as_secs_f64() * 1e3);
+    let cpu_ms = outcome.cpu.as_secs_f64() * 1e3;
+    print(format_args!("{line}; {} dispatches and {cpu_ms:.2} ms of process CPU a step\n", outcome.dispatches))?;
     if let Some(path) = &arguments.json {
         write_text(path, &serde_json::to_string_pretty(&report(arguments, &case, &outcome))?)?;
     }
     Ok(())
+}
+
+/// Whether a run has an answer. What a case has no answer for, as a drift of nothing, does not count.
+fn is_finite(outcome: &FlowOutcome) -> bool {
+    let found = outcome.oscillation.map_or([0.0; 2], |found| [found.frequency, found.growth]);
+    [outcome.l2, found[0], found[1]].iter().all(|number| number.is_finite())
 }
 
 fn case(arguments: &Arguments) -> anyhow::Result<FlowCase> {
@@ -96,7 +111,6 @@ fn case(arguments: &Arguments) -> anyhow::Result<FlowCase> {
         !sloshes || arguments.stratification != 0.0,
         "without stratification nothing sloshes: use another than 0"
     );
-    anyhow::ensure!(arguments.drag >= 0.0, "drag slows down: use 0 or more");
     let case = FlowCase::new(arguments.case, arguments.axis, mode, arguments.omega, k)?;
     Ok(case.with_film(arguments.stratification, arguments.drag))
 }

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::AdapterArguments;
 use crate::{
     gpu::{Gpu, device::OPTIONAL_FEATURES},
-    output::write_text,
+    output::{print, write_text},
 };
 
 /// List the graphics adapters and what soapfilm uses of them.
@@ -25,13 +25,14 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let gpu = arguments.adapter.open()?;
     let report = report(&gpu);
-    println!("soapfilm {}", env!("CARGO_PKG_VERSION"));
+    print(format_args!("soapfilm {}\n", env!("CARGO_PKG_VERSION")))?;
     for adapter in report["adapters"].as_array().into_iter().flatten() {
-        println!("found     {} ({}, {})", text(&adapter["name"]), text(&adapter["backend"]), text(&adapter["type"]));
+        let [name, backend, kind] = ["name", "backend", "type"].map(|key| text(&adapter[key]));
+        print(format_args!("found     {name} ({backend}, {kind})\n"))?;
     }
-    println!("uses      {}, driver {}", text(&report["adapter"]), text(&report["driver"]));
-    println!("features  {}", text(&report["features"]));
-    println!("limits    {}", report["limits"]);
+    print(format_args!("uses      {}, driver {}\n", text(&report["adapter"]), text(&report["driver"])))?;
+    print(format_args!("features  {}\n", text(&report["features"])))?;
+    print(format_args!("limits    {}\n", report["limits"]))?;
     if let Some(path) = &arguments.json {
         write_text(path, &serde_json::to_string_pretty(&report)?)?;
     }

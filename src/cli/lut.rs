@@ -36,7 +36,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NM", default_value = "1500", value_parser = parse::range_nm)]
     range: f64,
     /// Columns and rows
-    #[arg(long, value_name = "COLUMNSxROWS", default_value = "64x2048", value_parser = parse::table_size)]
+    #[arg(long, value_name = "COLUMNSxROWS", default_value = "64x2048", value_parser = parse::table_size, allow_hyphen_values = true)]
     size: [u32; 2],
     #[command(flatten)]
     _adapter: AdapterArguments,
@@ -59,11 +59,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let (folder, mut notes) = (Path::new(""), Vec::new());
     let film = FilmMaterial { index: load_liquid(&arguments.film, folder, &mut notes)?, skin_nm: arguments.skin };
     let optics = FilmOptics::new(film, &load_illuminant(&arguments.illuminant, folder, &mut notes)?);
-    super::tell(&notes);
+    super::tell_notes(&notes);
     let [columns, rows] = arguments.size.map(|size| size as usize);
     let index = optics.film().reference_index();
     let table = FilmTable { columns, rows, max_thickness_nm: arguments.range, index };
     let texels = table.texels(&optics);
+    anyhow::ensure!(texels.iter().all(|texel| texel.is_finite()), "this table is not finite; please report it");
     let pixels: Vec<[f32; 3]> = texels.iter().map(|texel| texel.as_vec3().to_array()).collect();
     let metadata = metadata(arguments, &table);
     let picture = ExrPicture {

@@ -10,7 +10,7 @@ use crate::{
         Renderer,
         timing::{Counts, PassTime},
     },
-    output::write_text,
+    output::{tell, write_text},
     plan::Want,
 };
 
@@ -78,11 +78,10 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
 /// Prints the cost, and writes it to a file if one is named.
 pub fn report(renderer: &Renderer, first: &FirstFrame, cost: &Cost, file: Option<&Path>) -> anyhow::Result<()> {
     if let (Some(cpu), Some(wall)) = (cost.cpu_ms, cost.wall_ms) {
-        eprint!("frame: {cpu:.2} ms of process CPU, {wall:.2} ms of wall time");
-        match cost.yardstick_cpu_ms {
-            Some(yard) => eprintln!("; plain sphere: {yard:.2} ms CPU, ratio {:.2}", cpu / yard),
-            None => eprintln!(),
-        }
+        let yard = cost.yardstick_cpu_ms;
+        let yard = yard.map(|yard| format!("; plain sphere: {yard:.2} ms CPU, ratio {:.2}", cpu / yard));
+        let yard = yard.unwrap_or_default();
+        tell(format_args!("frame: {cpu:.2} ms of process CPU, {wall:.2} ms of wall time{yard}"));
     }
     match file {
         Some(path) => Ok(write_text(path, &serde_json::to_string_pretty(&json(renderer, first, cost))?)?),

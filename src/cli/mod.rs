@@ -1,9 +1,11 @@
 //! The command line: one module a command.
 //!
 //! Every command names the adapter it used on stderr, fails with one clear line there and a non-zero exit, and never leaves a
-//! half-written file.
+//! half-written file. Exit codes: 0, done; 1, it cannot be done; 2, the arguments make no sense; 141, the reader of standard output has
+//! stopped, as `head` does, which is no error and ends the program without a word.
 
 mod colour;
+mod failure;
 mod flow;
 mod info;
 mod lut;
@@ -17,13 +19,20 @@ mod strip;
 mod transport;
 mod verify;
 
-use std::{ffi::OsString, process::ExitCode};
+use std::{
+    ffi::OsString,
+    io::Write,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
-use clap::{Args, Parser, Subcommand, error::ErrorKind};
+use clap::{Arg, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::{
     gpu::{AdapterChoice, Gpu, GpuError},
-    input::{LoadError, LoadedScene, load_scene},
+    input::{LoadError, LoadedScene, load_scene_with},
+    output::{tell, watch_signals},
+    scene::Setting,
 };
 
 /// Said wherever errors of colours are: small ones make the numerics invisible, and are no claim about a real film.
@@ -70,7 +79,9 @@ enum Command {
 #[command(after_help = "Example:\n  soapfilm app windows")]
 struct AppArguments {
     /// A scene file, or the name of a preset; the default bubble without one
-    scene: Option<String>,
+    scene: Option<PathBuf>,
+    #[command(flatten)]
+    settings: SceneSettings,
     #[command(flatten)]
     adapter: AdapterArguments,
 }
@@ -94,8 +105,28 @@ impl AdapterArguments {
     /// Opens the adapter without a window, and names it on stderr.
     fn open(&self) -> Result<Gpu, GpuError> {
         let gpu = pollster::block_on(Gpu::headless(&self.choice()))?;
-        eprintln!("adapter: {}, {}", gpu.adapter_name(), gpu.driver());
+        tell(format_args!("adapter: {}, {}", gpu.adapter_name(), gpu.driver()));
         Ok(gpu)
+    }
+}
+
+/// Values of a scene that are given on the command line.
+#[derive(Args, Clone, Debug)]
+struct SceneSettings {
+    /// Set a key of the scene, as in `view.exposure_ev=2`, `bubble.0.film.thickness_nm=400` or `light.illuminant=A`; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    settings: Vec<Setting>,
+}
+
+impl SceneSettings {
+    /// Loads a scene with these settings, and says on stderr what of it no real bubble does, and how its files were read where that is in doubt.
+    fn load(&self, name: &Path) -> Result<LoadedScene, LoadError> {
+        let loaded = load_scene_with(name, &self.settings)?;
+        for warning in loaded.scene.warnings() {
+            tell(format_args!("warning: {warning}"));
+        }
+        tell_notes(&loaded.notes);
+        Ok(loaded)
     }
 }
 
@@ -104,24 +135,37 @@ pub type OpenWindow = fn(LoadedScene, &AdapterChoice) -> anyhow::Result<()>;
 
 /// Runs the program with its arguments, the program's own name first. The window belongs to another layer, so it is handed in.
 pub fn main(arguments: impl IntoIterator<Item = OsString>, open_window: OpenWindow) -> ExitCode {
-    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error")).init();
-    let arguments = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => arguments,
-        Err(error) => return explain(&error),
-    };
-    match run(arguments, open_window) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {}", one_line(&format!("{error:#}")));
-            ExitCode::FAILURE
-        }
+    std::panic::set_hook(Box::new(failure::report_panic));
+    report_logs();
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    if let Some(told) = failure::mistyped(&arguments) {
+        tell(told);
+        return ExitCode::from(2);
     }
+    let parsed = match parsed(&arguments) {
+        Ok(parsed) => parsed,
+        Err(error) => return failure::explain(&error, &arguments),
+    };
+    if let Err(error) = watch_signals() {
+        log::warn!("an interrupt may leave temporary files until the next run: {error}");
+    }
+    run(parsed, open_window).map_or_else(|error| failure::report(&error), |()| 0).into()
+}
+
+/// The arguments, with what begins with a sign and a digit taken as a value: whether it is a good one the option knows best.
+fn parsed(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
+    let signed = |argument: Arg| {
+        let is_option = argument.get_long().is_some() && argument.get_action().takes_values();
+        if is_option { argument.allow_negative_numbers(true) } else { argument }
+    };
+    let command = Arguments::command().mut_args(signed).mut_subcommands(|command| command.mut_args(signed));
+    Arguments::from_arg_matches(&command.try_get_matches_from(arguments)?)
 }
 
 fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
     match arguments.command.unwrap_or(Command::App(arguments.app)) {
         Command::App(arguments) => {
-            let scene = load(arguments.scene.as_deref().unwrap_or("default"))?;
+            let scene = arguments.settings.load(arguments.scene.as_deref().unwrap_or(Path::new("default")))?;
             open_window(scene, &arguments.adapter.choice())
         }
         Command::Render(arguments) => render::run(&arguments),
@@ -135,34 +179,17 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
     }
 }
 
-/// Loads a scene, and says on stderr what of it no real bubble does, and how its files were read where that is in doubt.
-fn load(name: &str) -> Result<LoadedScene, LoadError> {
-    let loaded = load_scene(name)?;
-    for warning in loaded.scene.warnings() {
-        eprintln!("warning: {warning}");
-    }
-    tell(&loaded.notes);
-    Ok(loaded)
-}
-
 /// Says on stderr what a user should know of how files were read.
-fn tell(notes: &[String]) {
-    notes.iter().for_each(|note| eprintln!("note: {note}"));
+fn tell_notes(notes: &[String]) {
+    notes.iter().for_each(|note| tell(format_args!("note: {note}")));
 }
 
-/// What is wrong with the arguments in one line; help and version as they are.
-fn explain(error: &clap::Error) -> ExitCode {
-    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-        // Help that nobody reads, because the pipe is closed, is no failure.
-        let _ = error.print();
-        return ExitCode::SUCCESS;
-    }
-    let text = error.to_string();
-    let told = text.split("\n\nUsage:").next().and_then(|text| text.split("\n\nFor more").next()).unwrap_or(&text);
-    eprintln!("{} (see --help)", one_line(told));
-    ExitCode::from(2)
-}
-
-fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+/// Errors that drivers and libraries log reach the user in a line each; `RUST_LOG` asks for more.
+fn report_logs() {
+    let mut logger = env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error"));
+    logger.format(|line, record| {
+        let told = failure::one_line(&record.args().to_string());
+        writeln!(line, "{} ({}): {told}", record.level().as_str().to_lowercase(), record.target())
+    });
+    logger.init();
 }

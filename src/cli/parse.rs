@@ -1,5 +1,7 @@
 //! Parsers of single arguments.
 
+use std::ops::RangeInclusive;
+
 use crate::{physics::colour::Gamut, scene};
 
 /// Pixels of the largest picture: what a card of 4 GB can hold at full precision.
@@ -26,14 +28,26 @@ pub fn time_s(text: &str) -> Result<f64, String> {
 
 /// A number that is neither infinite nor NaN.
 pub fn finite(text: &str) -> Result<f64, String> {
-    text.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(|| "not a finite number".to_owned())
+    let value = text.trim().parse::<f64>().ok().filter(|value| value.is_finite());
+    value.ok_or_else(|| "not a finite number; write one as in 2.5".to_owned())
+}
+
+/// A number from one to another, both included.
+pub fn within(range: RangeInclusive<f64>) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| {
+        let value = finite(text)?;
+        if range.contains(&value) { Ok(value) } else { Err(format!("use {} to {}", range.start(), range.end())) }
+    }
 }
 
 /// `X,Y,Z`, not all zero.
 pub fn direction(text: &str) -> Result<glam::DVec3, String> {
     let numbers = text.split(',').map(finite).collect::<Result<Vec<_>, _>>()?;
     let [x, y, z] = numbers[..] else { return Err("write a direction as X,Y,Z".to_owned()) };
-    glam::DVec3::new(x, y, z).try_normalize().ok_or_else(|| "a direction must not be 0,0,0".to_owned())
+    let vector = glam::DVec3::new(x, y, z);
+    // The squares of very large and very small numbers have no place in an f64.
+    let scaled = || (vector / vector.abs().max_element()).try_normalize();
+    vector.try_normalize().or_else(scaled).ok_or_else(|| "a direction must not be 0,0,0".to_owned())
 }
 
 /// A cosine in [0, 1].
@@ -123,7 +137,9 @@ mod tests {
 
     #[test]
     fn directions_are_normalised_and_never_zero() {
-        assert_eq!(direction("0,0,2"), Ok(glam::DVec3::Z));
+        for text in ["0,0,2", "0,0,1e308", "0,0,1e-300"] {
+            assert_eq!(direction(text), Ok(glam::DVec3::Z), "{text}");
+        }
         for wrong in ["0,0,0", "1,2", "1,2,3,4", "a,b,c"] {
             assert!(direction(wrong).is_err(), "{wrong}");
         }

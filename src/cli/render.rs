@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use anyhow::{Context, bail};
 use clap::Args;
 
-use super::{AdapterArguments, measure, parse, progress::Progress, reference};
+use super::{AdapterArguments, SceneSettings, measure, parse, progress::Progress, reference};
 use crate::{
     gpu::{GpuError, Renderer},
     input::LoadedScene,
-    output::{Metadata, Picture},
+    output::{Metadata, Picture, check_target, print},
     physics::{
         colour::Gamut,
         sphere::{HaloTable, PaddedField},
     },
-    plan::{Moment, Pace, Shot, Want, want},
+    plan::{Moment, Pace, Shot, Want},
     verify::{
         self,
         reference::{MovedFilms, needs_device},
@@ -28,12 +28,14 @@ use crate::{
 )]
 pub struct Arguments {
     /// A scene file, or the name of a preset
-    scene: String,
+    scene: PathBuf,
+    #[command(flatten)]
+    settings: SceneSettings,
     /// The file to write, .png or .exr
     #[arg(short, value_name = "FILE")]
     output: PathBuf,
     /// Width and height in pixels
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse::size)]
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse::size, allow_hyphen_values = true)]
     size: [u32; 2],
     /// Moment of the film, in seconds from its start
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = parse::time_s)]
@@ -65,7 +67,10 @@ pub const MAX_TICKS: u64 = 10_000_000;
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let format = Format::of(arguments)?;
-    let mut loaded = super::load(&arguments.scene)?;
+    for file in std::iter::once(&arguments.output).chain(&arguments.stats) {
+        check_target(file)?;
+    }
+    let mut loaded = arguments.settings.load(&arguments.scene)?;
     if let Some(parse::Quality::Gpu(quality)) = arguments.quality {
         loaded.scene.view.quality = quality;
     }
@@ -81,7 +86,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         yardstick: false,
         pace: Pace::Whole,
     };
-    let want = want(&loaded.scene, &loaded.resources, &shot)?;
+    let want = loaded.want(&shot)?;
     let picture = match arguments.quality {
         Some(parse::Quality::Reference) => compute(arguments, &want, format)?,
         Some(parse::Quality::Gpu(_)) | None => draw(arguments, &want, format)?,
@@ -112,7 +117,7 @@ fn draw(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result<Pi
     fits(&renderer, arguments.size)?;
     let plan = renderer.bring(want)?;
     if arguments.explain {
-        print!("{plan}");
+        print(plan)?;
     }
     let picture = match format {
         Format::Png => renderer.read_picture(),

@@ -9,16 +9,16 @@ use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 
 use super::{
-    AdapterArguments, parse,
+    AdapterArguments, SceneSettings, parse,
     progress::Progress,
     render::{MAX_TICKS, fits},
 };
 use crate::{
     gpu::Renderer,
     input::LoadedScene,
-    output::{Metadata, Picture},
+    output::{Metadata, Picture, tell},
     physics::colour::Gamut,
-    plan::{Moment, Pace, Shot, want},
+    plan::{Moment, Pace, Shot, has_one_film},
 };
 
 /// Draw numbered pictures into a folder; frame N shows the film N / fps seconds after its start
@@ -26,12 +26,14 @@ use crate::{
 #[command(after_help = "Example:\n  soapfilm sequence default -o frames --frames 0..299 --fps 30")]
 pub struct Arguments {
     /// A scene file, or the name of a preset
-    scene: String,
+    scene: PathBuf,
+    #[command(flatten)]
+    settings: SceneSettings,
     /// The folder to write to, made if it is not there
     #[arg(short, value_name = "DIR")]
     output: PathBuf,
     /// First and last frame
-    #[arg(long, value_name = "A..B", value_parser = frames)]
+    #[arg(long, value_name = "A..B", value_parser = frames, allow_hyphen_values = true)]
     frames: Frames,
     /// Frames in a second of film time
     #[arg(long, value_name = "FPS", default_value = "30", value_parser = fps)]
@@ -40,7 +42,7 @@ pub struct Arguments {
     #[arg(long, value_name = "png|exr", default_value = "png")]
     format: Format,
     /// Width and height in pixels
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse::size)]
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse::size, allow_hyphen_values = true)]
     size: [u32; 2],
     /// Draw frames anew that are already there
     #[arg(long)]
@@ -71,6 +73,9 @@ fn frames(text: &str) -> Result<Frames, String> {
     let numbers = text.split_once("..").and_then(|(first, last)| Some((first.parse().ok()?, last.parse().ok()?)));
     match numbers {
         Some((first, last)) if first <= last => Ok(Frames(first..=last)),
+        Some((first, last)) => {
+            Err(format!("the first frame, {first}, comes after the last, {last}; write A..B, like {last}..{first}"))
+        }
         _ => Err("write the first and the last frame as A..B, like 0..299".to_owned()),
     }
 }
@@ -81,16 +86,17 @@ fn fps(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let loaded = super::load(&arguments.scene)?;
+    let loaded = arguments.settings.load(&arguments.scene)?;
     let Frames(frames) = arguments.frames.clone();
     let last = Moment::of_time(*frames.end() as f64 / arguments.fps, loaded.scene.motion.tick_s);
     if last.tick > MAX_TICKS {
         bail!("frame {} is {} ticks of this scene; at most {MAX_TICKS} can be simulated", frames.end(), last.tick);
     }
-    let folder = &arguments.output;
-    std::fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
+    check(arguments, &loaded, frames.clone())?;
     let mut renderer = Renderer::new(arguments.adapter.open()?);
     fits(&renderer, arguments.size)?;
+    let folder = &arguments.output;
+    std::fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
     let progress = Progress::new("sequence", frames.clone().count());
     let mut skipped = 0;
     for frame in frames {
@@ -105,8 +111,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     drop(progress);
     if skipped > 0 {
-        eprintln!("frames that were already there and stayed: {skipped} (draw them anew with --overwrite)");
+        tell(format_args!("frames that were already there and stayed: {skipped} (draw them anew with --overwrite)"));
     }
+    Ok(())
+}
+
+/// Refuses what cannot be drawn before the first frame, not hours later.
+fn check(arguments: &Arguments, loaded: &LoadedScene, frames: RangeInclusive<u64>) -> anyhow::Result<()> {
+    let count = if has_one_film(&loaded.scene) { 1 } else { usize::MAX };
+    frames.take(count).try_for_each(|frame| loaded.want(&shot(arguments, loaded, frame)).map(|_| ()))?;
     Ok(())
 }
 
@@ -117,16 +130,7 @@ fn draw(
     frame: u64,
     path: &Path,
 ) -> anyhow::Result<()> {
-    let time_s = frame as f64 / arguments.fps;
-    let shot = Shot {
-        size: arguments.size,
-        moment: Moment::of_time(time_s, loaded.scene.motion.tick_s),
-        full_precision: arguments.format == Format::Exr,
-        gamut: Gamut::Srgb,
-        yardstick: false,
-        pace: Pace::Whole,
-    };
-    renderer.bring(&want(&loaded.scene, &loaded.resources, &shot)?)?;
+    renderer.bring(&loaded.want(&shot(arguments, loaded, frame))?)?;
     let readback = match arguments.format {
         Format::Png => renderer.read_picture(),
         Format::Exr => renderer.read_radiance(),
@@ -139,8 +143,19 @@ fn draw(
     let metadata = Metadata::new()
         .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
         .with("Scene", &loaded.name)
-        .with("Time", &format!("{time_s} s"));
+        .with("Time", &format!("{} s", frame as f64 / arguments.fps));
     Ok(picture.save(path, &metadata)?)
+}
+
+fn shot(arguments: &Arguments, loaded: &LoadedScene, frame: u64) -> Shot {
+    Shot {
+        size: arguments.size,
+        moment: Moment::of_time(frame as f64 / arguments.fps, loaded.scene.motion.tick_s),
+        full_precision: arguments.format == Format::Exr,
+        gamut: Gamut::Srgb,
+        yardstick: false,
+        pace: Pace::Whole,
+    }
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ use crate::{
         timing::Recorder,
         transport_case::{Case, values},
     },
-    output::{Metadata, Picture, write_text},
+    output::{Metadata, Picture, check_target, print, write_text},
     physics::{
         colour::Gamut,
         sphere::{CubedSphere, HaloTable, PaddedField},
@@ -93,11 +93,16 @@ fn fraction(text: &str) -> Result<f64, String> {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let case = case(arguments)?;
+    for file in [&arguments.output, &arguments.map, &arguments.json].into_iter().flatten() {
+        check_target(file)?;
+    }
     let gpu = arguments.adapter.open()?;
     let moved = advance(&gpu, &case)?;
     let norms = case.measure(&moved.values);
-    println!(
-        "{} steps of {}, {} remaps: l1 {:.6}, l2 {:.6}, linf {:.6}, range {:.6} to {:.6}",
+    let finite = [norms.l1, norms.l2, norms.linf, norms.min, norms.max].iter().all(|norm| norm.is_finite());
+    anyhow::ensure!(finite, "the tracer has left the numbers that a GPU holds: take more --steps, or another --scheme");
+    print(format_args!(
+        "{} steps of {}, {} remaps: l1 {:.6}, l2 {:.6}, linf {:.6}, range {:.6} to {:.6}\n",
         case.steps,
         case.scheme.name(),
         moved.remaps,
@@ -106,7 +111,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         norms.linf,
         norms.min,
         norms.max
-    );
+    ))?;
     if let Some(path) = &arguments.output {
         write_text(path, &cells_csv(&case, &moved.values))?;
     }

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN};
+use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN, failure};
 use crate::{
     gpu::Gpu,
-    output::write_text,
+    output::{check_target, print, write_text},
     verify::{Check, Part, Run},
 };
 
@@ -44,12 +44,15 @@ fn parts(name: &str) -> Result<Parts, String> {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    arguments.json.as_deref().map_or(Ok(()), check_target)?;
     let gpu = arguments.adapter.open()?;
     let mut checks: Vec<Check> = Vec::new();
-    println!("{:<72} {:>12} {:>12}", "check", "measured", "limit");
+    print(format_args!("{:<72} {:>12} {:>12}\n", "check", "measured", "limit"))?;
     let mut report = |check: Check| {
         let verdict = if check.passed() { "" } else { "  FAILED" };
-        println!("{:<72} {:>12.4e} {:>12.4e}{verdict}", check.name, check.measured, check.limit);
+        let line = format!("{:<72} {:>12.4e} {:>12.4e}{verdict}\n", check.name, check.measured, check.limit);
+        // Minutes of measuring would follow that nobody reads; no file has been begun.
+        print(line).unwrap_or_else(|error| std::process::exit(failure::report(&error.into()).into()));
         checks.push(check);
     };
     let mut run = Run { gpu: &gpu, long: arguments.long, report: &mut report };
@@ -58,7 +61,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         run.part(*part)?;
     }
     if parts.iter().any(|part| matches!(part, Part::Optics | Part::Picture)) {
-        println!("{PHYSICS_IS_LESS_CERTAIN}");
+        print(format_args!("{PHYSICS_IS_LESS_CERTAIN}\n"))?;
     }
     if let Some(path) = &arguments.json {
         write_text(path, &serde_json::to_string_pretty(&document(&gpu, &checks))?)?;

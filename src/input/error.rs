@@ -22,6 +22,14 @@ pub enum InputError {
         /// The folder.
         path: PathBuf,
     },
+    /// Neither a file nor a folder.
+    #[error("{} is {kind}: name an ordinary file", path.display())]
+    NotAFile {
+        /// What was named.
+        path: PathBuf,
+        /// What it is, with its article.
+        kind: &'static str,
+    },
     /// The system would not let it be read.
     #[error("cannot read {} ({reason}): check its permissions and the drive", path.display())]
     Unreadable {
@@ -120,10 +128,12 @@ pub enum InputError {
         limit_bytes: u64,
     },
     /// Not text.
-    #[error("{} is not UTF-8 text (byte {byte}): save it as UTF-8, or name another file", path.display())]
+    #[error("{}:{line}: this is not UTF-8 text (byte {byte} of the file): save it as UTF-8, or name another file", path.display())]
     NotText {
         /// The file.
         path: PathBuf,
+        /// The line of the first byte that is not UTF-8, counted from 1.
+        line: usize,
         /// The first byte that is not UTF-8, counted from 0.
         byte: usize,
     },

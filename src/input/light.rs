@@ -4,14 +4,14 @@ use std::{path::Path, sync::Arc};
 
 use glam::DVec3;
 
-use super::{LoadError, is_table, read_environment, read_table_text};
+use super::{LoadError, read_environment, read_table_text};
 use crate::{
     physics::{
         colour::{Illuminant, bt709_to_bt2020},
         environment::{CubeMap, Patch, Procedural},
     },
     plan::Lamp,
-    scene::{Environment, Light, LightPatch},
+    scene::{Environment, Fault, Light, LightPatch, is_table},
 };
 
 /// Texels that a cube map with patches has along an edge at least: their edges are then sharp to a third of a degree.
@@ -28,7 +28,10 @@ pub fn load_environment(
         _ if light.constant.is_some() => CubeMap::constant(DVec3::ONE),
         Environment::Tent => CubeMap::from_procedural(Procedural::Tent),
         Environment::Windows => CubeMap::from_procedural(Procedural::Windows),
-        Environment::File(path) => CubeMap::from_equirect(&read_environment(&folder.join(path), notes)?),
+        Environment::File(path) => {
+            let picture = read_environment(&folder.join(path), notes);
+            CubeMap::from_equirect(&picture.map_err(|error| Fault::unusable("environment", error).inside("light"))?)
+        }
     };
     if light.patches.is_empty() {
         return Ok((Arc::new(map), Vec::new()));
@@ -43,7 +46,11 @@ pub fn load_environment(
     let lamp = |name: &str| {
         let environment =
             Arc::new(CubeMap::from_fn(size, 1, |direction| of_lamp(light, &patches, name, &map, direction)));
-        Ok(Lamp { environment, illuminant: Arc::new(load_illuminant(name, folder, notes)?) })
+        let illuminant = load_illuminant(name, folder, notes).map_err(|error| {
+            let patch = light.patches.iter().position(|patch| patch.illuminant == name).unwrap_or(0);
+            Fault::unusable("illuminant", error).inside_item("patch", patch).inside("light")
+        })?;
+        Ok(Lamp { environment, illuminant: illuminant.into() })
     };
     let lamps = names.into_iter().map(lamp).collect::<Result<_, LoadError>>()?;
     Ok((Arc::new(rest), lamps))

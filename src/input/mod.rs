@@ -13,6 +13,5 @@ mod text;
 pub use environment::{MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_WIDTH, read_environment};
 pub use error::InputError;
 pub use light::{load_environment, load_illuminant};
-use scene::is_table;
-pub use scene::{LoadError, LoadedScene, load_liquid, load_scene};
+pub use scene::{LoadError, LoadedScene, load_liquid, load_scene, load_scene_with};
 pub use text::{MAX_TEXT_BYTES, read_table_text, read_text};

@@ -3,7 +3,6 @@
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
-    sync::Arc,
 };
 
 use super::{InputError, load_environment, load_illuminant, read_table_text, read_text};
@@ -13,8 +12,10 @@ use crate::{
         optics::{FilmIndex, FilmIndexError},
         spectra::SpectrumError,
     },
-    plan::Resources,
-    scene::{FilmIndexName, Scene, SceneError, preset, preset_names},
+    plan::{Resources, Shot, Want, want},
+    scene::{
+        Fault, FilmIndexName, Scene, SceneError, SceneSource, Setting, is_table, nearest, preset_names, preset_toml,
+    },
 };
 
 /// A scene, where it came from, and what it names.
@@ -30,22 +31,40 @@ pub struct LoadedScene {
     pub resources: Resources,
     /// What a user should know of how the files that it names were read, a line each.
     pub notes: Vec<String>,
+    /// What it was read from.
+    pub source: SceneSource,
+}
+
+impl LoadedScene {
+    /// What a shot of it needs.
+    ///
+    /// # Errors
+    ///
+    /// As [`want()`], with the place in the scene's text.
+    pub fn want(&self, shot: &Shot) -> Result<Want, SceneError> {
+        want(&self.scene, &self.resources, shot).map_err(|fault| self.source.locate(fault))
+    }
 }
 
 /// Why a scene cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     /// Neither a file nor a preset.
-    #[error("no scene file or preset is named `{name}`; presets: {presets}")]
+    #[error("no scene file or preset is named `{name}`; {hint}presets: {presets}")]
     NoSuchScene {
         /// The name given.
         name: String,
+        /// The preset whose name is the nearest, as a question, if one is near.
+        hint: String,
         /// The presets there are.
         presets: String,
     },
-    /// The file's text is not a scene.
+    /// The file's text is not a scene, or names what cannot be used.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A key names what cannot be used.
+    #[error(transparent)]
+    Key(#[from] Fault),
     /// A file cannot be read.
     #[error(transparent)]
     Input(#[from] InputError),
@@ -61,45 +80,71 @@ pub enum LoadError {
 }
 
 /// Loads a preset by name or a scene file by path, with its environment and light.
-pub fn load_scene(name: &str) -> Result<LoadedScene, LoadError> {
-    let path = Path::new(name);
-    let (scene, folder) = match preset(name) {
-        Some(scene) => (scene, PathBuf::new()),
-        None if !path.exists() && path.extension().is_none() => {
-            return Err(LoadError::NoSuchScene {
-                name: name.to_owned(),
-                presets: preset_names().collect::<Vec<_>>().join(", "),
-            });
-        }
+///
+/// # Errors
+///
+/// There is no such preset or file, its text is no scene, or it names what cannot be used.
+pub fn load_scene(name: impl AsRef<Path>) -> Result<LoadedScene, LoadError> {
+    load_scene_with(name, &[])
+}
+
+/// The same with settings over the scene's text.
+///
+/// # Errors
+///
+/// As [`load_scene`]; a setting at fault is named.
+pub fn load_scene_with(name: impl AsRef<Path>, settings: &[Setting]) -> Result<LoadedScene, LoadError> {
+    let path = name.as_ref();
+    let name = path.display().to_string();
+    let (source, folder) = match preset_toml(&name) {
+        Some(text) => (SceneSource::new(&name, text, settings), PathBuf::new()),
+        None if is_word(path) && !path.exists() => return Err(no_such_scene(name)),
         None => {
-            let text = read_text(path)?;
-            (Scene::from_toml(&text, name)?, path.parent().map(Path::to_owned).unwrap_or_default())
+            let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+            (SceneSource::new(&name, &read_text(path)?, settings), folder)
         }
     };
+    let scene = source.read()?;
     let mut notes = Vec::new();
-    let (environment, lamps) = load_environment(&scene.light, &folder, &mut notes)?;
-    let resources = Resources {
-        environment,
-        illuminant: Arc::new(load_illuminant(&scene.light.illuminant, &folder, &mut notes)?),
-        lamps,
-        liquids: load_liquids(&scene, &folder, &mut notes)?,
-    };
+    let resources = load_resources(&scene, &folder, &mut notes).map_err(|error| match error {
+        LoadError::Key(fault) => source.locate(fault).into(),
+        error => error,
+    })?;
     // Several lamps or films may come from one file.
     let mut told = BTreeSet::new();
     notes.retain(|note| told.insert(note.clone()));
-    Ok(LoadedScene { scene, name: name.to_owned(), folder, resources, notes })
+    Ok(LoadedScene { scene, name, folder, resources, notes, source })
+}
+
+/// Whether a path can be meant as the name of a preset.
+fn is_word(path: &Path) -> bool {
+    path.extension().is_none() && path.components().count() <= 1
+}
+
+fn no_such_scene(name: String) -> LoadError {
+    let known: Vec<&str> = preset_names().collect();
+    let hint = nearest(&name, &known).map_or(String::new(), |near| format!("did you mean `{near}`? "));
+    LoadError::NoSuchScene { name, hint, presets: known.join(", ") }
+}
+
+/// Loads all that a scene names; file paths start from a folder.
+fn load_resources(scene: &Scene, folder: &Path, notes: &mut Vec<String>) -> Result<Resources, LoadError> {
+    let (environment, lamps) = load_environment(&scene.light, folder, notes)?;
+    let illuminant = load_illuminant(&scene.light.illuminant, folder, notes);
+    let illuminant = illuminant.map_err(|error| Fault::unusable("illuminant", error).inside("light"))?;
+    Ok(Resources { environment, illuminant: illuminant.into(), lamps, liquids: load_liquids(scene, folder, notes)? })
 }
 
 /// A liquid by its name or index, or from the `.csv` file of that path. What a user should know of how it was read is added to `notes`.
+///
+/// # Errors
+///
+/// There is no such liquid, or its file cannot be read or holds no index.
 pub fn load_liquid(name: &str, folder: &Path, notes: &mut Vec<String>) -> Result<FilmIndex, LoadError> {
     if !is_table(name) {
         return Ok(name.parse()?);
     }
     Ok(FilmIndex::from_csv(name, &read_table_text(&folder.join(name))?, notes)?)
-}
-
-pub(super) fn is_table(name: &str) -> bool {
-    name.trim().to_ascii_lowercase().ends_with(".csv")
 }
 
 /// The liquids that a scene's films name.
@@ -108,9 +153,17 @@ fn load_liquids(
     folder: &Path,
     notes: &mut Vec<String>,
 ) -> Result<BTreeMap<String, FilmIndex>, LoadError> {
-    let named = scene.bubbles.iter().filter_map(|bubble| match &bubble.film.index {
-        FilmIndexName::Named(name) => Some(name),
-        FilmIndexName::Water | FilmIndexName::Constant(_) => None,
-    });
-    named.map(|name| Ok((name.clone(), load_liquid(name, folder, notes)?))).collect()
+    let mut liquids = BTreeMap::new();
+    for (index, bubble) in scene.bubbles.iter().enumerate() {
+        let FilmIndexName::Named(name) = &bubble.film.index else { continue };
+        if !liquids.contains_key(name) {
+            let liquid = load_liquid(name, folder, notes);
+            let at = |error| Fault::unusable("index", error).inside("film").inside_item("bubble", index);
+            liquids.insert(name.clone(), liquid.map_err(at)?);
+        }
+    }
+    Ok(liquids)
 }
+
+#[cfg(test)]
+mod tests;

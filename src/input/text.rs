@@ -32,7 +32,7 @@ pub fn read_table_text(path: &Path) -> Result<String, InputError> {
         [0xff, 0xfe, rest @ ..] => Ok(utf16(rest, u16::from_le_bytes)),
         [0xfe, 0xff, rest @ ..] => Ok(utf16(rest, u16::from_be_bytes)),
         bytes => match (std::str::from_utf8(bytes), bytes.iter().position(|byte| *byte == 0)) {
-            (_, Some(byte)) => Err(InputError::NotText { path: path.to_owned(), byte }),
+            (_, Some(byte)) => Err(not_text(path, bytes, byte)),
             (Ok(text), None) => Ok(text.to_owned()),
             (Err(_), None) => Ok(bytes.iter().copied().map(char::from).collect()),
         },
@@ -41,9 +41,14 @@ pub fn read_table_text(path: &Path) -> Result<String, InputError> {
 
 fn read_text_up_to(path: &Path, limit_bytes: u64) -> Result<String, InputError> {
     let bytes = read_bytes_up_to(path, limit_bytes)?;
-    let text = String::from_utf8(bytes)
-        .map_err(|error| InputError::NotText { path: path.to_owned(), byte: error.utf8_error().valid_up_to() })?;
+    let text =
+        String::from_utf8(bytes).map_err(|error| not_text(path, error.as_bytes(), error.utf8_error().valid_up_to()))?;
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+}
+
+fn not_text(path: &Path, bytes: &[u8], byte: usize) -> InputError {
+    let line = 1 + bytes[..byte].iter().filter(|byte| **byte == b'\n').count();
+    InputError::NotText { path: path.to_owned(), line, byte }
 }
 
 fn read_bytes_up_to(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, InputError> {
@@ -57,13 +62,32 @@ fn read_bytes_up_to(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, InputError
     Ok(bytes)
 }
 
-/// Opens a file to read, and tells a folder from a file (not every system does so before the first read).
+/// Opens an ordinary file to read. To open a pipe would wait for a writer, perhaps for ever; a device may have no end.
 pub(super) fn open(path: &Path) -> Result<File, InputError> {
     let in_words = |reason| InputError::from_io(path, reason);
-    if std::fs::metadata(path).map_err(in_words)?.is_dir() {
+    let kind = std::fs::metadata(path).map_err(in_words)?.file_type();
+    if kind.is_dir() {
         return Err(InputError::Folder { path: path.to_owned() });
     }
+    if !kind.is_file() {
+        return Err(InputError::NotAFile { path: path.to_owned(), kind: kind_in_words(kind) });
+    }
     File::open(path).map_err(in_words)
+}
+
+#[cfg(unix)]
+fn kind_in_words(kind: std::fs::FileType) -> &'static str {
+    use std::os::unix::fs::FileTypeExt;
+    match kind {
+        kind if kind.is_fifo() => "a pipe",
+        kind if kind.is_socket() => "a socket",
+        _ => "a device",
+    }
+}
+
+#[cfg(not(unix))]
+fn kind_in_words(_: std::fs::FileType) -> &'static str {
+    "a pipe or a device"
 }
 
 #[cfg(test)]
@@ -111,8 +135,21 @@ mod tests {
 
     #[test]
     fn names_the_byte_that_is_not_text() {
-        let error = read(b"ok \xff\xfe", 100).unwrap_err();
-        assert!(matches!(error, InputError::NotText { byte: 3, .. }), "{error}");
+        let error = read(b"ok\n \xff\xfe", 100).unwrap_err();
+        assert!(matches!(error, InputError::NotText { line: 2, byte: 4, .. }), "{error}");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn pipes_sockets_and_devices_are_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let [pipe, socket] = ["pipe", "socket"].map(|name| folder.path().join(name));
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        for (path, kind) in [(pipe.as_path(), "pipe"), (&socket, "socket"), (Path::new("/dev/zero"), "device")] {
+            let error = read_text(path).unwrap_err().to_string();
+            assert_eq!(error, format!("{} is a {kind}: name an ordinary file", path.display()));
+        }
     }
 
     #[test]

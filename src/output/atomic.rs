@@ -1,8 +1,9 @@
 //! Files appear whole or not at all.
 
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::{Builder, NamedTempFile};
 
@@ -11,7 +12,8 @@ use super::OutputError;
 /// Writes a file so that nobody ever sees half of it: `write` fills a temporary file in the same folder, which then takes the
 /// file's place in one step. If anything fails, the temporary file is gone and what stood at `path` is untouched.
 ///
-/// A link is followed: the file it points to is replaced, not the link.
+/// A link is followed: the file it points to is replaced, not the link. A run that was killed may have left its temporary file there;
+/// the first file that the program writes to a folder clears those, which nobody has locked any more.
 ///
 /// # Errors
 /// `path` is a folder or no ordinary file, its folder is missing or not writable, or `write` or the system fails on the way.
@@ -22,11 +24,103 @@ pub fn write_atomically(
     let target = target_of(path)?;
     let failed = |reason| OutputError::Write { path: path.to_owned(), reason };
     let mut temporary = temporary_beside(path, &target)?;
-    let mut writer = BufWriter::new(temporary.as_file_mut());
+    let mut writer = BufWriter::new(temporary.file.as_file_mut());
     write(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
     drop(writer);
-    temporary.persist(&target).map_err(|error| failed(error.error))?;
-    Ok(())
+    temporary.put_at(&target).map_err(failed)
+}
+
+/// Tells before work begins whether its file could be made.
+///
+/// # Errors
+/// As [`write_atomically`]: `path` is a folder or no ordinary file, or its folder is missing.
+pub fn check_target(path: &Path) -> Result<(), OutputError> {
+    let target = target_of(path)?;
+    folder_of(path, &target).map(|_| ())
+}
+
+/// Temporary files begin and end so.
+const NAME: [&str; 2] = [".soapfilm-", ".part"];
+
+/// The temporary files there are, and the folders without ones that killed runs have left.
+static FILES: Mutex<Files> = Mutex::new(Files { unfinished: Vec::new(), cleared: Vec::new() });
+
+struct Files {
+    unfinished: Vec<PathBuf>,
+    cleared: Vec<PathBuf>,
+}
+
+fn files() -> MutexGuard<'static, Files> {
+    // Both lists are whole at any time, whatever panicked.
+    FILES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes all temporary files, and lets nobody make or finish one from then on: for the end of the program.
+pub(super) fn abandon_files() {
+    let files = files();
+    for path in &files.unfinished {
+        let _ = fs::remove_file(path);
+    }
+    std::mem::forget(files);
+}
+
+/// A temporary file, which is removed with this value unless it is put in its place. It is locked, so that other runs leave it alone.
+struct Temporary {
+    file: NamedTempFile,
+    listed: Listed,
+}
+
+/// A path in the list of temporary files.
+struct Listed(PathBuf);
+
+impl Drop for Listed {
+    fn drop(&mut self) {
+        files().unfinished.retain(|path| *path != self.0);
+    }
+}
+
+impl Temporary {
+    fn new(builder: &Builder, folder: &Path) -> io::Result<Self> {
+        let mut files = files();
+        if !files.cleared.iter().any(|cleared| cleared == folder) {
+            clear(folder);
+            files.cleared.push(folder.to_owned());
+        }
+        loop {
+            let file = builder.tempfile_in(folder)?;
+            // Where a file system knows no locks, nobody clears either.
+            let _ = file.as_file().lock();
+            // Another run may have cleared it before the lock.
+            if file.path().exists() {
+                let path = file.path().to_owned();
+                files.unfinished.push(path.clone());
+                return Ok(Self { file, listed: Listed(path) });
+            }
+        }
+    }
+
+    fn put_at(self, target: &Path) -> io::Result<()> {
+        let Self { file, listed } = self;
+        let files = files();
+        let put = file.persist(target).map(|_| ()).map_err(|error| error.error);
+        drop(files);
+        drop(listed);
+        put
+    }
+}
+
+/// Removes temporary files that runs have left which are no more: nobody has them locked.
+fn clear(folder: &Path) {
+    for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let is_ours = name.starts_with(NAME[0]) && name.ends_with(NAME[1]);
+        if is_ours && fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.is_file()) {
+            let left = OpenOptions::new().read(true).write(true).open(&path);
+            if left.is_ok_and(|file| file.try_lock().is_ok()) {
+                let _ = fs::remove_file(&path);
+            }
+        }
+    }
 }
 
 /// The file that is to be replaced or made, with links followed.
@@ -41,22 +135,28 @@ fn target_of(path: &Path) -> Result<PathBuf, OutputError> {
     }
 }
 
-fn temporary_beside(path: &Path, target: &Path) -> Result<NamedTempFile, OutputError> {
+/// The folder of a target, which must be there.
+fn folder_of(path: &Path, target: &Path) -> Result<PathBuf, OutputError> {
     let named = target.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = named.unwrap_or(Path::new(".")).to_owned();
-    let path = path.to_owned();
-    if !folder.is_dir() {
-        return Err(OutputError::NoFolder { path, folder });
-    }
+    if folder.is_dir() { Ok(folder) } else { Err(OutputError::NoFolder { path: path.to_owned(), folder }) }
+}
+
+fn temporary_beside(path: &Path, target: &Path) -> Result<Temporary, OutputError> {
+    let folder = folder_of(path, target)?;
     let mut builder = Builder::new();
-    builder.prefix(".soapfilm-").suffix(".part");
+    builder.prefix(NAME[0]).suffix(NAME[1]);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
         // Temporary files are private by default; a picture gets the rights of any new file (the umask still takes its share).
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(&folder).map_err(|reason| OutputError::FolderNotWritable { path, folder, reason })
+    Temporary::new(&builder, &folder).map_err(|reason| OutputError::FolderNotWritable {
+        path: path.to_owned(),
+        folder,
+        reason,
+    })
 }
 
 #[cfg(test)]
@@ -103,6 +203,19 @@ mod tests {
         let panicking = std::panic::AssertUnwindSafe(|| write_atomically(&path, |_| panic!("planted by a test")));
         std::panic::catch_unwind(panicking).unwrap_err();
         assert!(names_in(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn what_killed_runs_have_left_is_cleared_and_what_others_write_is_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let [left, locked] = [".soapfilm-left.part", ".soapfilm-locked.part"].map(|name| folder.path().join(name));
+        fs::write(&left, "half").unwrap();
+        let other = File::create(&locked).unwrap();
+        other.lock().unwrap();
+        write_atomically(&folder.path().join("a.txt"), |_| Ok(())).unwrap();
+        let mut names = names_in(folder.path());
+        names.sort();
+        assert_eq!(names, [".soapfilm-locked.part", "a.txt"]);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Files going out: pictures and tables, each written whole or not at all.
+//! What goes out: pictures and tables, each file written whole or not at all, and the terminal's lines.
 
 mod atomic;
 mod error;
@@ -8,12 +8,16 @@ mod metadata;
 mod picture;
 mod png;
 pub mod read_back;
+mod signals;
+mod stream;
 mod table;
 
-pub use atomic::write_atomically;
+pub use atomic::{check_target, write_atomically};
 pub use error::OutputError;
 pub use exr::{ExrPicture, ExrPrimaries};
 pub use metadata::Metadata;
 pub use picture::{Picture, write_text};
 pub use png::PngPicture;
+pub use signals::watch_signals;
+pub use stream::{StreamError, print, tell};
 pub use table::CsvWriter;

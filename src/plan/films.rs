@@ -24,13 +24,32 @@ use crate::{
 /// How far all films have turned as a whole at a time in ticks.
 #[must_use]
 pub fn film_turn(scene: &Scene, ticks: f64) -> DQuat {
-    let starts: Vec<u64> = changes(scene).collect();
-    let ends = starts.iter().skip(1).map(|tick| *tick as f64).chain(std::iter::once(f64::INFINITY));
-    starts.iter().zip(ends).fold(DQuat::IDENTITY, |turn, (start, end)| {
-        let motion: Motion = scene.motion_at(*start);
-        let seconds = (ticks.min(end) - *start as f64).max(0.0) * motion.tick_s;
-        DQuat::from_scaled_axis(DVec3::from(motion.spin_deg_s) * (std::f64::consts::PI / 180.0) * seconds) * turn
-    })
+    Turns::new(scene).at(ticks)
+}
+
+/// How films turn as a whole under each motion.
+struct Turns {
+    tick_s: f64,
+    /// From which tick on, what they have turned by until then, and how fast they turn from then on, radians a second.
+    motions: Vec<(u64, DQuat, DVec3)>,
+}
+
+impl Turns {
+    fn new(scene: &Scene) -> Self {
+        let mut turns = Self { tick_s: scene.motion.tick_s, motions: Vec::new() };
+        for (tick, motion) in scene.motions() {
+            let speed = DVec3::from(motion.spin_deg_s) * (std::f64::consts::PI / 180.0);
+            turns.motions.push((tick, turns.at(tick as f64), speed));
+        }
+        turns
+    }
+
+    /// What films have turned by until a time in ticks.
+    fn at(&self, ticks: f64) -> DQuat {
+        let begun = self.motions.partition_point(|(tick, ..)| *tick as f64 <= ticks);
+        let Some((tick, turn, speed)) = self.motions[..begun].last() else { return DQuat::IDENTITY };
+        DQuat::from_scaled_axis(*speed * ((ticks - *tick as f64) * self.tick_s)) * *turn
+    }
 }
 
 fn scheme(motion: &Motion) -> Scheme {
@@ -105,7 +124,7 @@ pub(super) fn film(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) ->
     }
     let radius_m = bubble.radius_mm * 1e-3;
     let flows: Vec<_> = flows(scene, radius_m).iter().map(|segment| (segment.from_tick, segment.law)).collect();
-    let flows = since(life.born, &flows).into_iter();
+    let flows = since(life.born, &flows);
     let [cells, flow_cells] = film_grids(scene, index);
     let mut key = FieldKey {
         cells,
@@ -126,7 +145,7 @@ pub(super) fn film(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) ->
     let end = key.moment.end_tick();
     key.flows.retain(|segment| segment.from_tick < end);
     if key.flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_))) {
-        key.evaporation = since(life.born, &evaporation(scene, radius_m));
+        key.evaporation = since(life.born, &evaporation(scene, radius_m)).collect();
         key.evaporation.retain(|(tick, _)| *tick < end);
         key.pushes = pushes(scene, index, bubble, life.born);
         key.pushes.retain(|push| push.ticks.start < end);
@@ -155,10 +174,11 @@ pub(super) fn shape(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) -
     let tick_s = scene.motion.tick_s;
     let oscillator = Oscillator::new(bubble.radius_mm * 1e-3, 1e-9 * bubble.film.thickness_nm);
     let now_s = (life.moment.tick as f64 + life.moment.fraction) * tick_s;
+    let turns = Turns::new(scene);
     let dragged = oscillator.along(&path_since(life.born, scene, index, bubble, 1.0), now_s);
     let jets = scene.events.iter().filter_map(|event| match &event.change {
         Change::Blow(blow) if blow.bubble == index && event.tick >= life.born => {
-            let to_world = film_turn(scene, event.tick as f64);
+            let to_world = turns.at(event.tick as f64);
             let [at, toward] = [blow.at, blow.toward].map(|vector| to_world * DVec3::from(vector).normalize());
             let sharpness = Push::sharpness_of(blow.radius_deg.to_radians());
             let push = oscillator.jet_push(at, sharpness, toward, blow.speed_m_s);
@@ -225,12 +245,6 @@ pub(super) fn fold_seed(seed: u64) -> u32 {
     (seed ^ (seed >> 32)) as u32
 }
 
-/// Ticks at which the motion may change, the first included.
-fn changes(scene: &Scene) -> impl Iterator<Item = u64> {
-    let changing = scene.events.iter().filter(|event| matches!(event.change, Change::Motion(_)));
-    std::iter::once(0).chain(changing.map(|event| event.tick))
-}
-
 /// What evaporates from the film of a bubble, nm/s.
 fn evaporation_nm_s(motion: &Motion, radius_m: f64) -> f64 {
     motion.evaporation_nm_s + 1e9 * evaporation_rate(motion.humidity, radius_m, motion.air_speed_m_s)
@@ -238,32 +252,30 @@ fn evaporation_nm_s(motion: &Motion, radius_m: f64) -> f64 {
 
 /// The same, from which tick on, each entry where it differs from the one before.
 pub(super) fn evaporation(scene: &Scene, radius_m: f64) -> Vec<(u64, f64)> {
-    let rate = |tick| evaporation_nm_s(&scene.motion_at(tick), radius_m);
-    let mut rates: Vec<(u64, f64)> = changes(scene).map(|tick| (tick, rate(tick))).collect();
+    let mut rates: Vec<_> = scene.motions().map(|(tick, motion)| (tick, evaporation_nm_s(&motion, radius_m))).collect();
     rates.dedup_by_key(|(_, rate)| *rate);
     rates
 }
 
 /// What the top of a bubble's film thins by once it is sorted, from which tick on.
 pub(super) fn thinning(scene: &Scene, radius_m: f64) -> Vec<(u64, Thinning)> {
-    let law = |tick| {
-        let motion = scene.motion_at(tick);
+    let law = |(tick, motion): (u64, Motion)| {
         let free = free_flow(&motion, radius_m);
         let drains = motion.flow == Flow::Free;
-        Thinning {
+        let thinning = Thinning {
             evaporation_nm_s: evaporation_nm_s(&motion, radius_m),
             // The flux is as sin of the angle from the top, and its divergence there twice that.
             drainage_1_nm2_s: if drains { 2.0 * free.drainage * free.forces.gravity.length() } else { 0.0 },
-        }
+        };
+        (tick, thinning)
     };
-    changes(scene).map(|tick| (tick, law(tick))).collect()
+    scene.motions().map(law).collect()
 }
 
 /// The laws that drive the film of a bubble, in order, each where it differs from the one before.
 fn flows(scene: &Scene, radius_m: f64) -> Vec<FlowSegment> {
     let mut flows: Vec<FlowSegment> = Vec::new();
-    for from_tick in changes(scene) {
-        let motion = scene.motion_at(from_tick);
+    for (from_tick, motion) in scene.motions() {
         let (strength, seed) = (motion.strength, fold_seed(motion.seed));
         let law = match motion.flow {
             Flow::Free => FlowLaw::Free(free_flow(&motion, radius_m)),

@@ -8,7 +8,7 @@ use super::{
     Moment,
     films::{evaporation, fold_seed, initial_film, thinning},
     keys::{BLACK_FILM_NM, HoleKey, evaporated_nm},
-    thinning::thins_at_tick,
+    thinning::{Thinning, thins_at_tick},
 };
 use crate::{
     physics::film::{Random, burst_s, properties::BLACK_FILM_ONSET},
@@ -30,19 +30,15 @@ pub struct Life {
 
 /// The life of a bubble that a moment falls into; nothing between two lives.
 pub fn life(scene: &Scene, index: usize, moment: Moment) -> Option<Life> {
-    let bubble = scene.bubbles.get(index)?;
-    let (motion, radius_m) = (&scene.motion, bubble.radius_mm * 1e-3);
+    let (ends, motion) = (Ends::new(scene, index)?, &scene.motion);
     let (mut born, mut generation) = (0, 0);
     loop {
         let alive = |moment, hole| Life { born, generation, moment, hole };
-        let Some((tick, at)) = end(scene, index, born, generation).filter(|(tick, _)| *tick <= moment.tick) else {
+        let Some((tick, at)) = ends.of_life(born, generation).filter(|(tick, _)| *tick <= moment.tick) else {
             return Some(alive(Moment { tick: moment.tick - born, ..moment }, None));
         };
         let slowdown = motion.burst_slowdown;
-        let rates = evaporation(scene, radius_m);
-        let [at_birth, at_end] = [born, tick].map(|tick| evaporated_nm(&rates, motion.tick_s, tick as f64));
-        let thickest_nm = initial_film(bubble, generation).range_nm().1 - (at_end - at_birth);
-        let lasts_s = burst_s(thickest_nm.max(BLACK_FILM_NM), radius_m);
+        let lasts_s = ends.burst_s(born, generation, tick);
         let seconds = ((moment.tick - tick) as f64 + moment.fraction) * motion.tick_s / slowdown;
         if seconds < lasts_s {
             return Some(alive(Moment::tick(tick - born), Some(HoleKey { at, seconds })));
@@ -55,33 +51,61 @@ pub fn life(scene: &Scene, index: usize, moment: Moment) -> Option<Life> {
     }
 }
 
-/// When a life ends, and where the hole opens if something pricks the film; else it is where the film is thinnest.
-fn end(scene: &Scene, index: usize, born: u64, generation: u32) -> Option<(u64, Option<DVec3>)> {
-    let worn = worn_at(scene, index, born, generation).map(|tick| (tick, None));
-    let pricked = pricks(scene, index).find(|(tick, _)| *tick >= born).map(|(tick, at)| (tick, Some(at)));
-    [worn, pricked].into_iter().flatten().min_by_key(|(tick, _)| *tick)
+/// What ends the lives of a bubble, from a scene's events once for all lives: with thousands of events there may be thousands of lives.
+struct Ends<'s> {
+    scene: &'s Scene,
+    index: usize,
+    bubble: &'s Bubble,
+    /// Ticks at which the bubble is pricked, in order, and the directions in its film.
+    pricks: Vec<(u64, DVec3)>,
+    /// What its film thins by.
+    laws: Vec<(u64, Thinning)>,
+    /// What evaporates from it, nm/s.
+    rates: Vec<(u64, f64)>,
 }
 
-/// Ticks at which a bubble is pricked, in order, and the directions in its film.
-fn pricks(scene: &Scene, index: usize) -> impl Iterator<Item = (u64, DVec3)> {
-    scene.events.iter().filter_map(move |event| match &event.change {
-        Change::Prick(prick) if prick.bubble == index => Some((event.tick, DVec3::from(prick.at).normalize())),
-        _ => None,
-    })
-}
+impl<'s> Ends<'s> {
+    /// Those of a bubble; nothing if there is no such bubble.
+    fn new(scene: &'s Scene, index: usize) -> Option<Self> {
+        let bubble = scene.bubbles.get(index)?;
+        let radius_m = bubble.radius_mm * 1e-3;
+        let pricks = scene.events.iter().filter_map(|event| match &event.change {
+            Change::Prick(prick) if prick.bubble == index => Some((event.tick, DVec3::from(prick.at).normalize())),
+            _ => None,
+        });
+        let (laws, rates) = (thinning(scene, radius_m), evaporation(scene, radius_m));
+        Some(Self { scene, index, bubble, pricks: pricks.collect(), laws, rates })
+    }
 
-/// The tick at which black film gives way: it lasts for a random time, exponential with the scene's mean, once the top of the sorted
-/// film is thin enough to collapse.
-fn worn_at(scene: &Scene, index: usize, born: u64, generation: u32) -> Option<u64> {
-    let bubble = &scene.bubbles[index];
-    let tick_s = scene.motion.tick_s;
-    let laws = since(born, &thinning(scene, bubble.radius_mm * 1e-3));
-    let top_nm = initial_film(bubble, generation).sorted_top_nm();
-    let black_at = born as f64 + thins_at_tick(&laws, tick_s, top_nm, 1e9 * BLACK_FILM_ONSET)?;
-    let lasts_s = -scene.motion.black_film_life_s * chance(bubble, index, generation).ln();
-    let ticks = black_at + lasts_s / tick_s;
-    // A bubble is seen before it bursts, and times beyond all clocks are never.
-    (ticks < 1e15).then(|| (ticks.ceil() as u64).max(born + 1))
+    /// When a life ends, and where the hole opens if something pricks the film; else it is where the film is thinnest.
+    fn of_life(&self, born: u64, generation: u32) -> Option<(u64, Option<DVec3>)> {
+        let next = self.pricks.partition_point(|(tick, _)| *tick < born);
+        let pricked = self.pricks.get(next).map(|(tick, at)| (*tick, Some(*at)));
+        let before = pricked.map_or(u64::MAX, |(tick, _)| tick);
+        let worn = self.worn_at(born, generation, before).map(|tick| (tick, None));
+        [worn, pricked].into_iter().flatten().min_by_key(|(tick, _)| *tick)
+    }
+
+    /// The tick at which black film gives way: it lasts for a random time, exponential with the scene's mean, once the top of the sorted
+    /// film is thin enough to collapse. Laws that begin later than a tick are of no account.
+    fn worn_at(&self, born: u64, generation: u32, before: u64) -> Option<u64> {
+        let tick_s = self.scene.motion.tick_s;
+        let laws = since(born, until(before, &self.laws));
+        let top_nm = initial_film(self.bubble, generation).sorted_top_nm();
+        let black_at = born as f64 + thins_at_tick(laws, tick_s, top_nm, 1e9 * BLACK_FILM_ONSET)?;
+        let lasts_s = -self.scene.motion.black_film_life_s * chance(self.bubble, self.index, generation).ln();
+        let ticks = black_at + lasts_s / tick_s;
+        // A bubble is seen before it bursts, and times beyond all clocks are never.
+        (ticks < 1e15).then(|| (ticks.ceil() as u64).max(born + 1))
+    }
+
+    /// How long the burst that ends a life at a tick lasts, s of film time without slow motion.
+    fn burst_s(&self, born: u64, generation: u32, tick: u64) -> f64 {
+        let rates: Vec<_> = since(born, until(tick, &self.rates)).collect();
+        let evaporated_nm = evaporated_nm(&rates, self.scene.motion.tick_s, (tick - born) as f64);
+        let thickest_nm = initial_film(self.bubble, generation).range_nm().1 - evaporated_nm;
+        burst_s(thickest_nm.max(BLACK_FILM_NM), self.bubble.radius_mm * 1e-3)
+    }
 }
 
 /// A random number in (0, 1] that belongs to a life.
@@ -91,9 +115,15 @@ fn chance(bubble: &Bubble, index: usize, generation: u32) -> f64 {
 }
 
 /// What holds from ticks on, in order, counted from a later tick.
-pub fn since<T: Copy>(born: u64, entries: &[(u64, T)]) -> Vec<(u64, T)> {
+pub fn since<T: Copy>(born: u64, entries: &[(u64, T)]) -> impl Iterator<Item = (u64, T)> {
     let first = entries.partition_point(|(tick, _)| *tick <= born).saturating_sub(1);
-    entries[first..].iter().map(|(tick, entry)| (tick.saturating_sub(born), *entry)).collect()
+    entries[first..].iter().map(move |(tick, entry)| (tick.saturating_sub(born), *entry))
+}
+
+/// What holds from ticks on, in order, without what begins at a tick or later; the first entry at least.
+fn until<T>(end: u64, entries: &[(u64, T)]) -> &[(u64, T)] {
+    let kept = entries.partition_point(|(tick, _)| *tick < end).max(1);
+    &entries[..kept.min(entries.len())]
 }
 
 #[cfg(test)]
@@ -103,6 +133,11 @@ mod tests {
         physics::film::properties::{DENSITY, GRAVITY, VISCOSITY},
         scene::{Event, Film, FilmStateName, Flow, Motion, Prick},
     };
+
+    /// When the first bubble of a scene ends, and where, had it been blown at tick 0 after so many others.
+    fn end_of(scene: &Scene, generation: u32) -> Option<(u64, Option<DVec3>)> {
+        Ends::new(scene, 0).unwrap().of_life(0, generation)
+    }
 
     fn pricked(ticks: &[u64]) -> Scene {
         let prick = |tick: &u64| Event { tick: *tick, change: Change::Prick(Prick::default()) };
@@ -153,11 +188,11 @@ mod tests {
     #[test]
     fn a_film_that_evaporates_wears_out_at_the_pace_of_evaporation() {
         // 399 nm at the top once it is sorted, black at 50 nm: 7 s at 50 nm/s.
-        let at = |scene: &Scene| end(scene, 0, 0, 0).unwrap();
+        let at = |scene: &Scene| end_of(scene, 0).unwrap();
         let (tick, middle) = at(&dry(0.0));
         assert_eq!(middle, None, "where the film is thinnest");
         assert!((tick as f64 / 60.0 - 6.98).abs() < 0.02, "{tick}");
-        let mean: f64 = (0..400).map(|k| end(&dry(10.0), 0, 0, k).unwrap().0 as f64 / 60.0).sum::<f64>() / 400.0;
+        let mean: f64 = (0..400).map(|k| end_of(&dry(10.0), k).unwrap().0 as f64 / 60.0).sum::<f64>() / 400.0;
         // An exponential law of mean 10 s: 400 lives tell it to 5 %, three times that is certain.
         assert!((mean - 16.98).abs() < 1.5, "{mean}");
     }
@@ -169,21 +204,21 @@ mod tests {
         let expected_s = 1e-4 * 3.0 * VISCOSITY * 0.05 / (DENSITY * GRAVITY) * inverse_squares;
         let lifetime_s = |evaporation_nm_s| {
             let motion = Motion { drainage: 1e4, evaporation_nm_s, black_film_life_s: 0.0, ..Motion::default() };
-            let end = end(&Scene { motion, ..Scene::default() }, 0, 0, 0).unwrap();
+            let end = end_of(&Scene { motion, ..Scene::default() }, 0).unwrap();
             end.0 as f64 / 60.0
         };
         let (alone, dry) = (lifetime_s(0.0), lifetime_s(1.0));
         assert!((alone / expected_s - 1.0).abs() < 0.01, "{alone} {expected_s}");
         assert!(dry < alone && dry > 50.0, "{dry}");
         let motion = Motion { drainage: 1e4, flow: Flow::Rest, ..Motion::default() };
-        assert_eq!(end(&Scene { motion, ..Scene::default() }, 0, 0, 0), None, "nothing drains where nothing moves");
+        assert_eq!(end_of(&Scene { motion, ..Scene::default() }, 0), None, "nothing drains where nothing moves");
     }
 
     #[test]
     fn lifetimes_follow_humidity() {
         let lifetime_s = |humidity| {
             let motion = Motion { humidity, black_film_life_s: 0.0, ..Motion::default() };
-            let end = end(&Scene { motion, ..Scene::default() }, 0, 0, 0);
+            let end = end_of(&Scene { motion, ..Scene::default() }, 0);
             end.map(|(tick, _)| tick as f64 / 60.0)
         };
         assert_eq!(lifetime_s(1.0), None);
@@ -202,7 +237,7 @@ mod tests {
                 Film { state: FilmStateName::Rest, thickness_nm: 1000.0, stratification: 0.05, ..Film::default() };
             let motion = Motion { black_film_life_s: 0.0, ..motion };
             let scene = Scene { motion, bubbles: vec![Bubble { film, ..Bubble::default() }], ..Scene::default() };
-            end(&scene, 0, 0, 0).map_or(f64::INFINITY, |(tick, _)| tick as f64 * scene.motion.tick_s)
+            end_of(&scene, 0).map_or(f64::INFINITY, |(tick, _)| tick as f64 * scene.motion.tick_s)
         };
         let air = |humidity, air_speed_m_s| lifetime_s(Motion { humidity, air_speed_m_s, ..Motion::default() });
         let evaporating = lifetime_s(Motion { evaporation_nm_s: 60.0, ..Motion::default() });
@@ -220,8 +255,11 @@ mod tests {
 
     #[test]
     fn what_came_before_a_life_is_its_beginning() {
+        let since = |born, entries: &[(u64, char)]| since(born, entries).collect::<Vec<_>>();
         assert_eq!(since(0, &[(0, 'a'), (5, 'b')]), [(0, 'a'), (5, 'b')]);
         assert_eq!(since(7, &[(0, 'a'), (5, 'b'), (9, 'c')]), [(0, 'b'), (2, 'c')]);
         assert_eq!(since(5, &[(0, 'a'), (5, 'b')]), [(0, 'b')]);
+        assert_eq!(until(5, &[(0, 'a'), (5, 'b')]), [(0, 'a')]);
+        assert_eq!(until(0, &[(0, 'a'), (5, 'b')]), [(0, 'a')]);
     }
 }

@@ -25,7 +25,7 @@ pub use keys::{
     FlowLaw, FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, RestingFilm,
     TableKey, TonemapKey, exposed_ev, left_nm, range_nm,
 };
-pub use want::{Lamp, Resources, Shot, WantError, want};
+pub use want::{Lamp, Resources, Shot, has_one_film, want};
 
 /// How much may be done before the next picture must be out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

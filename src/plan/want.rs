@@ -19,7 +19,7 @@ use crate::{
         environment::CubeMap,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
     },
-    scene::{Backdrop, Boundary, Bubble, Film, FilmIndexName, Scene},
+    scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Scene},
 };
 
 /// What a scene names and somebody has loaded.
@@ -61,28 +61,17 @@ pub struct Shot {
     pub pace: Pace,
 }
 
-/// A scene that cannot be drawn.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum WantError {
-    /// Two visible films of different liquids.
-    #[error(
-        "bubbles of different films cannot share one picture: set the same `index` and `skin_nm` in every [bubble.film]"
-    )]
-    MixedFilms,
-    /// A camera that cannot see the bubbles for the bath.
-    #[error("the camera is below the bath that the bubbles stand on: raise `elevation_deg` or `target_m` in [camera]")]
-    BelowBath,
-    /// An index that no film has.
-    #[error(transparent)]
-    Index(#[from] FilmIndexError),
-}
-
 /// What a shot of a scene needs.
-pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, WantError> {
+///
+/// # Errors
+///
+/// The key of a scene that cannot be drawn: a camera below the bath, films of different liquids in one picture, an index that no film has.
+pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, Fault> {
     let camera = camera(scene, shot.size);
     let bath_m = scene.bubbles.iter().find(|bubble| bubble.boundary == Boundary::Bath).map(|bubble| bubble.center_m[2]);
     if bath_m.is_some_and(|height_m| camera.eye_m.z <= height_m) {
-        return Err(WantError::BelowBath);
+        let reason = "looks from below the bath that the bubbles stand on; raise it, or `target_m`";
+        return Err(Fault::new("elevation_deg", reason).inside("camera"));
     }
     let mut bubbles: Vec<BubbleKey> = scene
         .bubbles
@@ -176,24 +165,40 @@ fn table(scene: &Scene, lamp: &Lamp, light: &LightKey, bands: &BandsKey) -> Tabl
     TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full }
 }
 
-/// What all visible films are made of.
-fn material(scene: &Scene, resources: &Resources, bubbles: &[BubbleKey]) -> Result<FilmMaterial, WantError> {
-    let mut films = bubbles.iter().map(|bubble| &scene.bubbles[bubble.index].film);
-    let Some(first) = films.next() else { return Ok(FilmMaterial::default()) };
-    if films.any(|film| (&film.index, film.skin_nm) != (&first.index, first.skin_nm)) {
-        return Err(WantError::MixedFilms);
-    }
-    Ok(FilmMaterial { index: film_index(first, resources)?, skin_nm: first.skin_nm })
+/// Whether all films are made of the same. If not, it depends on the moment, by what is seen then, whether a shot is refused.
+#[must_use]
+pub fn has_one_film(scene: &Scene) -> bool {
+    let mut films = scene.bubbles.iter().map(|bubble| (&bubble.film.index, bubble.film.skin_nm));
+    films.next().is_none_or(|first| films.all(|film| film == first))
 }
 
-fn film_index(film: &Film, resources: &Resources) -> Result<FilmIndex, WantError> {
-    match &film.index {
+/// What all visible films are made of.
+fn material(scene: &Scene, resources: &Resources, bubbles: &[BubbleKey]) -> Result<FilmMaterial, Fault> {
+    let Some(first) = bubbles.iter().map(|bubble| bubble.index).min() else { return Ok(FilmMaterial::default()) };
+    let film = &scene.bubbles[first].film;
+    for bubble in bubbles {
+        let other = &scene.bubbles[bubble.index].film;
+        let different = [("index", other.index != film.index), ("skin_nm", other.skin_nm != film.skin_nm)];
+        if let Some((key, _)) = different.into_iter().find(|(_, differs)| *differs) {
+            let reason = format!(
+                "is another than that of [[bubble]] number {}; films in one picture must have the same",
+                first + 1
+            );
+            return Err(Fault::new(key, reason).inside("film").inside_item("bubble", bubble.index));
+        }
+    }
+    let index = film_index(&film.index, resources);
+    let index = index.map_err(|error| Fault::unusable("index", error).inside("film").inside_item("bubble", first))?;
+    Ok(FilmMaterial { index, skin_nm: film.skin_nm })
+}
+
+fn film_index(index: &FilmIndexName, resources: &Resources) -> Result<FilmIndex, FilmIndexError> {
+    match index {
         FilmIndexName::Water => Ok(FilmIndex::Water),
-        FilmIndexName::Constant(n) => Ok(FilmIndex::constant(*n)?),
-        FilmIndexName::Named(name) => match resources.liquids.get(name) {
-            Some(liquid) => Ok(liquid.clone()),
-            None => Ok(name.parse()?),
-        },
+        FilmIndexName::Constant(n) => FilmIndex::constant(*n),
+        FilmIndexName::Named(name) => {
+            resources.liquids.get(name).map_or_else(|| name.parse(), |known| Ok(known.clone()))
+        }
     }
 }
 
@@ -224,7 +229,8 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         film => film,
     };
     let ticks = life.moment.tick as f64 + life.moment.fraction;
-    let rates = since(life.born, &evaporation(scene, radius_m));
+    let rates = evaporation(scene, radius_m);
+    let rates: Vec<_> = since(life.born, &rates).collect();
     Some(BubbleKey {
         index,
         centre_m,

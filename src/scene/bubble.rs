@@ -1,6 +1,7 @@
 //! A bubble and its film.
 
 use super::check::{self, Checked, Fault};
+use super::{is_table, shorten};
 use serde::{Deserialize, Serialize};
 
 /// Thinnest mean film that can flow, nm: its logarithm drives the buoyancy, so it must not vanish.
@@ -140,10 +141,12 @@ impl Film {
         match &self.index {
             FilmIndexName::Constant(index) => check::in_range("index", *index, 1.0..=4.0)?,
             FilmIndexName::Named(name) if !is_liquid(name) => {
+                let name = shorten(name, check::LONGEST_NAME);
                 let known = "\"water\", \"water 25C\", \"glycerol 30%\", the path of a .csv file, or a number";
                 return Err(Fault::new("index", format!("is {name:?}; use {known}")));
             }
-            _ => {}
+            FilmIndexName::Named(name) => check::plain_text("index", name)?,
+            FilmIndexName::Water => {}
         }
         check::in_range("skin_nm", self.skin_nm, 0.0..=5.0)?;
         check::in_range("cells", self.cells, 16..=1024)
@@ -165,7 +168,7 @@ pub enum Detail {
 /// Whether a name can be a liquid's or a file's; what it says of temperature or share is read with the film.
 fn is_liquid(name: &str) -> bool {
     let name = name.trim().to_ascii_lowercase();
-    name.ends_with(".csv") || name.starts_with("water") || name.starts_with("glycerol")
+    is_table(&name) || name.starts_with("water") || name.starts_with("glycerol")
 }
 
 /// How the thickness of a film is spread over its sphere at tick 0.

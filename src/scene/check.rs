@@ -1,5 +1,6 @@
 //! Checks of single values, and the path of the key that fails one.
 
+use super::error::shorten;
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
 
@@ -12,24 +13,35 @@ pub(super) const RADIANCE: RangeInclusive<f64> = 0.0..=65504.0;
 /// The outcome of a check.
 pub(super) type Checked = Result<(), Fault>;
 
-/// A value that breaks a rule, with the way to its key.
-#[derive(Debug)]
-pub(super) struct Fault {
-    pub path: KeyPath,
-    pub reason: String,
+/// A value of a scene that cannot be used, with the way to its key. [`super::SceneSource::locate`] finds the line that the key stands on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{path} {reason}")]
+pub struct Fault {
+    pub(super) path: KeyPath,
+    pub(super) reason: String,
 }
 
 impl Fault {
+    /// A fault of a key in its table. The reason goes on after the key's name, as in "is 3; it must be …".
+    #[must_use]
     pub fn new(key: &str, reason: impl Into<String>) -> Self {
         Self { path: KeyPath::default().key(key), reason: reason.into() }
     }
 
+    /// A key that names something which cannot be used: a file that cannot be read, a lamp that is unknown.
+    #[must_use]
+    pub fn unusable(key: &str, error: impl Display) -> Self {
+        Self::new(key, format!("cannot be used: {error}"))
+    }
+
     /// The same fault seen from the table that holds `key`.
+    #[must_use]
     pub fn inside(self, key: &str) -> Self {
         self.below(KeyPath::default().key(key))
     }
 
     /// The same fault seen from the table that holds the list `key`.
+    #[must_use]
     pub fn inside_item(self, key: &str, index: usize) -> Self {
         self.below(KeyPath::default().key(key).item(index))
     }
@@ -57,6 +69,18 @@ pub(super) fn all_in_range(key: &str, values: [f64; 3], range: RangeInclusive<f6
 pub(super) fn finite(key: &str, value: f64) -> Checked {
     if value.is_finite() { Ok(()) } else { Err(Fault::new(key, format!("is {value}; it must be a finite number"))) }
 }
+
+/// A name or a path. A path of Windows between double quotes is full of escapes, some of which are valid: `"C:\temp"` holds a tab.
+pub(super) fn plain_text(key: &str, text: &str) -> Checked {
+    match text.chars().find(|character| character.is_control()) {
+        Some(character) => Err(Fault::new(key, format!("holds the control character {character:?}; {BACKSLASHES}"))),
+        None => Ok(()),
+    }
+}
+
+/// What to do about backslashes that TOML takes for escapes.
+pub(super) const BACKSLASHES: &str =
+    "a backslash in \"…\" begins an escape: write a path as '…', or with / for each \\";
 
 pub(super) fn at_most(key: &str, count: usize, limit: usize) -> Checked {
     if count <= limit {
@@ -107,7 +131,7 @@ impl Display for KeyPath {
             Some((Step::Item(_), _)) => &self.0[..],
             Some((Step::Key(key), table)) => {
                 let joint = if table.is_empty() { "" } else { " in " };
-                write!(f, "`{}`{joint}", key.escape_debug())?;
+                write!(f, "`{}`{joint}", shorten(key, LONGEST_KEY).escape_debug())?;
                 table
             }
         };
@@ -115,9 +139,16 @@ impl Display for KeyPath {
     }
 }
 
+/// Characters of a name or a path that messages show.
+pub(super) const LONGEST_NAME: usize = 200;
+
+/// Characters of a key that messages show: more than any known key has.
+const LONGEST_KEY: usize = 60;
+
 /// `[camera]`, `[[bubble]]`, and `[[bubble]] number 2` where there are others before it.
 fn fmt_table(table: &[Step], f: &mut fmt::Formatter<'_>) -> fmt::Result {
-    let names = table.iter().filter_map(Step::name).collect::<Vec<_>>().join(".");
+    let names: Vec<_> = table.iter().filter_map(Step::name).map(|name| shorten(name, LONGEST_KEY)).collect();
+    let names = names.join(".");
     match table.last() {
         None => return Ok(()),
         Some(Step::Item(_)) => write!(f, "[[{names}]]")?,

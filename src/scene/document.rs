@@ -1,30 +1,51 @@
 //! From TOML text to a scene, keeping track of where each key stands.
 
-use super::check::{KeyPath, Step};
-use super::error::{Located, Problem};
-use super::{Bubble, Change, Event, Light, LightPatch, Scene, VERSION, View};
-use toml::de::{DeTable, DeValue};
+use super::check::{BACKSLASHES, Fault, KeyPath, Step};
+use super::error::{Located, Problem, shorten};
+use super::{Bubble, Change, Event, Light, LightPatch, Scene, SceneSource, VERSION, View};
+use serde::Deserialize;
+use toml::de::{DeTable, DeValue, Deserializer, Error};
 use toml::{Spanned, Table, Value};
 
+/// Characters that messages show of what stands in a text.
+const LONGEST_QUOTE: usize = 60;
+
 /// Reads and checks a scene.
-pub(super) fn read(text: &str) -> Result<Scene, Located> {
-    let document = DeTable::parse(text).map_err(|error| syntax_error(text, &error))?;
-    let document = document.get_ref();
-    check_version(document, text)?;
-    check_keys(document)?;
-    let scene: Scene = toml::from_str(text).map_err(|error| type_error(document, &error))?;
-    scene.check().map_err(|fault| Located {
-        offset: offset_of(document, fault.path.steps()).unwrap_or(0),
-        problem: fault.into(),
-    })?;
+pub(super) fn read(source: &SceneSource) -> Result<Scene, Located> {
+    let document = source.parse()?;
+    check_version(document.get_ref(), source.all())?;
+    check_keys(document.get_ref())?;
+    let scene = Scene::deserialize(Deserializer::from(document)).map_err(|error| type_error(source, &error))?;
+    scene.check().map_err(|fault| locate(source, fault))?;
     Ok(scene)
 }
 
-fn syntax_error(text: &str, error: &toml::de::Error) -> Located {
+/// Where the key of a fault stands in a source.
+pub(super) fn locate(source: &SceneSource, fault: Fault) -> Located {
+    let document = source.parse().ok();
+    let offset = document.and_then(|document| offset_of(document.get_ref(), fault.path.steps()));
+    Located { offset: offset.unwrap_or(0), problem: fault.into() }
+}
+
+/// What is wrong with the TOML at the end of a text, from a byte on, which the error's place counts from.
+pub(super) fn parse_error(text: &str, from: usize, error: &Error) -> Located {
     let span = error.span().unwrap_or_default();
-    let found = text.get(span.clone()).and_then(|found| found.lines().next()).filter(|found| !found.is_empty());
-    let found = found.map_or(String::new(), |found| format!(": `{found}`"));
-    Located { offset: span.start, problem: Problem::Syntax(format!("{}{found}", one_line(error.message()))) }
+    let (start, end) = (from + span.start, from + span.end);
+    let found = text.get(start..end).and_then(|found| found.lines().next()).filter(|found| !found.is_empty());
+    let found = found.map_or(String::new(), |found| format!(": `{}`", shorten(found, LONGEST_QUOTE)));
+    let advice = if breaks_in_escape(text, start) { format!("; {BACKSLASHES}") } else { String::new() };
+    let message = shorten_line(error.message());
+    Located { offset: start, problem: Problem::Syntax(format!("{message}{found}{advice}")) }
+}
+
+/// Whether a backslash stands shortly before a byte, or at it, between double quotes.
+fn breaks_in_escape(text: &str, offset: usize) -> bool {
+    /// Bytes of the longest escape, `\U0001F600`, and of the quote after it.
+    const REACH: usize = 12;
+    let before = &text.as_bytes()[..text.len().min(offset + 1)];
+    let line = before.iter().rposition(|byte| *byte == b'\n').map_or(before, |end| &before[end + 1..]);
+    let backslash = line.iter().rposition(|byte| *byte == b'\\').filter(|at| line.len() - at <= REACH);
+    backslash.is_some_and(|at| line[..at].iter().filter(|byte| **byte == b'"').count() % 2 == 1)
 }
 
 /// Comes before all other checks: a later version may have other keys.
@@ -36,7 +57,7 @@ fn check_version(document: &DeTable, text: &str) -> Result<(), Located> {
     if found == VERSION.to_string() {
         return Ok(());
     }
-    Err(Located { offset: version.span().start, problem: Problem::UnknownVersion(one_line(found)) })
+    Err(Located { offset: version.span().start, problem: Problem::UnknownVersion(shorten_line(found)) })
 }
 
 /// Every key a scene can have, as the TOML of a scene where nothing is absent. A key forgotten here fails the round trip of random scenes.
@@ -70,8 +91,13 @@ fn find_strays(table: &DeTable, known: &Table, path: &KeyPath, strays: &mut Vec<
         match (value.get_ref(), known.get(name.as_ref())) {
             (_, None) => strays.push(Located::unknown_key(offset, &path, name, known.keys())),
             (DeValue::Table(table), Some(Value::Table(known))) => find_strays(table, known, &path, strays),
-            (DeValue::Array(items), Some(Value::Array(known))) => find_strays_in_items(items, known, &path, strays),
-            (DeValue::Table(_), Some(Value::Array(_))) => {
+            (DeValue::Array(items), Some(Value::Array(known))) if known.iter().any(Value::is_table) => {
+                find_strays_in_items(items, known, &path, strays);
+            }
+            (DeValue::Array(items), Some(Value::Array(known))) => {
+                strays.extend(check_count(items, known, offset, &path));
+            }
+            (DeValue::Table(_), Some(Value::Array(known))) if known.iter().any(Value::is_table) => {
                 strays.push(shape_error(offset, &path, format!("[[{name}]]")))
             }
             (DeValue::Array(_), Some(Value::Table(_))) => strays.push(shape_error(offset, &path, format!("[{name}]"))),
@@ -82,11 +108,26 @@ fn find_strays(table: &DeTable, known: &Table, path: &KeyPath, strays: &mut Vec<
 
 fn find_strays_in_items(items: &[Spanned<DeValue>], known: &[Value], path: &KeyPath, strays: &mut Vec<Located>) {
     for (index, item) in items.iter().enumerate() {
-        let DeValue::Table(table) = item.get_ref() else { continue };
-        if let Some(known) = known_item(table, known) {
-            find_strays(table, known, &path.item(index), strays);
+        match item.get_ref() {
+            DeValue::Table(table) => {
+                if let Some(known) = known_item(table, known) {
+                    find_strays(table, known, &path.item(index), strays);
+                }
+            }
+            // A list would be taken for a table's values in the order of the code.
+            other => {
+                let reason = format!("must be a table and holds a value of the type {}", other.type_str());
+                strays.push(Located::bad_value(item.span().start, &path.item(index), reason));
+            }
         }
     }
+}
+
+/// Lists of numbers have a certain length. Parsers would drop what is too much.
+fn check_count(items: &[Spanned<DeValue>], known: &[Value], offset: usize, path: &KeyPath) -> Option<Located> {
+    let (found, wanted) = (items.len(), known.len());
+    let reason = || format!("is a list of {found}; it must hold {wanted} numbers");
+    (found != wanted).then(|| Located::bad_value(offset, path, reason()))
 }
 
 /// The known item of a list that an item must be like: the one of its kind, where items have kinds. Nothing if there is no such kind, which
@@ -98,15 +139,15 @@ fn known_item<'a>(table: &DeTable, known: &'a [Value]) -> Option<&'a Table> {
 }
 
 fn shape_error(offset: usize, path: &KeyPath, header: String) -> Located {
-    let reason = format!("has the wrong kind of table; write {header}");
-    Located { offset, problem: Problem::BadValue { key: path.to_string(), reason } }
+    Located::bad_value(offset, path, format!("has the wrong kind of table; write {header}"))
 }
 
-fn type_error(document: &DeTable, error: &toml::de::Error) -> Located {
+fn type_error(source: &SceneSource, error: &Error) -> Located {
     let offset = error.span().unwrap_or_default().start;
-    let path = key_at(document, offset, &KeyPath::default()).unwrap_or_default();
+    let document = source.parse().ok();
+    let path = document.and_then(|document| key_at(document.get_ref(), offset, &KeyPath::default()));
     let reason = format!("is wrong: {}", plain_words(error.message()));
-    Located { offset, problem: Problem::BadValue { key: path.to_string(), reason } }
+    Located::bad_value(offset, &path.unwrap_or_default(), reason)
 }
 
 /// Says in the words of a scene's author what serde says in Rust's.
@@ -118,15 +159,17 @@ fn plain_words(message: &str) -> String {
         ("wanted string or table", "expected a word in quotes"),
         ("expected a sequence", "expected a list"),
         ("expected struct", "expected the table"),
-        ("an array of length 3", "three numbers"),
+        ("an array of length 3", "a list of three numbers"),
         ("unknown variant", "unknown word"),
         ("type: map", "type: table"),
     ];
-    WORDS.iter().fold(one_line(message), |message, (rust, plain)| message.replace(rust, plain))
+    WORDS.iter().fold(shorten_line(message), |message, (rust, plain)| message.replace(rust, plain))
 }
 
-fn one_line(message: &str) -> String {
-    message.split_whitespace().collect::<Vec<_>>().join(" ")
+/// A text in one line that is not too long for a message.
+fn shorten_line(text: &str) -> String {
+    const LONGEST: usize = 300;
+    shorten(&text.split_whitespace().collect::<Vec<_>>().join(" "), LONGEST).into_owned()
 }
 
 /// Where a key stands, or the innermost table on the way to it if the text leaves it out.
@@ -163,5 +206,7 @@ fn value_at(value: &Spanned<DeValue>, offset: usize, path: &KeyPath) -> Option<K
         }
         _ => None,
     };
-    inner.or_else(|| value.span().contains(&offset).then(|| path.clone()))
+    // An empty word of a setting covers no byte.
+    let is_there = value.span().start == offset || value.span().contains(&offset);
+    inner.or_else(|| is_there.then(|| path.clone()))
 }

@@ -2,6 +2,7 @@
 
 use super::VERSION;
 use super::check::{Fault, KeyPath};
+use std::borrow::Cow;
 
 /// Why a scene cannot be used. The message is one line: where, what, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -14,6 +15,14 @@ pub enum SceneError {
         /// The line, counted from 1.
         line: usize,
         /// What is wrong there.
+        problem: Problem,
+    },
+    /// The value was given over the scene's text.
+    #[error("--set {setting}: {problem}")]
+    InSetting {
+        /// The setting, `key=value`.
+        setting: String,
+        /// What is wrong with it.
         problem: Problem,
     },
     /// The scene was made in memory.
@@ -53,21 +62,34 @@ pub enum Problem {
 
 impl From<Fault> for Problem {
     fn from(fault: Fault) -> Self {
-        Self::BadValue { key: fault.path.to_string(), reason: fault.reason }
+        Self::BadValue { key: fault.path.to_string(), reason: shorten(&fault.reason, LONGEST_REASON).into_owned() }
     }
 }
 
-/// A problem and the byte of the text where it stands.
+/// Characters of a reason that messages show. The longest of the program's own words have half as many; the rest is what a file holds.
+const LONGEST_REASON: usize = 600;
+
+/// A text of so many characters at most, for messages: a longer one loses its middle.
+#[must_use]
+pub fn shorten(text: &str, max: usize) -> Cow<'_, str> {
+    let count = text.chars().count();
+    if count <= max {
+        return text.into();
+    }
+    let (tail, head) = (max / 2, max - max / 2 - 1);
+    text.chars().take(head).chain(['…']).chain(text.chars().skip(count - tail)).collect()
+}
+
+/// A problem and the byte of a source's text where it stands.
+#[derive(Debug)]
 pub(super) struct Located {
     pub offset: usize,
     pub problem: Problem,
 }
 
 impl Located {
-    pub fn in_text(self, text: &str, name: &str) -> SceneError {
-        let before = text.as_bytes().iter().take(self.offset);
-        let line = 1 + before.filter(|byte| **byte == b'\n').count();
-        SceneError::InText { name: name.to_owned(), line, problem: self.problem }
+    pub fn bad_value(offset: usize, path: &KeyPath, reason: String) -> Self {
+        Self { offset, problem: Fault { path: path.clone(), reason }.into() }
     }
 
     pub fn unknown_key<'a>(offset: usize, path: &KeyPath, key: &str, known: impl Iterator<Item = &'a String>) -> Self {
@@ -77,11 +99,20 @@ impl Located {
 
 /// Names the known key nearest to `key`. Jaro-Winkler favours a common beginning, which suits forgotten units (`radius` for `radius_mm`).
 fn hint<'a>(key: &str, known: impl Iterator<Item = &'a String>) -> String {
-    const NEAR: f64 = 0.75;
-    let known: Vec<&String> = known.collect();
-    let similarity = |name: &&&String| strsim::jaro_winkler(key, name);
-    match known.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b))) {
-        Some(nearest) if similarity(&nearest) >= NEAR => format!("did you mean `{nearest}`?"),
-        _ => format!("known here: {}", known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")),
+    let known: Vec<&str> = known.map(String::as_str).collect();
+    match nearest(key, &known) {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None => format!("known here: {}", known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")),
     }
+}
+
+/// The known name that a mistyped one is likely meant to be, if there is one.
+#[must_use]
+pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    const NEAR: f64 = 0.75;
+    const LONGEST: usize = 100;
+    let name = shorten(name, LONGEST);
+    let similarities = known.iter().map(|known| (strsim::jaro_winkler(&name, known), *known));
+    let (similarity, nearest) = similarities.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    (similarity >= NEAR).then_some(nearest)
 }

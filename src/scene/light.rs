@@ -1,6 +1,7 @@
 //! What lights the scene, and how its radiance becomes a picture.
 
 use super::check::{self, Checked, Fault};
+use super::shorten;
 use serde::{Deserialize, Serialize};
 
 /// The light around the bubbles: `[light]`.
@@ -72,7 +73,7 @@ fn check_illuminant(name: &str) -> Checked {
     if name.trim().is_empty() {
         return Err(Fault::new("illuminant", "is empty; name one, as in `illuminant = \"D65\"`"));
     }
-    Ok(())
+    check::plain_text("illuminant", name)
 }
 
 impl Default for Light {
@@ -117,10 +118,12 @@ impl Environment {
     fn check(&self) -> Checked {
         match self {
             Self::File(path) if !is_picture(path) => {
+                let path = shorten(path, check::LONGEST_NAME);
                 let reason = format!("is {path:?}; use \"tent\", \"windows\" or the path of an .exr or .hdr file");
                 Err(Fault::new("environment", reason))
             }
-            _ => Ok(()),
+            Self::File(path) => check::plain_text("environment", path),
+            Self::Tent | Self::Windows => Ok(()),
         }
     }
 }

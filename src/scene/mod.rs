@@ -15,18 +15,23 @@ mod event;
 mod light;
 mod motion;
 mod preset;
+mod setting;
+mod source;
 #[cfg(test)]
 mod tests;
 
 pub use bubble::{Boundary, Bubble, Detail, Film, FilmIndexName, FilmStateName};
 pub use camera::Camera;
-pub use error::{Problem, SceneError};
+pub use check::Fault;
+pub use error::{Problem, SceneError, nearest, shorten};
 pub use event::{Blow, Change, Drag, Event, MotionChange, Prick, Stir};
 pub use light::{Backdrop, Environment, Light, LightPatch, MAX_PATCHES, Quality, View};
 pub use motion::{Flow, Motion, TransportScheme};
 pub use preset::{preset, preset_names, preset_toml};
+pub use setting::Setting;
+pub use source::SceneSource;
 
-use check::{Checked, Fault};
+use check::Checked;
 use serde::{Deserialize, Serialize};
 
 /// The version of the scene format that this program reads and writes.
@@ -74,6 +79,12 @@ impl Default for Scene {
     }
 }
 
+/// Whether the name of a liquid or of an illuminant is the path of a `.csv` file.
+#[must_use]
+pub fn is_table(name: &str) -> bool {
+    name.trim().to_ascii_lowercase().ends_with(".csv")
+}
+
 impl Scene {
     /// Reads a scene from TOML. `name` stands for the text in error messages: a path, or a preset's name.
     ///
@@ -82,7 +93,7 @@ impl Scene {
     /// The first of: text that is not TOML, a version that is missing or not [`VERSION`], an unknown key, a value of the wrong type,
     /// a value out of its range; each with the line it stands on.
     pub fn from_toml(text: &str, name: &str) -> Result<Self, SceneError> {
-        document::read(text).map_err(|located| located.in_text(text, name))
+        SceneSource::new(name, text, &[]).read()
     }
 
     /// The scene as TOML, which [`Scene::from_toml`] reads back to an equal scene.
@@ -118,6 +129,40 @@ impl Scene {
         })
     }
 
+    /// Every motion that is in force for some time, and the tick from which it is, in order: `[motion]` at first, then what the events make
+    /// of it.
+    pub fn motions(&self) -> impl Iterator<Item = (u64, Motion)> {
+        self.numbered_motions().into_iter().map(|(tick, motion, _)| (tick, motion))
+    }
+
+    /// The motions, each with the index of the last event that shaped it; none has shaped the first.
+    fn numbered_motions(&self) -> Vec<(u64, Motion, Option<usize>)> {
+        let (mut motions, mut now) = (vec![(0, self.motion.clone(), None)], self.motion.clone());
+        for (index, event) in self.events.iter().enumerate() {
+            let Change::Motion(change) = &event.change else { continue };
+            now = change.applied_to(now);
+            // Of several changes at one tick none but the last leaves a motion that holds.
+            motions.pop_if(|(tick, ..)| *tick == event.tick);
+            motions.push((event.tick, now.clone(), Some(index)));
+        }
+        motions
+    }
+
+    /// The paths of all files that it names, as they stand in it: those that are not absolute start from the scene's folder.
+    pub fn paths_mut(&mut self) -> impl Iterator<Item = &mut String> {
+        let environment = match &mut self.light.environment {
+            Environment::File(path) => Some(path),
+            Environment::Tent | Environment::Windows => None,
+        };
+        let patches = self.light.patches.iter_mut().map(|patch| &mut patch.illuminant);
+        let liquids = self.bubbles.iter_mut().filter_map(|bubble| match &mut bubble.film.index {
+            FilmIndexName::Named(name) => Some(name),
+            FilmIndexName::Water | FilmIndexName::Constant(_) => None,
+        });
+        let names = std::iter::once(&mut self.light.illuminant).chain(patches).chain(liquids);
+        environment.into_iter().chain(names.filter(|name| is_table(name)))
+    }
+
     fn check(&self) -> Checked {
         check::in_range("version", self.version, VERSION..=VERSION)?;
         check::at_most("bubble", self.bubbles.len(), MAX_BUBBLES)?;
@@ -147,20 +192,15 @@ impl Scene {
                 return Err(Fault::new("to_m", reason).inside_item("event", event));
             }
         }
-        let ends = self.bubbles.iter().any(|bubble| bubble.boundary != Boundary::Free);
-        let turns_over = |motion: &Motion| motion.spin_deg_s[..2] != [0.0; 2];
-        let ticks = std::iter::once(0).chain(self.events.iter().map(|event| event.tick));
-        if ends && ticks.clone().map(|tick| self.motion_at(tick)).any(|motion| turns_over(&motion)) {
-            let reason =
-                "turns films that have a rim over; only a turn about the vertical, [0, 0, z], leaves it in place";
-            return Err(Fault::new("spin_deg_s", reason).inside("motion"));
+        if self.bubbles.iter().all(|bubble| bubble.boundary == Boundary::Free) {
+            return Ok(());
         }
-        let prescribed = |motion: &Motion| !matches!(motion.flow, Flow::Free | Flow::Rest);
-        if ends && ticks.map(|tick| self.motion_at(tick)).any(|motion| prescribed(&motion)) {
-            let reason = "would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone";
-            return Err(Fault::new("flow", reason).inside("motion"));
-        }
-        Ok(())
+        self.numbered_motions().into_iter().try_for_each(|(_, motion, event)| {
+            motion.check_with_rims().map_err(|fault| match event {
+                Some(index) => fault.inside_item("event", index),
+                None => fault.inside("motion"),
+            })
+        })
     }
 
     fn check_order(&self) -> Checked {

@@ -1,6 +1,6 @@
 //! How the films move, and what changes on the way.
 
-use super::check::{self, Checked};
+use super::check::{self, Checked, Fault};
 use serde::{Deserialize, Serialize};
 
 /// The clock and the flow of the films: `[motion]`.
@@ -97,6 +97,20 @@ impl Motion {
         check::in_range("drainage", self.drainage, 0.0..=1e4)?;
         check::in_range("remap_ticks", self.remap_ticks, 1..=1000)?;
         check::in_range("speed", self.speed, 0.01..=100.0)
+    }
+
+    /// Checks what films that end somewhere do not bear: to turn that end away, or to be carried across it.
+    pub(super) fn check_with_rims(&self) -> Checked {
+        if self.spin_deg_s[..2] != [0.0; 2] {
+            let reason =
+                "turns films that have a rim over; only a turn about the vertical, [0, 0, z], leaves it in place";
+            return Err(Fault::new("spin_deg_s", reason));
+        }
+        if !matches!(self.flow, Flow::Free | Flow::Rest) {
+            let reason = "would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone";
+            return Err(Fault::new("flow", reason));
+        }
+        Ok(())
     }
 }
 

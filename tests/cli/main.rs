@@ -2,6 +2,9 @@
 
 mod colour;
 mod files;
+mod mistakes;
+#[cfg(unix)]
+mod streams;
 #[path = "../support/mod.rs"]
 mod support;
 

@@ -284,7 +284,8 @@ impl FieldKey {
     /// The law that holds during a tick.
     #[must_use]
     pub fn law(&self, tick: u64) -> FlowLaw {
-        self.flows.iter().rev().find(|segment| segment.from_tick <= tick).map_or(FlowLaw::Rest, |segment| segment.law)
+        let begun = self.flows.partition_point(|segment| segment.from_tick <= tick);
+        self.flows[..begun].last().map_or(FlowLaw::Rest, |segment| segment.law)
     }
 
     /// What has evaporated since the beginning, in nm, at a time in ticks.

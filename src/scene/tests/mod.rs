@@ -4,6 +4,7 @@ use super::*;
 
 mod random;
 mod refusals;
+mod settings;
 
 fn with_version(text: &str) -> String {
     format!("version = 1\n{text}")

@@ -1,10 +1,22 @@
 //! What is refused, and in which words.
 
-use super::with_version;
+use super::{documented, setting, with_version};
 use crate::scene::Scene;
 
 /// Text of a scene below its version, and the message after the scene's name.
 type Case = (&'static str, &'static str);
+
+/// The documented keys that hold numbers: section, key and default.
+fn numbers() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
+    let holds_numbers =
+        |default: &str| default == "absent" || default.starts_with(['[', '-']) || default.parse::<f64>().is_ok();
+    let rows = documented().into_iter().filter(move |row| holds_numbers(row[2]) && row[1] != "version");
+    // Radiances are absent unless given, and hold three numbers like all lists.
+    rows.map(|[section, key, default, _]| match key {
+        "constant" | "radiance" => (section, key, "[]"),
+        _ => (section, key, default),
+    })
+}
 
 fn refusal(text: &str) -> String {
     Scene::from_toml(text, "s.toml").expect_err("this scene must be refused").to_string()
@@ -108,13 +120,22 @@ fn values_have_their_type() {
             "3: `flow` in [motion] is wrong: unknown word `windy`, expected one of `free`, `rest`, `sloshing`, `draught`, `stirred`",
         ),
         ("[motion]\nflow = 3", "3: `flow` in [motion] is wrong: expected a word in quotes"),
+        ("[camera]\ntarget_m = [\n0, 0]", "3: `target_m` in [camera] is a list of 2; it must hold 3 numbers"),
+        ("[camera]\ntarget_m = [0, 0, 0, 7]", "3: `target_m` in [camera] is a list of 4; it must hold 3 numbers"),
+        ("[view]\nbackdrop = [1, 2]", "3: `backdrop` in [view] is a list of 2; it must hold 3 numbers"),
         (
-            "[camera]\ntarget_m = [\n0, 0]",
-            "3: `target_m` in [camera] is wrong: invalid length 2, expected three numbers",
+            "[view]\nbackdrop = 2",
+            "3: `backdrop` in [view] is wrong: expected \"environment\" or three numbers [r, g, b]",
         ),
         (
-            "[view]\nbackdrop = [1, 2]",
-            "3: `backdrop` in [view] is wrong: expected \"environment\" or three numbers [r, g, b]",
+            "[[event]]\nkind = \"stir\"\nat = [1, 0, 0, 0]",
+            "4: `at` in [[event]] is a list of 4; it must hold 3 numbers",
+        ),
+        ("bubble = [{}, 3]", "2: [[bubble]] number 2 must be a table and holds a value of the type integer"),
+        ("bubble = [[[0, 0, 0], 50]]", "2: [[bubble]] must be a table and holds a value of the type array"),
+        (
+            "[camera]\ntarget_m = 3",
+            "3: `target_m` in [camera] is wrong: invalid type: integer `3`, expected a list of three numbers",
         ),
         (
             "[[bubble]]\n[bubble.film]\nindex = \"watr\"",
@@ -184,6 +205,10 @@ fn films_end_where_they_can() {
             "5: `flow` in [motion] would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone",
         ),
         (
+            "[[bubble]]\nboundary = \"bath\"\n[[event]]\ntick = 3\nkind = \"motion\"\nflow = \"stirred\"",
+            "7: `flow` in [[event]] would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone",
+        ),
+        (
             "[[bubble]]\nboundary = \"bath\"\n[[event]]\nkind = \"drag\"\nto_m = [0, 0, 1]",
             "6: `to_m` in [[event]] takes a bubble off its bath; end at its height, 0",
         ),
@@ -210,6 +235,57 @@ fn events_change_something_in_order() {
             "7: `tick` in [[event]] number 2 is 8 after an event at tick 9; sort the events by tick",
         ),
     ]);
+}
+
+/// In TOML a path of Windows between double quotes is broken, or worse, means something else.
+#[test]
+fn backslashes_that_are_escapes_are_explained() {
+    let advice = "a backslash in \"…\" begins an escape: write a path as '…', or with / for each \\";
+    for path in
+        [r"C:\Users\me\room.hdr", r"\\server\share\a.hdr", r"D:\", r"C:\xy.hdr", r"C:\temp\new.hdr", r"C:\rooms\a.exr"]
+    {
+        for key in ["environment", "illuminant"] {
+            let message = refusal(&with_version(&format!("[light]\n{key} = \"{path}\"")));
+            assert!(message.starts_with("s.toml:3: ") && message.ends_with(advice), "{path}: {message}");
+        }
+    }
+    let message = refusal(&with_version("[[bubble]]\n[bubble.film]\nindex = \"C:\\new.csv\""));
+    assert!(message.starts_with("s.toml:4: `index`") && message.ends_with(advice), "{message}");
+    assert!(!refusal(&with_version("[light]\nenvironment = 'C:\\x.hdr' 3")).contains("backslash"));
+}
+
+/// No line of a file is so long that the message cannot be read.
+#[test]
+fn messages_are_short_whatever_the_file_holds() {
+    let long = "x".repeat(1_000_000);
+    for text in [
+        format!("{long} = 3"),
+        long.clone(),
+        format!("[{long}]"),
+        format!("[camera]\n{long} = 3"),
+        format!("[camera]\nazimuth_deg = \"{long}\""),
+        format!("[motion]\nflow = \"{long}\""),
+        format!("[light]\nenvironment = \"{long}\""),
+        format!("[[bubble]]\n[bubble.film]\nindex = \"{long}\""),
+        format!("[camera]\nazimuth_deg = {}", "1".repeat(1_000_000)),
+        format!("[{long}.{long}]\n[{long}]\n[{long}]"),
+    ] {
+        let message = refusal(&with_version(&text));
+        assert!(message.chars().count() < 1000, "{} characters: {}", message.len(), &message[..100]);
+    }
+    assert!(refusal(&format!("version = \"{long}\"")).len() < 1000);
+}
+
+/// Whatever the key, neither NaN nor an infinity gets through, alone or in a list.
+#[test]
+fn numbers_are_finite_everywhere() {
+    for (section, key, default) in numbers() {
+        for odd in ["nan", "inf", "-inf"] {
+            let value = if default.starts_with('[') { format!("[0.5, {odd}, 0.5]") } else { odd.to_owned() };
+            let message = refusal(&setting(section, key, &value));
+            assert!(message.contains(&format!("`{key}`")), "{section} {key} = {value}: {message}");
+        }
+    }
 }
 
 #[test]
