@@ -6,7 +6,7 @@ use clap::Args;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::{AdapterArguments, parse};
+use super::{AdapterArguments, parse, progress::Progress};
 use crate::{
     gpu::{
         flow::Cycles,
@@ -70,7 +70,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         cycles: Cycles::default(),
     };
     let gpu = arguments.adapter.open()?;
-    let outcome = run.measure(&gpu)?;
+    let progress = Progress::new("flow", 1);
+    let part = progress.part(run.all_steps().into());
+    let outcome = run.measure_watched(&gpu, &|steps| part.add(steps))?;
+    drop(progress);
     print!("{}: l2 {:.3e}", case.kind().name(), outcome.l2);
     if outcome.energy_drift.is_finite() {
         print!(", energy drift {:.2e}", outcome.energy_drift);
