@@ -5,25 +5,20 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use anyhow::{Context, bail};
-use clap::{Args, ValueEnum};
+use anyhow::Context;
+use clap::Args;
 
 use super::{
-    AdapterArguments, parse,
+    picture::{Format, Painter, PictureArguments},
     progress::Progress,
-    render::{MAX_TICKS, fits},
 };
-use crate::{
-    gpu::Renderer,
-    input::LoadedScene,
-    output::{Metadata, Picture},
-    physics::colour::Gamut,
-    plan::{Moment, Pace, Shot, want},
-};
+use crate::output::FrameRate;
 
 /// Draw numbered pictures into a folder; frame N shows the film N / fps seconds after its start
 #[derive(Args)]
-#[command(after_help = "Example:\n  soapfilm sequence default -o frames --frames 0..299 --fps 30")]
+#[command(
+    after_help = "Examples:\n  soapfilm sequence default -o frames --frames 0..299 --fps 30\n  soapfilm sequence life -o film --frames 0..479 --fps 24000/1001 --format exr\n\nEXR files say their rate and their time code (framesPerSecond, timeCode)."
+)]
 pub struct Arguments {
     /// A scene file, or the name of a preset
     scene: String,
@@ -33,39 +28,21 @@ pub struct Arguments {
     /// First and last frame
     #[arg(long, value_name = "A..B", value_parser = frames)]
     frames: Frames,
-    /// Frames in a second of film time
-    #[arg(long, value_name = "FPS", default_value = "30", value_parser = fps)]
-    fps: f64,
+    /// Frames in a second of film time: a number, or a ratio like 24000/1001
+    #[arg(long, value_name = "FPS", default_value = "30")]
+    fps: FrameRate,
     /// Kind of files: `png` as the window shows it, or `exr` of scene radiance
     #[arg(long, value_name = "png|exr", default_value = "png")]
     format: Format,
-    /// Width and height in pixels
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse::size)]
-    size: [u32; 2],
     /// Draw frames anew that are already there
     #[arg(long)]
     overwrite: bool,
     #[command(flatten)]
-    adapter: AdapterArguments,
+    picture: PictureArguments,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 struct Frames(RangeInclusive<u64>);
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Png,
-    Exr,
-}
-
-impl Format {
-    fn ending(self) -> &'static str {
-        match self {
-            Self::Png => "png",
-            Self::Exr => "exr",
-        }
-    }
-}
 
 fn frames(text: &str) -> Result<Frames, String> {
     let numbers = text.split_once("..").and_then(|(first, last)| Some((first.parse().ok()?, last.parse().ok()?)));
@@ -75,33 +52,26 @@ fn frames(text: &str) -> Result<Frames, String> {
     }
 }
 
-fn fps(text: &str) -> Result<f64, String> {
-    let value = parse::finite(text)?;
-    if (1e-3..=1e4).contains(&value) { Ok(value) } else { Err("a second has 0.001 to 10000 frames".to_owned()) }
-}
-
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let loaded = super::load(&arguments.scene)?;
+    let mut painter = Painter::new(&arguments.picture, arguments.format, &arguments.scene)?;
     let Frames(frames) = arguments.frames.clone();
-    let last = Moment::of_time(*frames.end() as f64 / arguments.fps, loaded.scene.motion.tick_s);
-    if last.tick > MAX_TICKS {
-        bail!("frame {} is {} ticks of this scene; at most {MAX_TICKS} can be simulated", frames.end(), last.tick);
-    }
+    painter.moment(arguments.fps.time_s(*frames.end()), &format!("frame {}", frames.end()))?;
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
-    let mut renderer = Renderer::new(arguments.adapter.open()?);
-    fits(&renderer, arguments.size)?;
-    let progress = Progress::new("sequence", frames.clone().count());
+    if !arguments.picture.is_reference() {
+        painter.renderer()?;
+    }
+    let progress = Progress::new("sequence", frames.clone().count() as u64);
     let mut skipped = 0;
     for frame in frames {
         let path = folder.join(format!("frame_{frame:06}.{}", arguments.format.ending()));
         // Files are written whole or not at all, so one that is there is complete.
         if path.exists() && !arguments.overwrite {
             skipped += 1;
+            progress.step();
         } else {
-            draw(arguments, &loaded, &mut renderer, frame, &path)?;
+            draw(arguments, &mut painter, frame, &path, &progress)?;
         }
-        progress.step();
     }
     drop(progress);
     if skipped > 0 {
@@ -112,35 +82,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
 
 fn draw(
     arguments: &Arguments,
-    loaded: &LoadedScene,
-    renderer: &mut Renderer,
+    painter: &mut Painter<'_>,
     frame: u64,
     path: &Path,
+    progress: &Progress,
 ) -> anyhow::Result<()> {
-    let time_s = frame as f64 / arguments.fps;
-    let shot = Shot {
-        size: arguments.size,
-        moment: Moment::of_time(time_s, loaded.scene.motion.tick_s),
-        full_precision: arguments.format == Format::Exr,
-        gamut: Gamut::Srgb,
-        yardstick: false,
-        pace: Pace::Whole,
-    };
-    renderer.bring(&want(&loaded.scene, &loaded.resources, &shot)?)?;
-    let readback = match arguments.format {
-        Format::Png => renderer.read_picture(),
-        Format::Exr => renderer.read_radiance(),
-    };
-    let bytes = readback.context("no picture was drawn")?.wait(&renderer.gpu)?;
-    let picture = match arguments.format {
-        Format::Png => Picture::Display { size: arguments.size, gamut: Gamut::Srgb, rgba: bytes },
-        Format::Exr => Picture::radiance_from_bt2020(arguments.size, &bytemuck::pod_collect_to_vec(&bytes)),
-    };
-    let metadata = Metadata::new()
-        .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
-        .with("Scene", &loaded.name)
-        .with("Time", &format!("{time_s} s"));
-    Ok(picture.save(path, &metadata)?)
+    let time_s = arguments.fps.time_s(frame);
+    let want = painter.want(painter.moment(time_s, &format!("frame {frame}"))?)?;
+    let picture = painter.paint(&want, progress)?;
+    Ok(picture.save(path, &painter.metadata(time_s).of_frame(arguments.fps, frame))?)
 }
 
 #[cfg(test)]
