@@ -1,6 +1,7 @@
 //! The command line as scripts see it: exit codes, one clear line on stderr, no file left behind, columns and keys.
 
 mod colour;
+mod lut;
 #[path = "../support/mod.rs"]
 mod support;
 
@@ -86,7 +87,8 @@ impl Desk {
     }
 }
 
-const COMMANDS: [&str; 9] = ["app", "render", "sequence", "colour", "lut", "transport", "flow", "verify", "info"];
+const COMMANDS: [&str; 10] =
+    ["app", "render", "sequence", "presets", "colour", "lut", "transport", "flow", "verify", "info"];
 
 #[test]
 fn every_help_has_an_example() {
@@ -96,7 +98,8 @@ fn every_help_has_an_example() {
     for command in COMMANDS {
         assert!(all.out.contains(&format!("\n  {command}")), "`{command}` is not listed");
         let help = desk.run(&format!("{command} --help"));
-        assert!(help.success && help.out.contains("Example:\n  soapfilm "), "{command}");
+        let example = ["Example:\n  soapfilm ", "Examples:\n  soapfilm "].iter().any(|text| help.out.contains(text));
+        assert!(help.success && example, "{command}");
         assert!(help.out.contains("--adapter") && help.out.contains("--backend"), "{command}");
     }
 }
@@ -166,6 +169,11 @@ fn arguments_that_make_no_sense_are_refused() {
         "colour --thickness 300 --cos 1 --illuminant missing.csv",
         "colour --thickness 300 --cos 1 --skin 9",
         "lut -o a.png",
+        "lut -o a",
+        "sequence default -o a --frames 0..1 --fps 30/0",
+        "sequence default -o a --frames 0..1 --fps fast",
+        "sequence default -o a --frames 0..1 --quality best",
+        "colour --thickness 300 --cos 1 --spectrum lines",
         "lut -o a.exr --range 0",
         "lut -o a.exr --size 1x1",
         "colour --points missing.csv",
@@ -317,8 +325,50 @@ fn transport_reports_its_norms() {
 #[test]
 fn info_names_adapters_and_limits() {
     let desk = Desk::new();
-    if desk.done("info --json info.json").is_some() {
-        has_keys(&json(&desk.path("info.json")), &["adapters", "adapter", "driver", "features", "limits"]);
+    let Some(text) = desk.done("info --json info.json") else { return };
+    let keys = ["adapters", "adapter", "driver", "features", "limits"];
+    has_keys(&json(&desk.path("info.json")), &keys);
+    assert!(text.out.contains("\nuses ") && !text.out.contains('{'), "people read text: {}", text.out);
+    assert_eq!(desk.done("info").unwrap().out, text.out);
+    let printed: serde_json::Value = serde_json::from_str(&desk.done("info --json").unwrap().out).unwrap();
+    has_keys(&printed, &keys);
+}
+
+#[test]
+fn presets_are_listed_with_a_sentence() {
+    let desk = Desk::new();
+    let text = desk.run("presets").out;
+    let list: serde_json::Value = serde_json::from_str(&desk.run("presets --json").out).unwrap();
+    let list = list.as_array().unwrap();
+    assert_eq!((list.len(), text.lines().count()), (24, 24));
+    for (line, preset) in text.lines().zip(list) {
+        let [name, sentence] = ["name", "sentence"].map(|key| preset[key].as_str().unwrap());
+        assert!(line.starts_with(name) && line.ends_with(sentence) && sentence.ends_with('.'), "{line}");
+    }
+    assert!(text.starts_with("default "));
+}
+
+/// A sequence takes the options of a picture, and its frames are the pictures of their moments.
+#[test]
+fn sequences_take_the_options_of_pictures() {
+    let desk = Desk::new();
+    // Nobody sees a bar where stderr is no terminal.
+    let run =
+        desk.run("sequence furnace -o run --frames 0..1 --quality reference --size 16x9 --format exr --fps 24000/1001");
+    assert!(run.success && run.err.is_empty(), "{}", run.err);
+    let frame = read_exr(&desk.path("run/frame_000001.exr")).unwrap();
+    assert_eq!((frame.frames_per_second, frame.time_code), (Some([24000, 1001]), Some([0, 0, 0, 1])));
+    assert_eq!(frame.metadata.get("Time"), Some(format!("{} s", 1001.0 / 24000.0).as_str()));
+    for options in ["--quality spectral", "--gamut p3", "--quality fast"] {
+        if desk
+            .done(&format!("sequence default -o run --frames 3..3 --fps 10 --overwrite --size 32x18 {options}"))
+            .is_none()
+        {
+            return;
+        }
+        desk.done(&format!("render default -o once.png --time 0.3 --size 32x18 {options}")).unwrap();
+        let pixels = |path: &str| read_png(&desk.path(path)).unwrap().rgba;
+        assert_eq!(pixels("run/frame_000003.png"), pixels("once.png"), "{options}");
     }
 }
 

@@ -65,6 +65,21 @@ impl Walls {
         }
         .mean()
     }
+
+    /// Transmittance of unpolarised light of one wavelength: what passes all walls straight, T₀ or T₀ T₁. With one wall it is all that is not
+    /// reflected; with two, what the walls reflect to and fro is missing in both.
+    pub fn transmittance(&self, wall: &Wall) -> f64 {
+        let at = |thickness_nm| wall.reflectance(thickness_nm);
+        match *self {
+            Self::One { thickness_nm } => 1.0 - at(thickness_nm).mean(),
+            Self::Two { front_nm, back_nm, .. } => through(at(front_nm), at(back_nm)).mean(),
+        }
+    }
+}
+
+/// The part of one-wavelength light that passes each of two walls straight, without reflections between them.
+fn through(front: Polarised, back: Polarised) -> Polarised {
+    Polarised { s: (1.0 - front.s) * (1.0 - back.s), p: (1.0 - front.p) * (1.0 - back.p) }
 }
 
 fn front_and_back(front: Polarised, back: Polarised, exit: Polarised) -> Polarised {
@@ -130,17 +145,39 @@ impl FilmOptics {
         self.weights.integrate(|i| walls.reflectance(&self.wall(i, cos_theta)))
     }
 
+    /// As [`FilmOptics::xyz`] of one wall, in light that is all s, and in light that is all p.
+    pub fn xyz_of_polarisations(&self, cos_theta: f64, thickness_nm: f64) -> [DVec3; 2] {
+        let wall = |i| self.wall(i, cos_theta).reflectance(thickness_nm);
+        let reflectances: Vec<Polarised> = (0..self.indices.len()).map(wall).collect();
+        [self.weights.integrate(|i| reflectances[i].s), self.weights.integrate(|i| reflectances[i].p)]
+    }
+
     /// The matrix from linear BT.709 light to the XYZ of its reflection; see [`Uplift`].
     pub fn light_matrix(&self, cos_theta: f64, walls: Walls) -> DMat3 {
         let reflectance = |i| walls.reflectance(&self.wall(i, cos_theta));
         Uplift::bt709().light_matrix(&self.weights, &(0..self.indices.len()).map(reflectance).collect::<Vec<_>>())
     }
 
-    /// Points (wavelength in nm, reflectance of unpolarised light) every 5 nm from 360 to 780 nm.
-    pub fn spectrum(&self, cos_theta: f64, walls: Walls) -> Vec<(f64, f64)> {
-        let wavelengths = (0..SAMPLES).step_by(5).map(wavelength_nm);
-        wavelengths.map(|nm| (nm, walls.reflectance(&self.film.wall(self.film.index.n(nm), cos_theta, nm)))).collect()
+    /// What the walls do with unpolarised light, every 5 nm from 360 to 780 nm.
+    pub fn spectrum(&self, cos_theta: f64, walls: Walls) -> Vec<SpectrumPoint> {
+        let point = |nm: f64| {
+            let wall = self.film.wall(self.film.index.n(nm), cos_theta, nm);
+            let (reflectance, transmittance) = (walls.reflectance(&wall), walls.transmittance(&wall));
+            SpectrumPoint { wavelength_nm: nm, reflectance, transmittance }
+        };
+        (0..SAMPLES).step_by(5).map(wavelength_nm).map(point).collect()
     }
+}
+
+/// One wavelength of a film's spectrum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectrumPoint {
+    /// Wavelength in nm.
+    pub wavelength_nm: f64,
+    /// Part of unpolarised light that is reflected: see [`Walls::reflectance`].
+    pub reflectance: f64,
+    /// Part of it that goes straight through: see [`Walls::transmittance`].
+    pub transmittance: f64,
 }
 
 /// The exposure "M2" at which colour errors are measured: 1 / (walls · Rmax), with Rmax the most that one wall reflects at this angle
@@ -299,11 +336,35 @@ mod tests {
     #[test]
     fn spectrum_runs_from_360_to_780_every_5_nm() {
         let spectrum = water().spectrum(0.8, one(333.0));
-        assert_eq!((spectrum.len(), spectrum[0].0, spectrum[84].0), (85, 360.0, 780.0));
+        assert_eq!((spectrum.len(), spectrum[0].wavelength_nm, spectrum[84].wavelength_nm), (85, 360.0, 780.0));
         assert_eq!(
-            spectrum[38].1,
+            spectrum[38].reflectance,
             one(333.0).reflectance(&FilmMaterial::default().wall(FilmIndex::Water.n(550.0), 0.8, 550.0))
         );
+    }
+
+    #[test]
+    fn what_is_not_reflected_passes() {
+        let optics = water();
+        for point in optics.spectrum(0.5, one(333.0)) {
+            assert!((point.reflectance + point.transmittance - 1.0).abs() < 1e-15, "{point:?}");
+        }
+        // Two walls of nearly no back wall are one wall.
+        let two = Walls::Two { front_nm: 333.0, back_nm: 0.0, exit_nm: 333.0 };
+        assert_eq!(optics.spectrum(0.5, two)[7].transmittance, optics.spectrum(0.5, one(333.0))[7].transmittance);
+        // Of what enters, the walls reflect a part to and fro, and some of it leaves by neither way that is counted.
+        let equal = Walls::Two { front_nm: 333.0, back_nm: 333.0, exit_nm: 333.0 };
+        for point in optics.spectrum(0.2, equal) {
+            let lost = 1.0 - point.reflectance - point.transmittance;
+            assert!((0.0..=point.reflectance).contains(&lost), "{point:?}");
+        }
+    }
+
+    #[test]
+    fn polarisations_add_up_to_unpolarised_light() {
+        let optics = water();
+        let [s, p] = optics.xyz_of_polarisations(0.4, 420.0);
+        assert!((0.5 * (s + p) - optics.xyz(0.4, one(420.0))).abs().max_element() < 1e-15);
     }
 
     #[test]
