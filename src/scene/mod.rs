@@ -24,7 +24,7 @@ pub use error::{Problem, SceneError};
 pub use event::{Blow, Change, Drag, Event, MotionChange, Prick, Stir};
 pub use light::{Backdrop, Environment, Light, LightPatch, MAX_PATCHES, Quality, View};
 pub use motion::{Flow, Motion, TransportScheme};
-pub use preset::{preset, preset_names, preset_toml};
+pub use preset::{preset, preset_names, preset_sentence, preset_toml};
 
 use check::{Checked, Fault};
 use serde::{Deserialize, Serialize};

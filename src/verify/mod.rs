@@ -22,7 +22,7 @@ use crate::gpu::{Gpu, GpuError};
 /// One measurement and its limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
-    /// What was measured, and its unit where it has one.
+    /// What was measured, and one of [`Check::UNITS`] where it has a unit.
     pub name: String,
     /// The measured value.
     pub measured: f64,
@@ -35,6 +35,15 @@ impl Check {
     #[must_use]
     pub fn at_most(name: impl Into<String>, measured: f64, limit: f64) -> Self {
         Self { name: name.into(), measured, limit }
+    }
+
+    /// Units that names state; other values have none.
+    pub const UNITS: [&str; 2] = ["dE2000", "rad/s"];
+
+    /// The unit of both values, which the name states; empty for plain numbers.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        Self::UNITS.into_iter().find(|unit| self.name.contains(unit)).unwrap_or("")
     }
 
     /// Whether the value keeps to the limit. A value that is no number does not.
@@ -76,6 +85,29 @@ impl Part {
             Self::Flow => "flow",
             Self::Rims => "rims",
             Self::Stability => "stability",
+        }
+    }
+
+    /// About how many checks it makes, for a display of progress; more with the long ones.
+    #[must_use]
+    pub fn checks(self) -> u64 {
+        self.effort().0
+    }
+
+    /// About how many seconds it takes on a software rasteriser with two cores, for a display of progress.
+    #[must_use]
+    pub fn seconds(self) -> u64 {
+        self.effort().1
+    }
+
+    fn effort(self) -> (u64, u64) {
+        match self {
+            Self::Optics => (66, 170),
+            Self::Picture => (8, 400),
+            Self::Transport => (40, 300),
+            Self::Flow => (20, 100),
+            Self::Rims => (30, 200),
+            Self::Stability => (60, 300),
         }
     }
 }
