@@ -37,13 +37,15 @@ impl Check {
         Self { name: name.into(), measured, limit }
     }
 
-    /// Units that names state; other values have none.
-    pub const UNITS: [&str; 2] = ["dE2000", "rad/s"];
+    /// Units that names end in, after a comma; other values have none, but for colour differences.
+    pub const UNITS: [&str; 3] = ["nm", "rad/s", "sr"];
 
     /// The unit of both values, which the name states; empty for plain numbers.
     #[must_use]
     pub fn unit(&self) -> &'static str {
-        Self::UNITS.into_iter().find(|unit| self.name.contains(unit)).unwrap_or("")
+        let last = self.name.rsplit(", ").next().unwrap_or("");
+        let stated = Self::UNITS.into_iter().find(|unit| *unit == last);
+        stated.or(self.name.contains("dE2000").then_some("dE2000")).unwrap_or("")
     }
 
     /// Whether the value keeps to the limit. A value that is no number does not.
@@ -102,12 +104,12 @@ impl Part {
 
     fn effort(self) -> (u64, u64) {
         match self {
-            Self::Optics => (66, 170),
-            Self::Picture => (8, 400),
-            Self::Transport => (40, 300),
-            Self::Flow => (20, 100),
-            Self::Rims => (30, 200),
-            Self::Stability => (60, 300),
+            Self::Optics => (75, 100),
+            Self::Picture => (12, 300),
+            Self::Transport => (45, 60),
+            Self::Flow => (35, 160),
+            Self::Rims => (27, 90),
+            Self::Stability => (125, 700),
         }
     }
 }
@@ -152,5 +154,14 @@ mod tests {
         assert!(Check::at_most("at the limit", 1.0, 1.0).passed());
         assert!(!Check::at_most("beyond", 1.1, 1.0).passed());
         assert!(!Check::at_most("no number", f64::NAN, 1.0).passed());
+    }
+
+    #[test]
+    fn names_state_units() {
+        let unit = |name: &str| Check::at_most(name, 0.0, 1.0).unit();
+        assert_eq!(unit("water, D65, one wall to 1500 nm, fast: dE2000 mean"), "dE2000");
+        assert_eq!(unit("stirred: fastest flow, rad/s"), "rad/s");
+        assert_eq!(unit("thickness that is not even, nm"), "nm");
+        assert_eq!(unit("films to 3 nm: drift of mass"), "");
     }
 }
