@@ -69,12 +69,10 @@ pub struct Arguments {
     adapter: AdapterArguments,
 }
 
-/// How a spectrum is written.
+/// How a spectrum is written: in columns `R360` … `R780` of each film's row, or in rows `wavelength_nm,R,T` of one film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Spectrum {
-    /// In columns `R360` … `R780` of each film's row.
     Columns,
-    /// In rows `wavelength_nm,R,T` of one film.
     Rows,
 }
 

@@ -45,12 +45,10 @@ impl PictureArguments {
     }
 }
 
-/// The kind of file to write.
+/// The kind of file to write: what the window shows, or scene radiance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Format {
-    /// What the window shows.
     Png,
-    /// Scene radiance.
     Exr,
 }
 
@@ -121,6 +119,14 @@ impl<'a> Painter<'a> {
             .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
             .with("Scene", &self.loaded.name)
             .with("Time", &format!("{time_s} s"))
+    }
+
+    /// Opens the adapter if a picture needs one. Called before a bar is shown, so that the adapter's name does not run into it.
+    pub fn prepare(&mut self, want: &Want) -> anyhow::Result<()> {
+        if !self.arguments.is_reference() || want.picture.draw.bubbles.iter().any(needs_device) {
+            self.renderer()?;
+        }
+        Ok(())
     }
 
     /// The renderer, on an adapter that can hold the picture.

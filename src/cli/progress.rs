@@ -52,7 +52,7 @@ impl Progress {
         self.part(1).add(1);
     }
 
-    /// Prints while the bar is out of the way.
+    /// Prints while the bar is out of the way. `print` must not panic: it holds the bar's lock.
     pub fn print<T>(&self, print: impl FnOnce() -> T) -> T {
         self.bar.suspend(print)
     }

@@ -53,11 +53,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
 
 fn draw(arguments: &Arguments, painter: &mut Painter<'_>, want: &Want) -> anyhow::Result<Picture> {
     let measures = arguments.repeat > 0 || arguments.stats.is_some();
+    let is_reference = arguments.picture.is_reference();
+    if is_reference && (arguments.explain || measures) {
+        bail!("--explain, --repeat and --stats tell of the GPU; leave them out with --quality reference");
+    }
+    painter.prepare(want)?;
     let progress = Progress::new("render", 1);
-    if arguments.picture.is_reference() {
-        if arguments.explain || measures {
-            bail!("--explain, --repeat and --stats tell of the GPU; leave them out with --quality reference");
-        }
+    if is_reference {
         return painter.paint(want, &progress);
     }
     let (picture, plan) = painter.draw(want, &progress)?;

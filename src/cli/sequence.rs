@@ -55,12 +55,11 @@ fn frames(text: &str) -> Result<Frames, String> {
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut painter = Painter::new(&arguments.picture, arguments.format, &arguments.scene)?;
     let Frames(frames) = arguments.frames.clone();
-    painter.moment(arguments.fps.time_s(*frames.end()), &format!("frame {}", frames.end()))?;
+    let last = painter.moment(arguments.fps.time_s(*frames.end()), &format!("frame {}", frames.end()))?;
+    let last = painter.want(last)?;
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
-    if !arguments.picture.is_reference() {
-        painter.renderer()?;
-    }
+    painter.prepare(&last)?;
     let progress = Progress::new("sequence", frames.clone().count() as u64);
     let mut skipped = 0;
     for frame in frames {

@@ -1,6 +1,9 @@
 //! `soapfilm verify`: measures this machine's GPU against the references.
 
-use std::path::PathBuf;
+use std::{
+    io::{self, Write},
+    path::PathBuf,
+};
 
 use clap::Args;
 use serde_json::json;
@@ -59,19 +62,24 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
 fn measure(arguments: &Arguments, gpu: &Gpu) -> anyhow::Result<Vec<Check>> {
     let parts: Vec<Part> = arguments.parts.iter().flat_map(|parts| parts.0.iter().copied()).collect();
     let progress = Progress::new("verify", parts.iter().map(|part| part.seconds()).sum());
-    progress.print(|| println!("{:<5} {:<WIDTH$} {:>9} {:>9}", "", "check", "measured", "at most"));
+    let print = |line: &str| progress.print(|| writeln!(io::stdout(), "{line}"));
+    print(&format!("{:<5} {:<WIDTH$} {:>9} {:>9}", "", "check", "measured", "at most"))?;
     let mut checks: Vec<Check> = Vec::new();
+    let mut printed = Ok(());
     for part in &parts {
         let done = progress.parts(part.seconds(), part.checks());
         let mut report = |check: Check| {
-            progress.print(|| println!("{}", line(&check)));
+            if printed.is_ok() {
+                printed = print(&line(&check));
+            }
             done.add(1);
             checks.push(check);
         };
         Run { gpu, long: arguments.long, report: &mut report }.part(*part)?;
     }
+    printed?;
     if parts.iter().any(|part| matches!(part, Part::Optics | Part::Picture)) {
-        progress.print(|| println!("{PHYSICS_IS_LESS_CERTAIN}"));
+        print(PHYSICS_IS_LESS_CERTAIN)?;
     }
     Ok(checks)
 }
