@@ -3,16 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use glam::DVec3;
+use rayon::prelude::*;
 
-use super::{AdapterArguments, parse, strip};
+use super::{AdapterArguments, parse, progress::Progress, strip};
 use crate::{
     gpu::probe_colour::{ColourProbe, ProbePoint},
     input::{load_illuminant, load_liquid, read_table_text},
     output::{Metadata, print, write_text},
     physics::{
-        colour::{BT2020, FilmOptics, Walls},
+        colour::{BT709, BT2020, FilmOptics, Walls, srgb_encode},
         optics::FilmMaterial,
         table::{Row, Table},
     },
@@ -23,15 +24,18 @@ use crate::{
 /// Report the colour that a film reflects.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --thickness 320 --back 500 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n  soapfilm colour --strip strip.png\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall, R0 + T0 R1 T2 with\nthickness_nm, back_nm and exit_nm for 0, 1 and 2. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), and linear BT.2020 r,g,b.\n\nCSV files may have commas, semicolons, tabs or spaces between columns, decimal points or commas, and lines of # comments. Spectra\nare in nm (or µm, where only that covers the visible range) and cover 380 to 780 nm; from there down to 360 nm the first value goes on."
+    after_help = "Examples:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --thickness 320 --angle 45 --spectrum rows\n  soapfilm colour --thickness 320 --back 500 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n  soapfilm colour --strip strip.png\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall, R0 + T0 R1 T2 with\nthickness_nm, back_nm and exit_nm for 0, 1 and 2. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), linear BT.2020 r,g,b, and s_r,s_g,s_b, the same colour in sRGB, encoded, 0 to 1 where sRGB has it.\n--spectrum writes R360 to R780, the part reflected every 5 nm, in place of s_r,s_g,s_b. --spectrum rows writes rows of wavelength_nm,R,T\nfor one film, T being what passes straight through.\n\nCSV files may have commas, semicolons, tabs or spaces between columns, decimal points or commas, and lines of # comments. Spectra\nare in nm (or µm, where only that covers the visible range) and cover 380 to 780 nm; from there down to 360 nm the first value goes on."
 )]
 pub struct Arguments {
     /// Thickness in nm, of the front wall where there are two
-    #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "cos", required_unless_present_any = ["points", "strip"])]
+    #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "direction", required_unless_present_any = ["points", "strip"])]
     thickness: Option<f64>,
     /// Cosine of the angle outside the film
-    #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = parse::cosine, requires = "thickness")]
+    #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = parse::cosine, requires = "thickness", group = "direction")]
     cos: Option<f64>,
+    /// The angle outside the film, from its normal
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = parse::angle_cos, requires = "thickness", group = "direction", conflicts_with = "cos")]
+    angle: Option<f64>,
     /// Thickness in nm of the back wall, seen through the front wall
     #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "thickness")]
     back: Option<f64>,
@@ -39,10 +43,10 @@ pub struct Arguments {
     #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "back")]
     exit: Option<f64>,
     /// A CSV file of films
-    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["thickness", "cos", "back"])]
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["thickness", "direction", "back"])]
     points: Option<PathBuf>,
     /// Paint the colours of films from 0 to 1500 nm at normal incidence, a column a nanometre, in place of reporting any
-    #[arg(long, value_name = "FILE.png", conflicts_with_all = ["thickness", "cos", "back", "points", "spectrum", "output"])]
+    #[arg(long, value_name = "FILE.png", conflicts_with_all = ["thickness", "direction", "back", "points", "spectrum", "output"])]
     strip: Option<PathBuf>,
     /// `water`, `water 25C`, `glycerol 30%`, a refractive index, or a CSV file of wavelengths and indices
     #[arg(long, value_name = "FILM", default_value = "water", allow_negative_numbers = true)]
@@ -56,14 +60,21 @@ pub struct Arguments {
     /// `fast`, `standard`, `spectral` (as pictures of that quality have it) or `reference` (f64 on the CPU, no GPU needed)
     #[arg(long, value_name = "QUALITY", default_value = "standard", value_parser = parse::quality)]
     quality: parse::Quality,
-    /// Add the reflectance every 5 nm from 360 to 780 nm
-    #[arg(long)]
-    spectrum: bool,
+    /// Add the reflectance every 5 nm from 360 to 780 nm in columns, or write the spectrum of one film in rows in place of its colour
+    #[arg(long, value_name = "columns|rows", num_args = 0..=1, default_missing_value = "columns")]
+    spectrum: Option<Spectrum>,
     /// Write to a file in place of the terminal
     #[arg(short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     #[command(flatten)]
     adapter: AdapterArguments,
+}
+
+/// How a spectrum is written: in columns `R360` … `R780` of each film's row, or in rows `wavelength_nm,R,T` of one film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Spectrum {
+    Columns,
+    Rows,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
@@ -78,8 +89,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let points = points(arguments)?;
     let thickest_nm = points.films.iter().map(|film| film.walls.thickest_nm()).fold(0.0, f64::max);
     let optics = key.spectra_to(thickest_nm);
+    if arguments.spectrum == Some(Spectrum::Rows) {
+        return write(arguments, &spectrum_rows(&points, &optics)?);
+    }
     let colours: Vec<DVec3> = match arguments.quality {
-        parse::Quality::Reference => points.films.iter().map(|film| optics.xyz(film.cos_theta, film.walls)).collect(),
+        parse::Quality::Reference => in_f64(&optics, &points.films),
         parse::Quality::Gpu(quality) => through_shaders(arguments, &key, quality, &points.films)?,
     };
     anyhow::ensure!(
@@ -93,12 +107,26 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
             .with("Illuminant", &arguments.illuminant);
         return Ok(strip::save(path, &colours, &key.film, &metadata)?);
     }
-    let text = table(&points, &colours, arguments.spectrum.then_some(&optics))?;
+    write(arguments, &table(&points, &colours, arguments.spectrum.map(|_| &optics))?)
+}
+
+fn write(arguments: &Arguments, text: &str) -> anyhow::Result<()> {
     match &arguments.output {
-        Some(path) => write_text(path, &text)?,
+        Some(path) => write_text(path, text)?,
         None => print(text)?,
     }
     Ok(())
+}
+
+fn in_f64(optics: &FilmOptics, films: &[FilmPoint]) -> Vec<DVec3> {
+    let progress = Progress::new("colour", 1);
+    let part = progress.part(films.len() as u64);
+    let colour = |film: &FilmPoint| {
+        let xyz = optics.xyz(film.cos_theta, film.walls);
+        part.add(1);
+        xyz
+    };
+    films.par_iter().map(colour).collect()
 }
 
 /// One line of sight.
@@ -122,8 +150,9 @@ fn points(arguments: &Arguments) -> anyhow::Result<Points> {
     if arguments.strip.is_some() {
         return Ok(films_of_strip());
     }
+    let cos_theta = arguments.cos.or(arguments.angle);
     let (thickness_nm, cos_theta) =
-        arguments.thickness.zip(arguments.cos).context("give --thickness and --cos, or --points")?;
+        arguments.thickness.zip(cos_theta).context("give --thickness and --cos or --angle, or --points")?;
     let one = Points {
         header: vec!["thickness_nm".to_owned(), "cos_theta".to_owned()],
         rows: vec![vec![thickness_nm.to_string(), cos_theta.to_string()]],
@@ -213,18 +242,37 @@ fn through_shaders(
     Ok(colours.into_iter().map(|colour| BT2020.to_xyz() * colour).collect())
 }
 
+/// The table of colours. Scripts read columns by place too, from the left or from the right: sRGB comes last, and leaves the spectrum alone.
 fn table(points: &Points, colours: &[DVec3], spectrum: Option<&FilmOptics>) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let wavelengths = || (360..=780).step_by(5).map(|nm| format!("R{nm}"));
+    let last: Vec<String> = match spectrum {
+        Some(_) => (360..=780).step_by(5).map(|nm| format!("R{nm}")).collect(),
+        None => ["s_r", "s_g", "s_b"].map(str::to_owned).to_vec(),
+    };
     let added = ["X", "Y", "Z", "r", "g", "b"].map(str::to_owned).into_iter();
-    writer
-        .write_record(points.header.iter().cloned().chain(added).chain(wavelengths().filter(|_| spectrum.is_some())))?;
+    writer.write_record(points.header.iter().cloned().chain(added).chain(last))?;
     for ((row, film), xyz) in points.rows.iter().zip(&points.films).zip(colours) {
-        let rgb = BT2020.from_xyz() * *xyz;
-        let numbers = xyz.to_array().into_iter().chain(rgb.to_array());
-        let samples = spectrum.map(|optics| optics.spectrum(film.cos_theta, film.walls)).unwrap_or_default();
-        let numbers = numbers.chain(samples.into_iter().map(|(_, reflectance)| reflectance));
-        writer.write_record(row.iter().cloned().chain(numbers.map(|number| number.to_string())))?;
+        let numbers = xyz.to_array().into_iter().chain((BT2020.from_xyz() * *xyz).to_array());
+        let last: Vec<f64> = match spectrum {
+            Some(optics) => optics.spectrum(film.cos_theta, film.walls).iter().map(|point| point.reflectance).collect(),
+            None => (BT709.from_xyz() * *xyz).to_array().map(srgb_encode).to_vec(),
+        };
+        writer.write_record(row.iter().cloned().chain(numbers.chain(last).map(|number| number.to_string())))?;
     }
     Ok(String::from_utf8(writer.into_inner()?)?)
+}
+
+/// The spectrum of the one film.
+fn spectrum_rows(points: &Points, optics: &FilmOptics) -> anyhow::Result<String> {
+    let [film] = points.films[..] else {
+        anyhow::bail!(
+            "--spectrum rows writes the spectrum of one film, these are {}: use --spectrum",
+            points.films.len()
+        );
+    };
+    let mut text = String::from("wavelength_nm,R,T\n");
+    for point in optics.spectrum(film.cos_theta, film.walls) {
+        text += &format!("{},{},{}\n", point.wavelength_nm, point.reflectance, point.transmittance);
+    }
+    Ok(text)
 }

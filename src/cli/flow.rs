@@ -6,7 +6,7 @@ use clap::Args;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::{AdapterArguments, parse};
+use super::{AdapterArguments, parse, progress::Progress};
 use crate::{
     gpu::{
         flow::Cycles,
@@ -74,7 +74,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         cycles: Cycles::default(),
     };
     let gpu = arguments.adapter.open()?;
-    let outcome = run.measure(&gpu)?;
+    let progress = Progress::new("flow", 1);
+    let part = progress.part(run.all_steps().into());
+    let outcome = run.measure_watched(&gpu, &|steps| part.add(steps))?;
+    drop(progress);
     anyhow::ensure!(
         is_finite(&outcome),
         "the flow has left the numbers that a GPU holds: take more --steps, or less of what drives it"

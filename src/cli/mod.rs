@@ -11,6 +11,8 @@ mod info;
 mod lut;
 mod measure;
 mod parse;
+mod picture;
+mod presets;
 mod progress;
 mod reference;
 mod render;
@@ -61,6 +63,8 @@ enum Command {
     Render(render::Arguments),
     /// Draw numbered pictures of a film as it moves
     Sequence(sequence::Arguments),
+    /// List the built-in scenes
+    Presets(presets::Arguments),
     /// Report the colour that a film reflects
     Colour(colour::Arguments),
     /// Write the lookup table of film colours, and how to sample it
@@ -170,6 +174,7 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
         }
         Command::Render(arguments) => render::run(&arguments),
         Command::Sequence(arguments) => sequence::run(&arguments),
+        Command::Presets(arguments) => presets::run(&arguments),
         Command::Colour(arguments) => colour::run(&arguments),
         Command::Lut(arguments) => lut::run(&arguments),
         Command::Transport(arguments) => transport::run(&arguments),

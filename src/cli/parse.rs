@@ -56,6 +56,17 @@ pub fn cosine(text: &str) -> Result<f64, String> {
     if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a cosine lies between 0 and 1".to_owned()) }
 }
 
+/// An angle from the normal in degrees, from 0 to 90, as its cosine.
+pub fn angle_cos(text: &str) -> Result<f64, String> {
+    let degrees = finite(text)?;
+    match degrees {
+        // The cosine of the double nearest to a right angle is not 0.
+        90.0 => Ok(0.0),
+        _ if (0.0..90.0).contains(&degrees) => Ok(degrees.to_radians().cos()),
+        _ => Err("an angle from the normal lies between 0 and 90 degrees".to_owned()),
+    }
+}
+
 /// A thickness in nm.
 pub fn thickness_nm(text: &str) -> Result<f64, String> {
     let value = finite(text)?;
@@ -142,6 +153,15 @@ mod tests {
         }
         for wrong in ["0,0,0", "1,2", "1,2,3,4", "a,b,c"] {
             assert!(direction(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn angles_are_cosines() {
+        assert_eq!((angle_cos("0"), angle_cos("90")), (Ok(1.0), Ok(0.0)));
+        assert!((angle_cos("60").unwrap() - 0.5).abs() < 1e-15);
+        for wrong in ["-1", "90.1", "nan", "", "half"] {
+            assert!(angle_cos(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -5,69 +5,47 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use anyhow::{Context, bail};
-use clap::{Args, ValueEnum};
+use anyhow::Context;
+use clap::Args;
 
 use super::{
-    AdapterArguments, SceneSettings, parse,
+    picture::{Format, Painter, PictureArguments},
     progress::Progress,
-    render::{MAX_TICKS, fits},
 };
 use crate::{
-    gpu::Renderer,
-    input::LoadedScene,
-    output::{Metadata, Picture, tell},
-    physics::colour::Gamut,
-    plan::{Moment, Pace, Shot, has_one_film},
+    output::{FrameRate, tell},
+    plan::Want,
 };
 
 /// Draw numbered pictures into a folder; frame N shows the film N / fps seconds after its start
 #[derive(Args)]
-#[command(after_help = "Example:\n  soapfilm sequence default -o frames --frames 0..299 --fps 30")]
+#[command(
+    after_help = "Examples:\n  soapfilm sequence default -o frames --frames 0..299 --fps 30\n  soapfilm sequence life -o film --frames 0..479 --fps 24000/1001 --format exr\n\nEXR files say their rate and their time code (framesPerSecond, timeCode)."
+)]
 pub struct Arguments {
     /// A scene file, or the name of a preset
     scene: PathBuf,
-    #[command(flatten)]
-    settings: SceneSettings,
     /// The folder to write to, made if it is not there
     #[arg(short, value_name = "DIR")]
     output: PathBuf,
     /// First and last frame
     #[arg(long, value_name = "A..B", value_parser = frames, allow_hyphen_values = true)]
     frames: Frames,
-    /// Frames in a second of film time
-    #[arg(long, value_name = "FPS", default_value = "30", value_parser = fps)]
-    fps: f64,
+    /// Frames in a second of film time: a number, or a ratio like 24000/1001
+    #[arg(long, value_name = "FPS", default_value = "30")]
+    fps: FrameRate,
     /// Kind of files: `png` as the window shows it, or `exr` of scene radiance
     #[arg(long, value_name = "png|exr", default_value = "png")]
     format: Format,
-    /// Width and height in pixels
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse::size, allow_hyphen_values = true)]
-    size: [u32; 2],
     /// Draw frames anew that are already there
     #[arg(long)]
     overwrite: bool,
     #[command(flatten)]
-    adapter: AdapterArguments,
+    picture: PictureArguments,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 struct Frames(RangeInclusive<u64>);
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Png,
-    Exr,
-}
-
-impl Format {
-    fn ending(self) -> &'static str {
-        match self {
-            Self::Png => "png",
-            Self::Exr => "exr",
-        }
-    }
-}
 
 fn frames(text: &str) -> Result<Frames, String> {
     let numbers = text.split_once("..").and_then(|(first, last)| Some((first.parse().ok()?, last.parse().ok()?)));
@@ -80,34 +58,28 @@ fn frames(text: &str) -> Result<Frames, String> {
     }
 }
 
-fn fps(text: &str) -> Result<f64, String> {
-    let value = parse::finite(text)?;
-    if (1e-3..=1e4).contains(&value) { Ok(value) } else { Err("a second has 0.001 to 10000 frames".to_owned()) }
-}
-
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let loaded = arguments.settings.load(&arguments.scene)?;
+    let mut painter = Painter::new(&arguments.picture, arguments.format, &arguments.scene)?;
     let Frames(frames) = arguments.frames.clone();
-    let last = Moment::of_time(*frames.end() as f64 / arguments.fps, loaded.scene.motion.tick_s);
-    if last.tick > MAX_TICKS {
-        bail!("frame {} is {} ticks of this scene; at most {MAX_TICKS} can be simulated", frames.end(), last.tick);
-    }
-    check(arguments, &loaded, frames.clone())?;
-    let mut renderer = Renderer::new(arguments.adapter.open()?);
-    fits(&renderer, arguments.size)?;
+    let last = painter.moment(arguments.fps.time_s(*frames.end()), &format!("frame {}", frames.end()))?;
+    // What cannot be drawn is refused before the first frame, not hours later. Where all films are of one kind, one frame stands for all.
+    let count = if painter.has_one_film() { 1 } else { usize::MAX };
+    frames.clone().take(count).try_for_each(|frame| want(arguments, &painter, frame).map(|_| ()))?;
+    let last = painter.want(last)?;
     let folder = &arguments.output;
+    painter.prepare(&last)?;
     std::fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
-    let progress = Progress::new("sequence", frames.clone().count());
+    let progress = Progress::new("sequence", frames.clone().count() as u64);
     let mut skipped = 0;
     for frame in frames {
         let path = folder.join(format!("frame_{frame:06}.{}", arguments.format.ending()));
         // Files are written whole or not at all, so one that is there is complete.
         if path.exists() && !arguments.overwrite {
             skipped += 1;
+            progress.step();
         } else {
-            draw(arguments, &loaded, &mut renderer, frame, &path)?;
+            draw(arguments, &mut painter, frame, &path, &progress)?;
         }
-        progress.step();
     }
     drop(progress);
     if skipped > 0 {
@@ -116,46 +88,21 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Refuses what cannot be drawn before the first frame, not hours later.
-fn check(arguments: &Arguments, loaded: &LoadedScene, frames: RangeInclusive<u64>) -> anyhow::Result<()> {
-    let count = if has_one_film(&loaded.scene) { 1 } else { usize::MAX };
-    frames.take(count).try_for_each(|frame| loaded.want(&shot(arguments, loaded, frame)).map(|_| ()))?;
-    Ok(())
-}
-
 fn draw(
     arguments: &Arguments,
-    loaded: &LoadedScene,
-    renderer: &mut Renderer,
+    painter: &mut Painter<'_>,
     frame: u64,
     path: &Path,
+    progress: &Progress,
 ) -> anyhow::Result<()> {
-    renderer.bring(&loaded.want(&shot(arguments, loaded, frame))?)?;
-    let readback = match arguments.format {
-        Format::Png => renderer.read_picture(),
-        Format::Exr => renderer.read_radiance(),
-    };
-    let bytes = readback.context("no picture was drawn")?.wait(&renderer.gpu)?;
-    let picture = match arguments.format {
-        Format::Png => Picture::Display { size: arguments.size, gamut: Gamut::Srgb, rgba: bytes },
-        Format::Exr => Picture::radiance_from_bt2020(arguments.size, &bytemuck::pod_collect_to_vec(&bytes)),
-    };
-    let metadata = Metadata::new()
-        .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
-        .with("Scene", &loaded.name)
-        .with("Time", &format!("{} s", frame as f64 / arguments.fps));
-    Ok(picture.save(path, &metadata)?)
+    let time_s = arguments.fps.time_s(frame);
+    let want = want(arguments, painter, frame)?;
+    let picture = painter.paint(&want, progress)?;
+    Ok(picture.save(path, &painter.metadata(time_s).of_frame(arguments.fps, frame))?)
 }
 
-fn shot(arguments: &Arguments, loaded: &LoadedScene, frame: u64) -> Shot {
-    Shot {
-        size: arguments.size,
-        moment: Moment::of_time(frame as f64 / arguments.fps, loaded.scene.motion.tick_s),
-        full_precision: arguments.format == Format::Exr,
-        gamut: Gamut::Srgb,
-        yardstick: false,
-        pace: Pace::Whole,
-    }
+fn want(arguments: &Arguments, painter: &Painter<'_>, frame: u64) -> anyhow::Result<Want> {
+    painter.want(painter.moment(arguments.fps.time_s(frame), &format!("frame {frame}"))?)
 }
 
 #[cfg(test)]

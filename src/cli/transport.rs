@@ -11,7 +11,10 @@ use cpu_time::ProcessTime;
 use glam::DVec3;
 use serde_json::json;
 
-use super::{AdapterArguments, parse};
+use super::{
+    AdapterArguments, parse,
+    progress::{Part, Progress},
+};
 use crate::{
     gpu::{
         Gpu, GpuError,
@@ -97,8 +100,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         check_target(file)?;
     }
     let gpu = arguments.adapter.open()?;
-    let moved = advance(&gpu, &case)?;
-    let norms = case.measure(&moved.values);
+    let (moved, norms) = measured(&gpu, &case)?;
     let finite = [norms.l1, norms.l2, norms.linf, norms.min, norms.max].iter().all(|norm| norm.is_finite());
     anyhow::ensure!(finite, "the tracer has left the numbers that a GPU holds: take more --steps, or another --scheme");
     print(format_args!(
@@ -162,13 +164,22 @@ struct Moved {
     cpu_ms: f64,
 }
 
-fn advance(gpu: &Gpu, case: &Case) -> Result<Moved, GpuError> {
+/// Moves the tracer and compares it with the exact answer.
+fn measured(gpu: &Gpu, case: &Case) -> Result<(Moved, Measured), GpuError> {
+    let progress = Progress::new("transport", 2);
+    let moved = advance(gpu, case, &progress.part(case.steps))?;
+    let answers = progress.part(case.grid.cells() as u64);
+    let norms = case.measure_watched(&moved.values, &|| answers.add(1));
+    Ok((moved, norms))
+}
+
+fn advance(gpu: &Gpu, case: &Case, steps: &Part) -> Result<Moved, GpuError> {
     // One step first on another field: what drivers compile at first use is no part of a step's cost.
     Case { steps: 1, ..case.clone() }.advance(gpu, &mut case.seed(gpu)?)?;
     gpu.wait()?;
     let mut field = case.seed(gpu)?;
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
-    case.advance(gpu, &mut field)?;
+    case.advance_watched(gpu, &mut field, &|done| steps.add(done))?;
     let per_step = |time: Duration| time.as_secs_f64() * 1e3 / case.steps.max(1) as f64;
     let (cpu_ms, wall_ms) = (per_step(cpu.elapsed()), per_step(wall.elapsed()));
     Ok(Moved { remaps: case.remaps(gpu, &field)?, values: values(gpu, &mut field)?, wall_ms, cpu_ms })

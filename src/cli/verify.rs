@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN, failure};
+use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN, failure, progress::Progress};
 use crate::{
     gpu::Gpu,
     output::{check_target, print, write_text},
@@ -46,29 +46,63 @@ fn parts(name: &str) -> Result<Parts, String> {
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     arguments.json.as_deref().map_or(Ok(()), check_target)?;
     let gpu = arguments.adapter.open()?;
-    let mut checks: Vec<Check> = Vec::new();
-    print(format_args!("{:<72} {:>12} {:>12}\n", "check", "measured", "limit"))?;
-    let mut report = |check: Check| {
-        let verdict = if check.passed() { "" } else { "  FAILED" };
-        let line = format!("{:<72} {:>12.4e} {:>12.4e}{verdict}\n", check.name, check.measured, check.limit);
-        // Minutes of measuring would follow that nobody reads; no file has been begun.
-        print(line).unwrap_or_else(|error| std::process::exit(failure::report(&error.into()).into()));
-        checks.push(check);
-    };
-    let mut run = Run { gpu: &gpu, long: arguments.long, report: &mut report };
-    let parts: Vec<Part> = arguments.parts.iter().flat_map(|parts| parts.0.iter().copied()).collect();
-    for part in &parts {
-        run.part(*part)?;
-    }
-    if parts.iter().any(|part| matches!(part, Part::Optics | Part::Picture)) {
-        print(format_args!("{PHYSICS_IS_LESS_CERTAIN}\n"))?;
-    }
+    let checks = measure(arguments, &gpu)?;
     if let Some(path) = &arguments.json {
         write_text(path, &serde_json::to_string_pretty(&document(&gpu, &checks))?)?;
     }
-    let failed = checks.iter().filter(|check| !check.passed()).count();
-    anyhow::ensure!(failed == 0, "{failed} of {} checks failed", checks.len());
-    Ok(())
+    let failed: Vec<&str> = checks.iter().filter(|check| !check.passed()).map(|check| check.name.as_str()).collect();
+    anyhow::ensure!(failed.is_empty(), "{} of {} checks failed: {}", failed.len(), checks.len(), failed.join("; "));
+    Ok(print(format_args!("all {} checks passed\n", checks.len()))?)
+}
+
+/// Runs the parts and prints each check.
+fn measure(arguments: &Arguments, gpu: &Gpu) -> anyhow::Result<Vec<Check>> {
+    let parts: Vec<Part> = arguments.parts.iter().flat_map(|parts| parts.0.iter().copied()).collect();
+    let progress = Progress::new("verify", parts.iter().map(|part| part.seconds()).sum());
+    let print = |line: &str| progress.print(|| print(format_args!("{line}\n")));
+    print(&format!("{:<5} {:<WIDTH$} {:>9} {:>9}", "", "check", "measured", "at most"))?;
+    let mut checks: Vec<Check> = Vec::new();
+    for part in &parts {
+        let done = progress.parts(part.seconds(), part.checks());
+        let mut report = |check: Check| {
+            // Minutes of measuring would follow that nobody reads; no file has been begun.
+            print(&line(&check)).unwrap_or_else(|error| std::process::exit(failure::report(&error.into()).into()));
+            done.add(1);
+            checks.push(check);
+        };
+        Run { gpu, long: arguments.long, report: &mut report }.part(*part)?;
+    }
+    if parts.iter().any(|part| matches!(part, Part::Optics | Part::Picture)) {
+        print(PHYSICS_IS_LESS_CERTAIN)?;
+    }
+    Ok(checks)
+}
+
+/// Characters of a check's name; longer ones move the numbers to the right.
+const WIDTH: usize = 80;
+
+/// A check as a line of text.
+fn line(check: &Check) -> String {
+    let verdict = if check.passed() { "pass" } else { "FAIL" };
+    let [measured, limit] = [check.measured, check.limit].map(readable);
+    format!("{verdict:<5} {:<WIDTH$} {measured:>9} {limit:>9} {}", check.name, check.unit()).trim_end().to_owned()
+}
+
+/// A number with three significant digits.
+fn readable(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return value.to_string();
+    }
+    // Rounded first, so that 0.9996 is 1.00 and not 1.000.
+    let rounded = format!("{value:.2e}");
+    let Some((_, exponent)) = rounded.split_once('e') else { return rounded };
+    match exponent.parse::<i32>() {
+        Ok(exponent @ -3..=5) => format!("{value:.*}", (2 - exponent).max(0) as usize),
+        _ => rounded,
+    }
 }
 
 fn document(gpu: &Gpu, checks: &[Check]) -> serde_json::Value {
@@ -82,4 +116,40 @@ fn document(gpu: &Gpu, checks: &[Check]) -> serde_json::Value {
         "physics": PHYSICS_IS_LESS_CERTAIN,
         "checks": rows.collect::<Vec<_>>(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        let written = [
+            (0.0, "0"),
+            (1.0, "1.00"),
+            (0.9996, "1.00"),
+            (-0.012_345, "-0.0123"),
+            (0.001, "0.00100"),
+            (0.000_999_9, "0.00100"),
+            (0.000_123, "1.23e-4"),
+            (12.34, "12.3"),
+            (1234.5, "1234"),
+            (123_456.0, "123456"),
+            (2.5e7, "2.50e7"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ];
+        for (value, text) in written {
+            assert_eq!(readable(value), text);
+        }
+    }
+
+    #[test]
+    fn lines_say_pass_or_fail_and_the_unit() {
+        let line = |name: &str, measured| line(&Check::at_most(name, measured, 0.5));
+        assert!(line("water: dE2000 mean", 0.25).starts_with("pass  water: dE2000 mean"));
+        assert!(line("water: dE2000 mean", 0.25).ends_with("    0.250     0.500 dE2000"));
+        assert!(line("drift of mass", 0.75).starts_with("FAIL  drift of mass"));
+        assert!(line("drift of mass", f64::NAN).ends_with("      NaN     0.500"));
+    }
 }

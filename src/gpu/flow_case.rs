@@ -65,13 +65,18 @@ const STEPS_A_SUBMISSION: u32 = 8;
 impl FlowRun {
     /// Runs it.
     pub fn measure(&self, gpu: &Gpu) -> Result<FlowOutcome, GpuError> {
+        self.measure_watched(gpu, &|_| ())
+    }
+
+    /// Runs it; `watcher` hears how many more steps are done.
+    pub fn measure_watched(&self, gpu: &Gpu, watcher: &dyn Fn(u64)) -> Result<FlowOutcome, GpuError> {
         let mut solver = FlowSolver::new(gpu, self.cells);
         solver.cycles = self.cycles;
         self.seed(gpu, &mut solver)?;
         let first = State::read(gpu, &solver)?;
         let mode = self.sample(solver.sphere(), |x| self.case.mode_at(x));
         let (cpu, wall) = (ProcessTime::now(), Instant::now());
-        let (samples, dispatches) = self.steps(gpu, &mut solver, &mode)?;
+        let (samples, dispatches) = self.steps(gpu, &mut solver, &mode, watcher)?;
         let [cpu, wall] = [cpu.elapsed(), wall.elapsed()].map(|time| time / self.all_steps().max(1));
         let last = State::read(gpu, &solver)?;
         let grid = solver.sphere();
@@ -98,7 +103,8 @@ impl FlowRun {
     }
 
     /// Steps in all: none for Poisson's equation.
-    fn all_steps(&self) -> u32 {
+    #[must_use]
+    pub fn all_steps(&self) -> u32 {
         if self.case.kind() == FlowCaseKind::Poisson { 0 } else { self.steps_a_span * self.spans }
     }
 
@@ -127,7 +133,13 @@ impl FlowRun {
     }
 
     /// Takes all steps; gives the mode's amplitude after each where it is of interest, and the dispatches of the last one.
-    fn steps(&self, gpu: &Gpu, solver: &mut FlowSolver, mode: &[f64]) -> Result<(Vec<f64>, u64), GpuError> {
+    fn steps(
+        &self,
+        gpu: &Gpu,
+        solver: &mut FlowSolver,
+        mode: &[f64],
+        watcher: &dyn Fn(u64),
+    ) -> Result<(Vec<f64>, u64), GpuError> {
         let (mut samples, mut dispatches) = (Vec::new(), 0);
         let batch = if self.is_sloshing() { 1 } else { STEPS_A_SUBMISSION };
         let areas = solver.sphere().areas();
@@ -140,6 +152,7 @@ impl FlowRun {
             }
             recorder.submit(&Default::default());
             gpu.wait()?;
+            watcher(u64::from(batch.min(self.all_steps() - first)));
             if self.is_sloshing() {
                 let zeta = State::read(gpu, solver)?.zeta;
                 samples.push(zeta.iter().zip(mode).zip(&areas).map(|((zeta, mode), area)| zeta * mode * area).sum());

@@ -106,6 +106,8 @@ pub struct Renderer {
     pub times: TimeLog,
     /// Work done since the start.
     pub counts: Counts,
+    /// Hears how much of a plan's [`Plan::work`] the device has just done. With it, the end of each submission is waited for.
+    pub watcher: Option<Box<dyn Fn(u64) + Send>>,
     have: Have,
     products: Products,
 }
@@ -118,6 +120,7 @@ impl Renderer {
             gpu,
             times: TimeLog::default(),
             counts: Counts::default(),
+            watcher: None,
             have: Have::default(),
             products: Products::default(),
         }
@@ -283,12 +286,13 @@ impl Renderer {
     }
 
     fn step(&mut self, film: usize, key: &FieldKey, from_tick: u64) -> Result<(), GpuError> {
-        let Self { gpu, products, times, counts, .. } = self;
+        let Self { gpu, products, times, counts, watcher, .. } = self;
         let Some(Some(film)) = products.films.get_mut(film) else { return Ok(()) };
         let per_submission = (CELLS_A_SUBMISSION / key.cell_count()).max(1) as usize;
         film.play(gpu, key, from_tick, per_submission, |recorder| {
+            let work = recorder.counts.cells_stepped;
             Self::submit(times, counts, recorder);
-            Ok(())
+            told(watcher, gpu, work)
         })
     }
 
@@ -358,8 +362,10 @@ impl Renderer {
         )?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);
+            let work = u64::from(key.size[0]) * rows.len() as u64;
             pass.record(&mut recorder, &target.view, rows);
             Self::submit(&self.times, &mut self.counts, recorder);
+            told(&self.watcher, &self.gpu, work)?;
         }
         self.counts.pixels_shaded += pixels_shaded(key);
         Ok(())
@@ -375,4 +381,13 @@ impl Renderer {
         self.products.picture = Some(picture);
         Ok(())
     }
+}
+
+/// Tells somebody who watches what is done, once it is.
+fn told(watcher: &Option<Box<dyn Fn(u64) + Send>>, gpu: &Gpu, work: u64) -> Result<(), GpuError> {
+    if let Some(watcher) = watcher {
+        gpu.wait()?;
+        watcher(work);
+    }
+    Ok(())
 }

@@ -102,6 +102,11 @@ impl Case {
 
     /// Takes all steps.
     pub fn advance(&self, gpu: &Gpu, field: &mut Field) -> Result<(), GpuError> {
+        self.advance_watched(gpu, field, &|_| ())
+    }
+
+    /// Takes all steps; `watcher` hears how many more are done.
+    pub fn advance_watched(&self, gpu: &Gpu, field: &mut Field, watcher: &dyn Fn(u64)) -> Result<(), GpuError> {
         for first in (0..self.steps).step_by(STEPS_A_SUBMISSION as usize) {
             let mut recorder = Recorder::new(gpu);
             for step in first..(first + STEPS_A_SUBMISSION).min(self.steps) {
@@ -111,6 +116,7 @@ impl Case {
             }
             recorder.submit(&Default::default());
             gpu.wait()?;
+            watcher(STEPS_A_SUBMISSION.min(self.steps - first));
         }
         Ok(())
     }
@@ -127,11 +133,20 @@ impl Case {
     /// Compares values with the exact answer.
     #[must_use]
     pub fn measure(&self, values: &[f64]) -> Measured {
+        self.measure_watched(values, &|| ())
+    }
+
+    /// Compares values with the exact answer; `watcher` hears of each cell whose answer is found, from any thread.
+    #[must_use]
+    pub fn measure_watched(&self, values: &[f64], watcher: &(dyn Fn() + Sync)) -> Measured {
         let time = self.time(self.steps);
         // Four times the steps of the run: the exact answer's own error is then far below the scheme's.
         let steps = (4 * self.steps).clamp(400, 100_000) as u32;
-        let answer =
-            |cell: usize| exact(&self.wind, &self.tracer, self.quantity, self.grid.cell_direction(cell), time, steps);
+        let answer = |cell: usize| {
+            let answer = exact(&self.wind, &self.tracer, self.quantity, self.grid.cell_direction(cell), time, steps);
+            watcher();
+            answer
+        };
         let answers: Vec<f64> = (0..self.grid.cells()).into_par_iter().map(answer).collect();
         measure(self.grid, values, &answers, &self.initial())
     }

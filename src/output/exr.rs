@@ -6,7 +6,7 @@ use std::path::Path;
 use ::exr::prelude as openexr;
 use ::exr::prelude::WritableImage;
 
-use super::{Metadata, OutputError, write_atomically};
+use super::{FrameRate, Metadata, OutputError, write_atomically};
 
 /// The primaries that a picture's header names, all with D65 white; other channels than colours need none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,7 +17,14 @@ pub enum ExrPrimaries {
     Bt2020,
 }
 
-/// A picture of `N` 32-bit channels to be written, ZIP-compressed.
+/// How many bits a sample takes in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Samples {
+    Half,
+    Single,
+}
+
+/// A picture of `N` channels to be written, ZIP-compressed.
 #[derive(Debug, Clone, Copy)]
 pub struct ExrPicture<'a, const N: usize> {
     /// Pixels in a row, 1 at least.
@@ -26,7 +33,7 @@ pub struct ExrPicture<'a, const N: usize> {
     pub height: usize,
     /// The channels' names in the order of a pixel's values: `["R", "G", "B"]`, or as a table needs; ASCII, no two equal.
     pub channels: [&'a str; N],
-    /// Row by row from the top left, stored bit for bit.
+    /// Row by row from the top left; [`Self::save`] stores them bit for bit.
     pub pixels: &'a [[f32; N]],
     /// The primaries of R, G and B.
     pub primaries: Option<ExrPrimaries>,
@@ -44,11 +51,23 @@ impl<const N: usize> ExrPicture<'_, N> {
         write_atomically(path, |writer| self.encode(writer))
     }
 
-    /// Encodes the picture into any writer that can seek.
+    /// As [`Self::save`], each sample rounded to the nearest half float.
+    ///
+    /// # Errors
+    /// Those of [`Self::save`].
+    pub fn save_halves(&self, path: &Path) -> Result<(), OutputError> {
+        write_atomically(path, |writer| self.encode_as(Samples::Half, writer))
+    }
+
+    /// Encodes the picture, bit for bit, into any writer that can seek.
     ///
     /// # Errors
     /// The writer's, and content that the format cannot hold.
     pub fn encode(&self, writer: impl Write + Seek) -> io::Result<()> {
+        self.encode_as(Samples::Single, writer)
+    }
+
+    fn encode_as(&self, samples: Samples, writer: impl Write + Seek) -> io::Result<()> {
         self.check()?;
         let encoding = openexr::Encoding {
             compression: openexr::Compression::ZIP16,
@@ -57,9 +76,10 @@ impl<const N: usize> ExrPicture<'_, N> {
             line_order: openexr::LineOrder::Increasing,
         };
         let size = (self.width, self.height);
-        let layer = openexr::Layer::new(size, self.layer_attributes(), encoding, self.any_channels());
+        let layer = openexr::Layer::new(size, self.layer_attributes(), encoding, self.any_channels(samples));
         let mut image = openexr::Image::from_layer(layer);
         image.attributes.chromaticities = self.primaries.map(chromaticities);
+        image.attributes.time_code = self.metadata.frame().and_then(|(rate, frame)| time_code(rate, frame));
         image.write().to_buffered(writer).map_err(in_io)
     }
 
@@ -83,14 +103,22 @@ impl<const N: usize> ExrPicture<'_, N> {
         openexr::LayerAttributes {
             software_name: Some(openexr::Text::from(concat!("soapfilm ", env!("CARGO_PKG_VERSION")))),
             comments: (!comments.is_empty()).then(|| openexr::Text::from_slice_unchecked(comments.as_bytes())),
+            frames_per_second: self.metadata.frame().map(|(rate, _)| {
+                let [numerator, denominator] = rate.ratio();
+                (numerator as i32, denominator)
+            }),
             ..Default::default()
         }
     }
 
-    fn any_channels(&self) -> openexr::AnyChannels<openexr::FlatSamples> {
+    fn any_channels(&self, samples: Samples) -> openexr::AnyChannels<openexr::FlatSamples> {
         let channel = |i: usize| {
-            let samples = self.pixels.iter().map(|pixel| pixel[i]).collect();
-            openexr::AnyChannel::new(self.channels[i], openexr::FlatSamples::F32(samples))
+            let values = self.pixels.iter().map(|pixel| pixel[i]);
+            let samples = match samples {
+                Samples::Half => openexr::FlatSamples::F16(values.map(openexr::f16::from_f32).collect()),
+                Samples::Single => openexr::FlatSamples::F32(values.collect()),
+            };
+            openexr::AnyChannel::new(self.channels[i], samples)
         };
         openexr::AnyChannels::sort((0..N).map(channel).collect())
     }
@@ -104,6 +132,11 @@ fn chromaticities(primaries: ExrPrimaries) -> openexr::attribute::Chromaticities
     };
     let [red, green, blue, white] = [red, green, blue, (0.3127, 0.3290)].map(|(x, y)| openexr::Vec2(x, y));
     openexr::attribute::Chromaticities { red, green, blue, white }
+}
+
+fn time_code(rate: FrameRate, frame: u64) -> Option<openexr::attribute::TimeCode> {
+    let [hours, minutes, seconds, frame] = rate.time_code(frame)?;
+    Some(openexr::attribute::TimeCode { hours, minutes, seconds, frame, ..Default::default() })
 }
 
 fn in_io(error: openexr::Error) -> io::Error {
@@ -158,6 +191,33 @@ mod tests {
                 "{name}"
             );
         }
+    }
+
+    #[test]
+    fn frames_of_a_sequence_have_the_standard_attributes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.exr");
+        let saved = |metadata: &Metadata| {
+            picture(metadata).save(&path).unwrap();
+            let read = read_exr(&path).unwrap();
+            (read.frames_per_second, read.time_code)
+        };
+        assert_eq!(saved(&Metadata::new()), (None, None));
+        let of = |rate: &str| Metadata::new().of_frame(rate.parse().unwrap(), 49);
+        assert_eq!(saved(&of("24000/1001")), (Some([24000, 1001]), Some([0, 0, 2, 1])));
+        assert_eq!(saved(&of("120")), (Some([120, 1]), None));
+    }
+
+    #[test]
+    fn halves_are_the_nearest() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.exr");
+        picture(&Metadata::new()).save_halves(&path).unwrap();
+        let read = read_exr(&path).unwrap();
+        // Halves between 0.25 and 0.5 lie 2^-12 apart.
+        let third = read.channel("B").unwrap()[3];
+        assert!(third != 0.333_333_34 && (third - 0.333_333_34).abs() <= 0.5 / 4096.0, "{third}");
+        assert_eq!(read.channel("G").unwrap()[2], 2.0);
     }
 
     #[test]

@@ -1,8 +1,14 @@
 //! What a picture says about itself.
 
-/// Keys and values that are stored in a picture's header, in this order: the scene, the time, the versions that made it.
+use super::FrameRate;
+
+/// Keys and values that are stored in a picture's header, in this order: the scene, the time, the versions that made it. A frame of a
+/// sequence also has its rate and its number.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Metadata(Vec<(String, String)>);
+pub struct Metadata {
+    entries: Vec<(String, String)>,
+    frame: Option<(FrameRate, u64)>,
+}
 
 impl Metadata {
     /// Nothing yet.
@@ -14,13 +20,23 @@ impl Metadata {
     /// characters, and in keys all that is not ASCII. Keys longer than 79 characters, the most that PNG holds, are cut; an
     /// empty key becomes `Comment`.
     pub fn with(mut self, key: &str, value: &str) -> Self {
-        self.0.push((clean_key(key), clean_value(value)));
+        self.entries.push((clean_key(key), clean_value(value)));
         self
+    }
+
+    /// This, of that frame of a sequence.
+    pub fn of_frame(self, rate: FrameRate, number: u64) -> Self {
+        Self { frame: Some((rate, number)), ..self }
+    }
+
+    /// Rate and number of a frame of a sequence.
+    pub fn frame(&self) -> Option<(FrameRate, u64)> {
+        self.frame
     }
 
     /// All entries in order.
     pub fn entries(&self) -> impl Iterator<Item = (&str, &str)> {
-        self.0.iter().map(|(key, value)| (key.as_str(), value.as_str()))
+        self.entries.iter().map(|(key, value)| (key.as_str(), value.as_str()))
     }
 
     /// The first value of `key`.

@@ -55,6 +55,10 @@ pub struct ExrContents {
     pub channels: Vec<(String, Vec<f32>)>,
     /// (x, y) of red, green, blue and white, if the file names them.
     pub chromaticities: Option<[[f32; 2]; 4]>,
+    /// Numerator and denominator of the `framesPerSecond` attribute, if it is there and positive.
+    pub frames_per_second: Option<[u32; 2]>,
+    /// Hours, minutes, seconds and frame of the `timeCode` attribute.
+    pub time_code: Option<[u8; 4]>,
     /// The lines `key: value` of the `comments` attribute.
     pub metadata: Metadata,
 }
@@ -90,6 +94,11 @@ pub fn read_exr(path: &Path) -> io::Result<ExrContents> {
             .attributes
             .chromaticities
             .map(|c| [c.red, c.green, c.blue, c.white].map(|xy| [xy.x(), xy.y()])),
+        frames_per_second: layer
+            .attributes
+            .frames_per_second
+            .and_then(|(numerator, denominator)| Some([u32::try_from(numerator).ok()?, denominator])),
+        time_code: image.attributes.time_code.map(|code| [code.hours, code.minutes, code.seconds, code.frame]),
         metadata: Metadata::from_lines(&comments.unwrap_or_default()),
     })
 }

@@ -227,6 +227,17 @@ impl Plan {
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
+
+    /// The work of the passes that take long: cells stepped and pixels drawn, which take about as long each.
+    #[must_use]
+    pub fn work(&self) -> u64 {
+        let work = |pass: &Pass| match pass {
+            Pass::StepField { key, ticks, .. } => key.steps_from(ticks.start).count() as u64 * key.cell_count(),
+            Pass::Draw(key) => key.size.map(u64::from).iter().product::<u64>() * key.lights().count() as u64,
+            _ => 0,
+        };
+        self.steps.iter().map(|(pass, _)| work(pass)).sum()
+    }
 }
 
 impl fmt::Display for Plan {

@@ -27,7 +27,7 @@ pub use error::{Problem, SceneError, nearest, shorten};
 pub use event::{Blow, Change, Drag, Event, MotionChange, Prick, Stir};
 pub use light::{Backdrop, Environment, Light, LightPatch, MAX_PATCHES, Quality, View};
 pub use motion::{Flow, Motion, TransportScheme};
-pub use preset::{preset, preset_names, preset_toml};
+pub use preset::{preset, preset_names, preset_sentence, preset_toml};
 pub use setting::Setting;
 pub use source::SceneSource;
 

@@ -45,6 +45,14 @@ pub fn preset_toml(name: &str) -> Option<&'static str> {
     PRESETS.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }
 
+/// What a preset shows: the first sentence of the comment that its TOML begins with, or `None` if no preset has this name.
+pub fn preset_sentence(name: &str) -> Option<String> {
+    let comment = preset_toml(name)?.lines().map_while(|line| line.strip_prefix('#')).map(str::trim);
+    let text = comment.collect::<Vec<_>>().join(" ");
+    let end = text.find(". ").map_or(text.len(), |dot| dot + 1);
+    Some(text[..end].to_owned())
+}
+
 /// A preset, or `None` if none has this name.
 pub fn preset(name: &str) -> Option<Scene> {
     // A test reads every preset, so an error cannot hide here.

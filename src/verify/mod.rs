@@ -22,7 +22,7 @@ use crate::gpu::{Gpu, GpuError};
 /// One measurement and its limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
-    /// What was measured, and its unit where it has one.
+    /// What was measured, and one of [`Check::UNITS`] where it has a unit.
     pub name: String,
     /// The measured value.
     pub measured: f64,
@@ -35,6 +35,17 @@ impl Check {
     #[must_use]
     pub fn at_most(name: impl Into<String>, measured: f64, limit: f64) -> Self {
         Self { name: name.into(), measured, limit }
+    }
+
+    /// Units that names end in, after a comma; other values have none, but for colour differences.
+    pub const UNITS: [&str; 3] = ["nm", "rad/s", "sr"];
+
+    /// The unit of both values, which the name states; empty for plain numbers.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        let last = self.name.rsplit(", ").next().unwrap_or("");
+        let stated = Self::UNITS.into_iter().find(|unit| *unit == last);
+        stated.or(self.name.contains("dE2000").then_some("dE2000")).unwrap_or("")
     }
 
     /// Whether the value keeps to the limit. A value that is no number does not.
@@ -76,6 +87,29 @@ impl Part {
             Self::Flow => "flow",
             Self::Rims => "rims",
             Self::Stability => "stability",
+        }
+    }
+
+    /// About how many checks it makes, for a display of progress; more with the long ones.
+    #[must_use]
+    pub fn checks(self) -> u64 {
+        self.effort().0
+    }
+
+    /// About how many seconds it takes on a software rasteriser with two cores, for a display of progress.
+    #[must_use]
+    pub fn seconds(self) -> u64 {
+        self.effort().1
+    }
+
+    fn effort(self) -> (u64, u64) {
+        match self {
+            Self::Optics => (75, 100),
+            Self::Picture => (12, 300),
+            Self::Transport => (45, 60),
+            Self::Flow => (35, 160),
+            Self::Rims => (27, 90),
+            Self::Stability => (125, 700),
         }
     }
 }
@@ -120,5 +154,14 @@ mod tests {
         assert!(Check::at_most("at the limit", 1.0, 1.0).passed());
         assert!(!Check::at_most("beyond", 1.1, 1.0).passed());
         assert!(!Check::at_most("no number", f64::NAN, 1.0).passed());
+    }
+
+    #[test]
+    fn names_state_units() {
+        let unit = |name: &str| Check::at_most(name, 0.0, 1.0).unit();
+        assert_eq!(unit("water, D65, one wall to 1500 nm, fast: dE2000 mean"), "dE2000");
+        assert_eq!(unit("stirred: fastest flow, rad/s"), "rad/s");
+        assert_eq!(unit("thickness that is not even, nm"), "nm");
+        assert_eq!(unit("films to 3 nm: drift of mass"), "");
     }
 }

@@ -1,6 +1,6 @@
 //! Colours, spectra, films and tables by command.
 
-use std::process::Command;
+use std::{path::Path, process::Command};
 
 use soapfilm::output::read_back::read_exr;
 
@@ -48,6 +48,62 @@ fn two_walls_are_given_as_arguments_too() {
     ] {
         assert!(desk.refused(&format!("colour {wrong} --quality reference")).contains(told), "{wrong}");
     }
+}
+
+/// An angle is its cosine, and sRGB stands after the columns that were always there.
+#[test]
+fn angles_and_srgb() {
+    let desk = Desk::new();
+    let rows = |arguments: &str| {
+        let run = desk.run(&format!("colour --thickness 320 {arguments} --quality reference"));
+        assert!(run.success, "{}", run.err);
+        run.out.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect::<Vec<Vec<_>>>()
+    };
+    let by_angle = rows("--angle 60");
+    assert_eq!(by_angle[0], ["thickness_nm", "cos_theta", "X", "Y", "Z", "r", "g", "b", "s_r", "s_g", "s_b"]);
+    let numbers = |row: &[String]| row.iter().map(|text| text.parse::<f64>().unwrap()).collect::<Vec<_>>();
+    let (angle, cosine) = (numbers(&by_angle[1]), numbers(&rows("--cos 0.5")[1]));
+    assert!(angle.iter().zip(&cosine).all(|(a, b)| (a - b).abs() < 1e-12), "{angle:?} {cosine:?}");
+    let linear = soapfilm::physics::colour::bt2020_to_bt709() * glam::DVec3::from_slice(&angle[5..8]);
+    for (encoded, linear) in angle[8..].iter().zip(linear.to_array()) {
+        assert!((soapfilm::physics::colour::srgb_decode(*encoded) - linear).abs() < 1e-12, "{encoded} {linear}");
+    }
+    let spectrum = &rows("--angle 60 --spectrum")[0];
+    assert_eq!((spectrum[8].as_str(), spectrum.len()), ("R360", 8 + 85), "scripts count columns from either end");
+    for (wrong, told) in [
+        ("--angle 91", "between 0 and 90 degrees"),
+        ("--angle -1", "between 0 and 90 degrees"),
+        ("--angle 30 --cos 1", "--cos"),
+        ("", "--cos"),
+    ] {
+        let line = desk.refused(&format!("colour --thickness 320 {wrong} --quality reference"));
+        assert!(line.contains(told), "{wrong}: {line}");
+    }
+}
+
+/// A spectrum in rows is that in columns, and what is not reflected passes.
+#[test]
+fn spectra_come_in_rows_too() {
+    let desk = Desk::new();
+    let answer = |arguments: &str| {
+        let run = desk.run(&format!("colour {arguments} --quality reference"));
+        assert!(run.success, "{}", run.err);
+        run.out
+    };
+    let rows = answer("--thickness 320 --cos 0.8 --spectrum rows");
+    assert!(rows.starts_with("wavelength_nm,R,T\n360,") && rows.lines().count() == 86, "{rows}");
+    let columns = answer("--thickness 320 --cos 0.8 --spectrum");
+    let columns: Vec<&str> = columns.lines().nth(1).unwrap().split(',').skip(8).collect();
+    for (row, column) in rows.lines().skip(1).zip(columns) {
+        let parts: Vec<&str> = row.split(',').collect();
+        assert_eq!(parts[1], column);
+        let [r, t] = [parts[1], parts[2]].map(|text| text.parse::<f64>().unwrap());
+        assert!((r + t - 1.0).abs() < 1e-15, "{row}");
+    }
+    assert_eq!(answer("--thickness 320 --cos 0.8 --spectrum columns").lines().count(), 2);
+    desk.write("points.csv", "thickness_nm,cos_theta\n320,0.8\n320,0.9\n");
+    let line = desk.refused("colour --points points.csv --spectrum rows");
+    assert!(line.contains("one film"), "{line}");
 }
 
 /// A mistake in a list of films is told with its file and line.
@@ -134,8 +190,9 @@ fn tables_come_with_shaders_that_compile() {
     let hlsl = snippet("HLSL")
         + "Texture2D<float4> t : register(t0);\nSamplerState s : register(s1);\n\
            float4 main() : SV_Target { return float4(film_reflection(t, s, 0.5, 300.0), 1.0); }\n";
-    glslang(&desk, "film.frag", &glsl, &[]);
-    glslang(&desk, "film.hlsl", &hlsl, &["-D", "-S", "frag", "-e", "main"]);
+    let nowhere = Path::new("/dev/null");
+    glslang(&desk, "film.frag", &glsl, &[], nowhere);
+    glslang(&desk, "film.hlsl", &hlsl, &["-D", "-S", "frag", "-e", "main"], nowhere);
 }
 
 fn validate(module: &naga::Module) {
@@ -143,17 +200,20 @@ fn validate(module: &naga::Module) {
     Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module).unwrap();
 }
 
-/// Where the tool is there, or must be (`SOAPFILM_REQUIRE_TOOLS=1`), a shader must compile.
-fn glslang(desk: &Desk, file: &str, text: &str, options: &[&str]) {
+/// Where the tool is there, or must be (`SOAPFILM_REQUIRE_TOOLS=1`), a shader must compile: to SPIR-V for Vulkan in a file, or for OpenGL to
+/// nothing where none is named. Whether it was there.
+pub fn glslang(desk: &Desk, file: &str, text: &str, options: &[&str], spirv: &Path) -> bool {
     desk.write(file, text);
-    let run = Command::new("glslangValidator")
-        .arg("-V")
-        .args(options)
-        .args(["-o", "/dev/null"])
-        .arg(desk.path(file))
-        .output();
-    match run {
-        Ok(run) => assert!(run.status.success(), "{file}: {}", String::from_utf8_lossy(&run.stdout)),
-        Err(_) => assert!(std::env::var_os("SOAPFILM_REQUIRE_TOOLS").is_none(), "glslangValidator is not installed"),
+    let mut command = Command::new("glslangValidator");
+    if !spirv.as_os_str().is_empty() {
+        command.arg("-V").arg("-o").arg(spirv);
     }
+    match command.args(options).arg(desk.path(file)).output() {
+        Ok(run) => assert!(run.status.success(), "{file}: {}", String::from_utf8_lossy(&run.stdout)),
+        Err(_) => {
+            assert!(std::env::var_os("SOAPFILM_REQUIRE_TOOLS").is_none(), "glslangValidator is not installed");
+            return false;
+        }
+    }
+    true
 }

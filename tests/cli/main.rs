@@ -2,7 +2,9 @@
 
 mod colour;
 mod files;
+mod lut;
 mod mistakes;
+mod sequence;
 #[cfg(unix)]
 mod streams;
 #[path = "../support/mod.rs"]
@@ -90,7 +92,8 @@ impl Desk {
     }
 }
 
-const COMMANDS: [&str; 9] = ["app", "render", "sequence", "colour", "lut", "transport", "flow", "verify", "info"];
+const COMMANDS: [&str; 10] =
+    ["app", "render", "sequence", "presets", "colour", "lut", "transport", "flow", "verify", "info"];
 
 #[test]
 fn every_help_has_an_example() {
@@ -100,7 +103,8 @@ fn every_help_has_an_example() {
     for command in COMMANDS {
         assert!(all.out.contains(&format!("\n  {command}")), "`{command}` is not listed");
         let help = desk.run(&format!("{command} --help"));
-        assert!(help.success && help.out.contains("Example:\n  soapfilm "), "{command}");
+        let example = ["Example:\n  soapfilm ", "Examples:\n  soapfilm "].iter().any(|text| help.out.contains(text));
+        assert!(help.success && example, "{command}");
         assert!(help.out.contains("--adapter") && help.out.contains("--backend"), "{command}");
     }
 }
@@ -170,6 +174,11 @@ fn arguments_that_make_no_sense_are_refused() {
         "colour --thickness 300 --cos 1 --illuminant missing.csv",
         "colour --thickness 300 --cos 1 --skin 9",
         "lut -o a.png",
+        "lut -o a",
+        "sequence default -o a --frames 0..1 --fps 30/0",
+        "sequence default -o a --frames 0..1 --fps fast",
+        "sequence default -o a --frames 0..1 --quality best",
+        "colour --thickness 300 --cos 1 --spectrum lines",
         "lut -o a.exr --range 0",
         "lut -o a.exr --size 1x1",
         "colour --points missing.csv",
@@ -318,14 +327,6 @@ fn transport_reports_its_norms() {
     assert!((area - 4.0 * std::f64::consts::PI).abs() < 1e-9, "{area}");
 }
 
-#[test]
-fn info_names_adapters_and_limits() {
-    let desk = Desk::new();
-    if desk.done("info --json info.json").is_some() {
-        has_keys(&json(&desk.path("info.json")), &["adapters", "adapter", "driver", "features", "limits"]);
-    }
-}
-
 fn json(path: &Path) -> serde_json::Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
@@ -336,44 +337,28 @@ fn has_keys(value: &serde_json::Value, keys: &[&str]) {
     }
 }
 
-/// A frame is a pure function of the scene and its time: drawn alone, or after others that cut the film's history into frames.
 #[test]
-fn a_frame_alone_is_the_frame_of_a_run() {
+fn info_names_adapters_and_limits() {
     let desk = Desk::new();
-    let size = "--size 64x36 --fps 7";
-    if desk.done(&format!("sequence default -o run --frames 0..5 {size}")).is_none() {
-        return;
-    }
-    desk.done(&format!("sequence default -o alone --frames 5..5 {size}")).unwrap();
-    let bytes = |path: &str| std::fs::read(desk.path(path)).unwrap();
-    assert_eq!(bytes("run/frame_000005.png"), bytes("alone/frame_000005.png"));
-    assert_ne!(bytes("run/frame_000000.png"), bytes("run/frame_000005.png"), "the film moves");
-    let before = std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap();
-    let again = desk.done(&format!("sequence default -o alone --frames 5..5 {size}")).unwrap();
-    assert!(again.err.contains("already there"), "{}", again.err);
-    assert_eq!(std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap(), before);
+    let Some(text) = desk.done("info --json info.json") else { return };
+    let keys = ["adapters", "adapter", "driver", "features", "limits"];
+    has_keys(&json(&desk.path("info.json")), &keys);
+    assert!(text.out.contains("\nuses ") && !text.out.contains('{'), "people read text: {}", text.out);
+    assert_eq!(desk.done("info").unwrap().out, text.out);
+    let printed: serde_json::Value = serde_json::from_str(&desk.done("info --json").unwrap().out).unwrap();
+    has_keys(&printed, &keys);
 }
 
-/// A history that was saved as a scene replays bit by bit: as one picture, and as a frame of a run.
 #[test]
-fn a_saved_history_replays() {
+fn presets_are_listed_with_a_sentence() {
     let desk = Desk::new();
-    let events = "[[event]]\ntick = 20\nkind = \"motion\"\nflow = \"sloshing\"\nspin_deg_s = [0.0, 0.0, 40.0]\n\
-                  [[event]]\ntick = 45\nkind = \"motion\"\nflow = \"stirred\"\nstrength = 1.5\nevaporation_nm_s = 9.0\n";
-    desk.write("saved.toml", format!("version = 1\n[[bubble]]\n[bubble.film]\ncells = 32\n{events}"));
-    if desk.done("render saved.toml -o once.png --size 64x36 --time 1.5").is_none() {
-        return;
+    let text = desk.run("presets").out;
+    let list: serde_json::Value = serde_json::from_str(&desk.run("presets --json").out).unwrap();
+    let list = list.as_array().unwrap();
+    assert_eq!((list.len(), text.lines().count()), (24, 24));
+    for (line, preset) in text.lines().zip(list) {
+        let [name, sentence] = ["name", "sentence"].map(|key| preset[key].as_str().unwrap());
+        assert!(line.starts_with(name) && line.ends_with(sentence) && sentence.ends_with('.'), "{line}");
     }
-    desk.done("sequence saved.toml -o run --frames 7..9 --fps 6 --size 64x36").unwrap();
-    let pixels = |path: &str| read_png(&desk.path(path)).unwrap().rgba;
-    assert_eq!(pixels("run/frame_000009.png"), pixels("once.png"));
-
-    let Some(mut renderer) = support::renderer() else { return };
-    let loaded = support::load(desk.path("saved.toml").to_str().unwrap());
-    for time_s in [0.2, 1.0, 0.4, 1.4] {
-        support::display(&mut renderer, &support::still(&loaded, [64, 36], time_s));
-    }
-    let mut want = support::still(&loaded, [64, 36], 1.5);
-    want.picture.draw.full_precision = false;
-    assert_eq!(support::display(&mut renderer, &want), pixels("once.png"), "another process, after scrubbing");
+    assert!(text.starts_with("default "));
 }

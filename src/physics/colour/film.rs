@@ -2,75 +2,9 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{ColourWeights, Illuminant, Uplift, ciede2000, xyz_to_lab};
+use super::{ColourWeights, Illuminant, Uplift, Walls, ciede2000, xyz_to_lab};
 use crate::physics::optics::{FilmMaterial, Polarised, Wall};
 use crate::physics::spectra::{SAMPLES, wavelength_nm};
-
-/// The film that a ray meets: one wall, or both walls of a bubble. Thickness along the normal, nm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Walls {
-    /// One film.
-    One {
-        /// Its thickness.
-        thickness_nm: f64,
-    },
-    /// The front wall, and what its light shows of the back wall: R₀ + T₀ R₁ T₂. The angle is the same at all three, as on a sphere.
-    Two {
-        /// Where the ray enters, with R₀ and T₀.
-        front_nm: f64,
-        /// Where it turns back inside, with R₁.
-        back_nm: f64,
-        /// Where it leaves through the front wall, with T₂.
-        exit_nm: f64,
-    },
-}
-
-impl Walls {
-    /// How many walls reflect: 1 or 2.
-    pub fn count(&self) -> u32 {
-        match self {
-            Self::One { .. } => 1,
-            Self::Two { .. } => 2,
-        }
-    }
-
-    /// The thickest of them, nm.
-    pub fn thickest_nm(&self) -> f64 {
-        match *self {
-            Self::One { thickness_nm } => thickness_nm,
-            Self::Two { front_nm, back_nm, exit_nm } => front_nm.max(back_nm).max(exit_nm),
-        }
-    }
-
-    /// The walls with each thickness replaced.
-    #[must_use]
-    pub fn map(self, thickness_nm: impl Fn(f64) -> f64) -> Self {
-        match self {
-            Self::One { thickness_nm: nm } => Self::One { thickness_nm: thickness_nm(nm) },
-            Self::Two { front_nm, back_nm, exit_nm } => Self::Two {
-                front_nm: thickness_nm(front_nm),
-                back_nm: thickness_nm(back_nm),
-                exit_nm: thickness_nm(exit_nm),
-            },
-        }
-    }
-
-    /// Reflectance of unpolarised light of one wavelength. On a sphere all hits share angle and plane of incidence, so one [`Wall`] stands
-    /// for all of them and s and p stay apart until the end.
-    pub fn reflectance(&self, wall: &Wall) -> f64 {
-        let at = |thickness_nm| wall.reflectance(thickness_nm);
-        match *self {
-            Self::One { thickness_nm } => at(thickness_nm),
-            Self::Two { front_nm, back_nm, exit_nm } => front_and_back(at(front_nm), at(back_nm), at(exit_nm)),
-        }
-        .mean()
-    }
-}
-
-fn front_and_back(front: Polarised, back: Polarised, exit: Polarised) -> Polarised {
-    let joined = |r0: f64, r1: f64, r2: f64| r0 + (1.0 - r0) * r1 * (1.0 - r2);
-    Polarised { s: joined(front.s, back.s, exit.s), p: joined(front.p, back.p, exit.p) }
-}
 
 /// The thickest film of water whose fringes samples 1 nm apart resolve at every angle, nm.
 const ONE_NM_RESOLVES_NM: f64 = 3000.0;
@@ -132,17 +66,39 @@ impl FilmOptics {
         self.weights.integrate(|i| walls.reflectance(&self.wall(i, cos_theta)))
     }
 
+    /// As [`FilmOptics::xyz`] of one wall, in light that is all s, and in light that is all p.
+    pub fn xyz_of_polarisations(&self, cos_theta: f64, thickness_nm: f64) -> [DVec3; 2] {
+        let wall = |i| self.wall(i, cos_theta).reflectance(thickness_nm);
+        let reflectances: Vec<Polarised> = (0..self.indices.len()).map(wall).collect();
+        [self.weights.integrate(|i| reflectances[i].s), self.weights.integrate(|i| reflectances[i].p)]
+    }
+
     /// The matrix from linear BT.709 light to the XYZ of its reflection; see [`Uplift`].
     pub fn light_matrix(&self, cos_theta: f64, walls: Walls) -> DMat3 {
         let reflectance = |i| walls.reflectance(&self.wall(i, cos_theta));
         Uplift::bt709().light_matrix(&self.weights, &(0..self.indices.len()).map(reflectance).collect::<Vec<_>>())
     }
 
-    /// Points (wavelength in nm, reflectance of unpolarised light) every 5 nm from 360 to 780 nm.
-    pub fn spectrum(&self, cos_theta: f64, walls: Walls) -> Vec<(f64, f64)> {
-        let wavelengths = (0..SAMPLES).step_by(5).map(wavelength_nm);
-        wavelengths.map(|nm| (nm, walls.reflectance(&self.film.wall(self.film.index.n(nm), cos_theta, nm)))).collect()
+    /// What the walls do with unpolarised light, every 5 nm from 360 to 780 nm.
+    pub fn spectrum(&self, cos_theta: f64, walls: Walls) -> Vec<SpectrumPoint> {
+        let point = |nm: f64| {
+            let wall = self.film.wall(self.film.index.n(nm), cos_theta, nm);
+            let (reflectance, transmittance) = (walls.reflectance(&wall), walls.transmittance(&wall));
+            SpectrumPoint { wavelength_nm: nm, reflectance, transmittance }
+        };
+        (0..SAMPLES).step_by(5).map(wavelength_nm).map(point).collect()
     }
+}
+
+/// One wavelength of a film's spectrum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectrumPoint {
+    /// Wavelength in nm.
+    pub wavelength_nm: f64,
+    /// Part of unpolarised light that is reflected: see [`Walls::reflectance`].
+    pub reflectance: f64,
+    /// Part of it that goes straight through: see [`Walls::transmittance`].
+    pub transmittance: f64,
 }
 
 /// The exposure "M2" at which colour errors are measured: 1 / (walls · Rmax), with Rmax the most that one wall reflects at this angle
@@ -301,11 +257,35 @@ mod tests {
     #[test]
     fn spectrum_runs_from_360_to_780_every_5_nm() {
         let spectrum = water().spectrum(0.8, one(333.0));
-        assert_eq!((spectrum.len(), spectrum[0].0, spectrum[84].0), (85, 360.0, 780.0));
+        assert_eq!((spectrum.len(), spectrum[0].wavelength_nm, spectrum[84].wavelength_nm), (85, 360.0, 780.0));
         assert_eq!(
-            spectrum[38].1,
+            spectrum[38].reflectance,
             one(333.0).reflectance(&FilmMaterial::default().wall(FilmIndex::Water.n(550.0), 0.8, 550.0))
         );
+    }
+
+    #[test]
+    fn what_is_not_reflected_passes() {
+        let optics = water();
+        for point in optics.spectrum(0.5, one(333.0)) {
+            assert!((point.reflectance + point.transmittance - 1.0).abs() < 1e-15, "{point:?}");
+        }
+        // Two walls of nearly no back wall are one wall.
+        let two = Walls::Two { front_nm: 333.0, back_nm: 0.0, exit_nm: 333.0 };
+        assert_eq!(optics.spectrum(0.5, two)[7].transmittance, optics.spectrum(0.5, one(333.0))[7].transmittance);
+        // Of what enters, the walls reflect a part to and fro, and some of it leaves by neither way that is counted.
+        let equal = Walls::Two { front_nm: 333.0, back_nm: 333.0, exit_nm: 333.0 };
+        for point in optics.spectrum(0.2, equal) {
+            let lost = 1.0 - point.reflectance - point.transmittance;
+            assert!((0.0..=point.reflectance).contains(&lost), "{point:?}");
+        }
+    }
+
+    #[test]
+    fn polarisations_add_up_to_unpolarised_light() {
+        let optics = water();
+        let [s, p] = optics.xyz_of_polarisations(0.4, 420.0);
+        assert!((0.5 * (s + p) - optics.xyz(0.4, one(420.0))).abs().max_element() < 1e-15);
     }
 
     #[test]

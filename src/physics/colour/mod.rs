@@ -14,6 +14,7 @@ mod illuminant;
 mod spaces;
 mod table;
 mod uplift;
+mod walls;
 
 #[cfg(test)]
 mod reference_tests;
@@ -23,8 +24,9 @@ pub use bands::{Band, BandTask, fit_bands, responses};
 pub use cie::{ColourWeights, Observer};
 pub use delta_e::{Lab, ciede2000, xyz_to_lab};
 pub use display::{Display, Gamut};
-pub use film::{FilmOptics, Walls, m2_delta_e, m2_exposure};
+pub use film::{FilmOptics, SpectrumPoint, m2_delta_e, m2_exposure};
 pub use illuminant::{Illuminant, Line, UnknownIlluminant};
 pub use spaces::{BT709, BT2020, DISPLAY_P3, RgbSpace, bt709_to_bt2020, bt2020_to_bt709, srgb_decode, srgb_encode};
-pub use table::FilmTable;
+pub use table::{FilmTable, FilmTexel};
 pub use uplift::Uplift;
+pub use walls::Walls;

@@ -65,7 +65,7 @@ fn spectra_equal_the_reference() {
     let error = |row: &Row| {
         assert_eq!(row.spectrum.len(), 7);
         let found = optics.spectrum(row.cos_theta, Walls::One { thickness_nm: row.thickness_nm });
-        let at = |nm: f64| found.iter().find(|point| point.0 == nm).expect("every 5 nm").1;
+        let at = |nm: f64| found.iter().find(|point| point.wavelength_nm == nm).expect("every 5 nm").reflectance;
         row.spectrum.iter().map(|&(nm, r)| (at(nm) - r).abs()).fold(0.0, f64::max)
     };
     let worst = worst(error);

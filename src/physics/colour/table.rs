@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{BT2020, FilmOptics, Walls};
+use super::{BT2020, FilmOptics};
 use crate::physics::optics::cos_refracted;
 
 /// How much of the rows' spacing is even: part v of the longest path is at part t of the rows with v = t (t + EVEN) / (1 + EVEN).
@@ -41,23 +41,59 @@ impl FilmTable {
         [cos_theta.sqrt() * (self.columns - 1) as f64, t * (self.rows - 1) as f64]
     }
 
-    /// All texels, row by row: the film's colour in white light, linear BT.2020, over the most that a film reflects at the texel's angle.
+    /// All texels, row by row: the film's colour in white light, linear BT.2020, over the most that a film reflects of unpolarised light at
+    /// the texel's angle. For s light, for p light, and for both together, which is their mean.
     #[must_use]
-    pub fn texels(&self, optics: &FilmOptics) -> Vec<DVec3> {
+    pub fn texels(&self, optics: &FilmOptics) -> Vec<FilmTexel> {
         let texel = |k: usize| {
             let (cos_theta, thickness_nm) = self.film_of_texel(k % self.columns, k / self.columns);
-            let colour = BT2020.from_xyz() * optics.xyz(cos_theta, Walls::One { thickness_nm });
             // A film of index 1 reflects nothing, and nothing divided by the floor stays nothing.
-            colour / optics.film().max_reflectance(cos_theta).max(1e-30)
+            let scale = 1.0 / optics.film().max_reflectance(cos_theta).max(1e-30);
+            let [s, p] = optics.xyz_of_polarisations(cos_theta, thickness_nm);
+            FilmTexel { s: scale * (BT2020.from_xyz() * s), p: scale * (BT2020.from_xyz() * p) }
         };
         (0..self.columns * self.rows).into_par_iter().map(texel).collect()
+    }
+
+    /// What a table's texels, row by row, give for a film by linear filtering that clamps at the ends.
+    #[must_use]
+    pub fn filtered(&self, texels: &[DVec3], cos_theta: f64, thickness_nm: f64) -> DVec3 {
+        let [x, y] = self.texel_of_film(cos_theta, thickness_nm);
+        let cell = |place: f64, count: usize| (place.max(0.0) as usize).min(count - 2);
+        let (column, row) = (cell(x, self.columns), cell(y, self.rows));
+        let [u, v] = [x - column as f64, y - row as f64].map(|part| part.clamp(0.0, 1.0));
+        let at = |row: usize| {
+            let left = row * self.columns + column;
+            texels[left].lerp(texels[left + 1], u)
+        };
+        at(row).lerp(at(row + 1), v)
+    }
+}
+
+/// One texel of a table: see [`FilmTable::texels`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmTexel {
+    /// Of light whose electric field lies across the plane of incidence.
+    pub s: DVec3,
+    /// Of light whose electric field lies in it.
+    pub p: DVec3,
+}
+
+impl FilmTexel {
+    /// Of unpolarised light.
+    #[must_use]
+    pub fn unpolarised(&self) -> DVec3 {
+        0.5 * (self.s + self.p)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::{colour::Illuminant, optics::FilmIndex};
+    use crate::physics::{
+        colour::{Illuminant, Walls},
+        optics::FilmIndex,
+    };
 
     const TABLE: FilmTable = FilmTable { columns: 9, rows: 17, max_thickness_nm: 900.0, index: 1.33 };
 
@@ -77,10 +113,25 @@ mod tests {
     fn texels_are_the_films_colours() {
         let optics = FilmOptics::new(FilmIndex::Constant(1.33), &Illuminant::default());
         let texels = TABLE.texels(&optics);
-        assert!(texels[..9].iter().all(|texel| *texel == DVec3::ZERO), "no film is black");
+        assert!(texels[..9].iter().all(|texel| texel.unpolarised() == DVec3::ZERO), "no film is black");
         let (cos_theta, thickness_nm) = TABLE.film_of_texel(5, 11);
         let colour = BT2020.from_xyz() * optics.xyz(cos_theta, Walls::One { thickness_nm });
         let expected = colour / optics.film().max_reflectance(cos_theta);
-        assert!((texels[11 * 9 + 5] - expected).abs().max_element() < 1e-15);
+        let texel = texels[11 * 9 + 5];
+        assert!((texel.unpolarised() - expected).abs().max_element() < 1e-14);
+        assert!(texel.s.y > texel.p.y, "s light is reflected more");
+        let unpolarised: Vec<DVec3> = texels.iter().map(FilmTexel::unpolarised).collect();
+        assert!((TABLE.filtered(&unpolarised, cos_theta, thickness_nm) - expected).abs().max_element() < 1e-12);
+    }
+
+    #[test]
+    fn filtering_is_linear_and_clamps() {
+        let texels: Vec<DVec3> = (0..17 * 9).map(|k| DVec3::new(f64::from(k % 9), f64::from(k / 9), 1.0)).collect();
+        for (cos_theta, thickness_nm) in [(0.3, 100.0), (0.9, 850.0), (0.0, 0.0), (1.0, 900.0)] {
+            let [x, y] = TABLE.texel_of_film(cos_theta, thickness_nm);
+            let found = TABLE.filtered(&texels, cos_theta, thickness_nm);
+            assert!((found - DVec3::new(x, y, 1.0)).abs().max_element() < 1e-12, "{found}");
+        }
+        assert_eq!(TABLE.filtered(&texels, 1.0, 5000.0), DVec3::new(8.0, 16.0, 1.0));
     }
 }

@@ -170,7 +170,9 @@ fn presets_read_and_round_trip() {
         let text = preset_toml(name).unwrap();
         let scene = Scene::from_toml(text, name).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(Scene::from_toml(&scene.to_toml(), name).as_ref(), Ok(&scene));
-        assert!(text.starts_with("# "), "{name} must say what it shows");
+        let sentence = preset_sentence(name).unwrap();
+        assert!(text.starts_with(&format!("# {}", &sentence[..20])), "{name} must say what it shows: {sentence}");
+        assert!(sentence.ends_with('.') && sentence.len() <= 200, "{name} must say so in one sentence: {sentence}");
     }
 }
 

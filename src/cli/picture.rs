@@ -1,0 +1,233 @@
+//! What `render` and `sequence` share: the options of a picture, and the picture that they ask for.
+
+use std::path::Path;
+
+use anyhow::{Context, bail};
+use clap::Args;
+
+use super::{
+    AdapterArguments, SceneSettings, parse,
+    progress::{Part, Progress},
+    reference,
+};
+use crate::{
+    gpu::{GpuError, Renderer},
+    input::LoadedScene,
+    output::{Metadata, Picture},
+    physics::{
+        colour::Gamut,
+        sphere::{HaloTable, PaddedField},
+    },
+    plan::{Moment, Pace, Plan, Shot, Want, has_one_film, plan},
+    verify::reference::{MovedFilms, needs_device, radiance},
+};
+
+/// The options of a picture; a new one belongs here, so that every command that draws pictures has it.
+#[derive(Args, Clone, Debug)]
+pub struct PictureArguments {
+    #[command(flatten)]
+    settings: SceneSettings,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse::size, allow_hyphen_values = true)]
+    size: [u32; 2],
+    /// `fast`, `standard`, `spectral` (wavelengths in the shader) or `reference` (f64 on the CPU; a GPU is needed for a film that moves by itself) [default: the scene's]
+    #[arg(long, value_name = "QUALITY", value_parser = parse::quality)]
+    quality: Option<parse::Quality>,
+    /// Colours of a PNG: `srgb`, or `p3` for wide displays
+    #[arg(long, value_name = "GAMUT", default_value = "srgb", value_parser = parse::gamut)]
+    gamut: Gamut,
+    #[command(flatten)]
+    adapter: AdapterArguments,
+}
+
+impl PictureArguments {
+    /// Whether the picture is computed in f64.
+    pub fn is_reference(&self) -> bool {
+        self.quality == Some(parse::Quality::Reference)
+    }
+}
+
+/// The kind of file to write: what the window shows, or scene radiance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Format {
+    Png,
+    Exr,
+}
+
+impl Format {
+    /// The ending of its files.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Exr => "exr",
+        }
+    }
+
+    /// The format that a file's ending names.
+    pub fn of(path: &Path) -> anyhow::Result<Self> {
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("").to_ascii_lowercase();
+        let known = [Self::Png, Self::Exr].into_iter().find(|format| format.ending() == ending);
+        known.with_context(|| format!("{}: write to a file that ends in .png or .exr", path.display()))
+    }
+}
+
+/// Ticks that one picture may need: a day at 60 per second takes hours, more is a typing mistake.
+const MAX_TICKS: u64 = 10_000_000;
+
+/// Draws pictures of one scene.
+pub struct Painter<'a> {
+    arguments: &'a PictureArguments,
+    format: Format,
+    loaded: LoadedScene,
+    /// Opened when it is first needed: the reference may need none.
+    renderer: Option<Renderer>,
+}
+
+impl<'a> Painter<'a> {
+    /// A painter of a scene file or a preset.
+    pub fn new(arguments: &'a PictureArguments, format: Format, scene: &Path) -> anyhow::Result<Self> {
+        let mut loaded = arguments.settings.load(scene)?;
+        if let Some(parse::Quality::Gpu(quality)) = arguments.quality {
+            loaded.scene.view.quality = quality;
+        }
+        Ok(Self { arguments, format, loaded, renderer: None })
+    }
+
+    /// The film's moment at a time in seconds. `name` is what the time is called in the refusal of one that is too late.
+    pub fn moment(&self, time_s: f64, name: &str) -> anyhow::Result<Moment> {
+        let moment = Moment::of_time(time_s, self.loaded.scene.motion.tick_s);
+        if moment.tick > MAX_TICKS {
+            bail!("{name} is {} ticks of this scene; at most {MAX_TICKS} can be simulated", moment.tick);
+        }
+        Ok(moment)
+    }
+
+    /// Whether all films of the scene are of one kind, so that a moment that can be drawn shows that all can.
+    pub fn has_one_film(&self) -> bool {
+        has_one_film(&self.loaded.scene)
+    }
+
+    /// What a picture of a moment needs.
+    pub fn want(&self, moment: Moment) -> anyhow::Result<Want> {
+        let shot = Shot {
+            size: self.arguments.size,
+            moment,
+            full_precision: self.format == Format::Exr,
+            gamut: self.arguments.gamut,
+            yardstick: false,
+            pace: Pace::Whole,
+        };
+        Ok(self.loaded.want(&shot)?)
+    }
+
+    /// What the file says about itself.
+    pub fn metadata(&self, time_s: f64) -> Metadata {
+        Metadata::new()
+            .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
+            .with("Scene", &self.loaded.name)
+            .with("Time", &format!("{time_s} s"))
+    }
+
+    /// Opens the adapter if a picture needs one. Called before a bar is shown, so that the adapter's name does not run into it.
+    pub fn prepare(&mut self, want: &Want) -> anyhow::Result<()> {
+        if !self.arguments.is_reference() || want.picture.draw.bubbles.iter().any(needs_device) {
+            self.renderer()?;
+        }
+        Ok(())
+    }
+
+    /// The renderer, on an adapter that can hold the picture.
+    pub fn renderer(&mut self) -> anyhow::Result<&mut Renderer> {
+        if self.renderer.is_none() {
+            let renderer = Renderer::new(self.arguments.adapter.open()?);
+            fits(&renderer, self.arguments.size)?;
+            self.renderer = Some(renderer);
+        }
+        self.renderer.as_mut().context("no adapter was opened")
+    }
+
+    /// Draws or computes a picture, which is the next part of the work.
+    pub fn paint(&mut self, want: &Want, progress: &Progress) -> anyhow::Result<Picture> {
+        if self.arguments.is_reference() { self.compute(want, progress) } else { Ok(self.draw(want, progress)?.0) }
+    }
+
+    /// Draws a picture on the device; also gives the plan that was carried out.
+    pub fn draw(&mut self, want: &Want, progress: &Progress) -> anyhow::Result<(Picture, Plan)> {
+        let (format, size, gamut) = (self.format, self.arguments.size, self.arguments.gamut);
+        let renderer = self.renderer()?;
+        let plan = carry_out(renderer, want, progress)?;
+        let readback = match format {
+            Format::Png => renderer.read_picture(),
+            Format::Exr => renderer.read_radiance(),
+        };
+        let bytes = readback.context("no picture was drawn")?.wait(&renderer.gpu)?;
+        let picture = match format {
+            Format::Png => Picture::Display { size, gamut, rgba: bytes },
+            Format::Exr => Picture::radiance_from_bt2020(size, &bytemuck::pod_collect_to_vec(&bytes)),
+        };
+        Ok((picture, plan))
+    }
+
+    fn compute(&mut self, want: &Want, progress: &Progress) -> anyhow::Result<Picture> {
+        let films = self.moved_films(want)?;
+        let rows = u64::from(self.arguments.size[1]) * want.picture.draw.lights().count() as u64;
+        let part = progress.part(rows);
+        let radiance = radiance(&want.picture.draw, &films, &|| part.add(1))?;
+        Ok(match self.format {
+            Format::Png => reference::display(&want.picture, &radiance),
+            Format::Exr => reference::linear(self.arguments.size, &radiance),
+        })
+    }
+
+    /// The films that only the device can move, at their moment.
+    fn moved_films(&mut self, want: &Want) -> anyhow::Result<MovedFilms> {
+        let bubbles = &want.picture.draw.bubbles;
+        if !bubbles.iter().any(needs_device) {
+            return Ok(MovedFilms::new());
+        }
+        let renderer = self.renderer()?;
+        renderer.bring(want)?;
+        let films = bubbles.iter().filter(|bubble| needs_device(bubble)).map(|bubble| {
+            let (grid, thickness_nm) = renderer.read_film(bubble.index)?.context("the film was not moved")?;
+            let cells: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.wait(&renderer.gpu)?);
+            let field = PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| f64::from(cells[cell]));
+            Ok((bubble.index, field))
+        });
+        films.collect()
+    }
+}
+
+/// Brings the wanted picture; somebody who watches hears of each piece of work once the device has done it.
+fn carry_out(renderer: &mut Renderer, want: &Want, progress: &Progress) -> Result<Plan, GpuError> {
+    let plan = plan(want, renderer.have());
+    let part: Part = progress.part(plan.work());
+    renderer.watcher = progress.is_shown().then(|| Box::new(move |work| part.add(work)) as _);
+    let done = renderer.execute(&plan);
+    renderer.watcher = None;
+    done.map(|()| plan)
+}
+
+/// Refuses a picture that the adapter cannot hold before anything is made for it.
+fn fits(renderer: &Renderer, [width, height]: [u32; 2]) -> Result<(), GpuError> {
+    let limits = renderer.gpu.device.limits();
+    let side = limits.max_texture_dimension_2d;
+    if width.max(height) > side {
+        let limit = format!("its textures have at most {side} pixels a side");
+        return Err(GpuError::TooLarge { width, height, limit });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn endings_name_formats() {
+        assert_eq!(Format::of(Path::new("a/b.PNG")).unwrap(), Format::Png);
+        assert_eq!(Format::of(Path::new("b.exr")).unwrap(), Format::Exr);
+        for wrong in ["b", "b.jpg", "png", ".png"] {
+            assert!(Format::of(Path::new(wrong)).is_err(), "{wrong}");
+        }
+    }
+}

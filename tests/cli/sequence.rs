@@ -1,0 +1,71 @@
+//! Numbered pictures by command.
+
+use soapfilm::output::read_back::{read_exr, read_png};
+
+use super::*;
+
+/// A frame is a pure function of the scene and its time: drawn alone, or after others that cut the film's history into frames.
+#[test]
+fn a_frame_alone_is_the_frame_of_a_run() {
+    let desk = Desk::new();
+    let size = "--size 64x36 --fps 7";
+    if desk.done(&format!("sequence default -o run --frames 0..5 {size}")).is_none() {
+        return;
+    }
+    desk.done(&format!("sequence default -o alone --frames 5..5 {size}")).unwrap();
+    let bytes = |path: &str| std::fs::read(desk.path(path)).unwrap();
+    assert_eq!(bytes("run/frame_000005.png"), bytes("alone/frame_000005.png"));
+    assert_ne!(bytes("run/frame_000000.png"), bytes("run/frame_000005.png"), "the film moves");
+    let before = std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap();
+    let again = desk.done(&format!("sequence default -o alone --frames 5..5 {size}")).unwrap();
+    assert!(again.err.contains("already there"), "{}", again.err);
+    assert_eq!(std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap(), before);
+}
+
+/// A sequence takes the options of a picture, and its frames are the pictures of their moments.
+#[test]
+fn sequences_take_the_options_of_pictures() {
+    let desk = Desk::new();
+    // Nobody sees a bar where stderr is no terminal.
+    let run =
+        desk.run("sequence furnace -o run --frames 0..1 --quality reference --size 16x9 --format exr --fps 24000/1001");
+    assert!(run.success && run.err.is_empty(), "{}", run.err);
+    let frame = read_exr(&desk.path("run/frame_000001.exr")).unwrap();
+    assert_eq!((frame.frames_per_second, frame.time_code), (Some([24000, 1001]), Some([0, 0, 0, 1])));
+    assert_eq!(frame.metadata.get("Time"), Some(format!("{} s", 1001.0 / 24000.0).as_str()));
+    for options in ["--quality spectral", "--gamut p3", "--quality fast"] {
+        if desk
+            .done(&format!("sequence default -o run --frames 3..3 --fps 10 --overwrite --size 32x18 {options}"))
+            .is_none()
+        {
+            return;
+        }
+        desk.done(&format!("render default -o once.png --time 0.3 --size 32x18 {options}")).unwrap();
+        let pixels = |path: &str| read_png(&desk.path(path)).unwrap().rgba;
+        assert_eq!(pixels("run/frame_000003.png"), pixels("once.png"), "{options}");
+    }
+}
+
+/// A history that was saved as a scene replays bit by bit: as one picture, and as a frame of a run.
+#[test]
+fn a_saved_history_replays() {
+    let desk = Desk::new();
+    let events = "[[event]]\ntick = 20\nkind = \"motion\"\nflow = \"sloshing\"\nspin_deg_s = [0.0, 0.0, 40.0]\n\
+                  [[event]]\ntick = 45\nkind = \"motion\"\nflow = \"stirred\"\nstrength = 1.5\nevaporation_nm_s = 9.0\n";
+    desk.write("saved.toml", format!("version = 1\n[[bubble]]\n[bubble.film]\ncells = 32\n{events}"));
+    if desk.done("render saved.toml -o once.png --size 64x36 --time 1.5").is_none() {
+        return;
+    }
+    desk.done("sequence saved.toml -o run --frames 7..9 --fps 6 --size 64x36").unwrap();
+    let pixels = |path: &str| read_png(&desk.path(path)).unwrap().rgba;
+    assert_eq!(pixels("run/frame_000009.png"), pixels("once.png"));
+
+    let Some(mut renderer) = support::renderer() else { return };
+    let loaded = support::load(desk.path("saved.toml").to_str().unwrap());
+    for time_s in [0.2, 1.0, 0.4, 1.4] {
+        support::display(&mut renderer, &support::still(&loaded, [64, 36], time_s));
+    }
+    let mut want = support::still(&loaded, [64, 36], 1.5);
+    want.picture.draw.full_precision = false;
+    assert_eq!(support::display(&mut renderer, &want), pixels("once.png"), "another process, after scrubbing");
+}
