@@ -289,6 +289,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg(unix)]
     fn paths_into_the_new_folder_are_relative_and_others_are_whole() {
         let environment = |path: &str| Scene {
             light: Light { environment: Environment::File(path.to_owned()), ..Light::default() },

@@ -33,7 +33,7 @@ impl FromStr for Setting {
 /// A setting as messages show it.
 pub(super) fn shown(setting: &str) -> String {
     const LONGEST: usize = 100;
-    shorten(setting, LONGEST).escape_debug().to_string()
+    shorten(setting, LONGEST).replace(char::is_control, "\u{fffd}")
 }
 
 /// Puts the setting that stands in a range of a source's text into the document.
