@@ -4,7 +4,7 @@
 use crate::{
     physics::{
         bubble::reach,
-        optics::{FilmMaterial, max_reflectance},
+        optics::{FilmMaterial, WATER_INDEX, max_reflectance},
     },
     plan::{BubbleKey, CameraKey},
     scene::Quality,
@@ -26,8 +26,6 @@ pub struct Ring {
     pub outline: bool,
 }
 
-/// Index of water, of which the numbers below were measured.
-const WATER_INDEX: f64 = 1.333;
 /// A film that reflects as much at every angle as water does at this cosine of incidence is a mirror that keeps light for long: from index 2.
 const MIRROR_COS: f64 = 0.35;
 

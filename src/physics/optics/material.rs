@@ -2,8 +2,8 @@
 
 use super::{FilmIndex, Incidence, Polarised, REFERENCE_NM, coated_reflectance, equivalent_extra_nm, max_reflectance};
 
-/// Index of water at the sodium line, above that of warm water.
-const WATER_INDEX: f64 = 1.334;
+/// Index of water at the sodium line, at any temperature at most.
+pub const WATER_INDEX: f64 = 1.334;
 
 /// A film's liquid and skins.
 #[derive(Clone, Debug, Default, PartialEq)]

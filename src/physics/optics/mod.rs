@@ -43,5 +43,5 @@ mod skins;
 
 pub use airy::{Incidence, Polarised, amplitudes, cos_refracted, max_reflectance, reflectance};
 pub use index::{FilmIndex, FilmIndexError, REFERENCE_NM};
-pub use material::{FilmMaterial, Wall};
+pub use material::{FilmMaterial, WATER_INDEX, Wall};
 pub use skins::{SKIN_INDEX, coated_reflectance, equivalent_extra_nm};

@@ -317,7 +317,8 @@ fn films_share_the_cells_of_a_frame_and_all_get_on() {
         assert!(stepped <= 800_000, "{stepped} cells in one frame");
         let ticks: Vec<_> = plan.after.fields.iter().flatten().map(|have| have.state.moment.tick).collect();
         let behind = ticks.iter().max().unwrap() - ticks.iter().min().unwrap();
-        assert!(behind <= 16, "films drift apart: {ticks:?}");
+        // No more than the two steps that the cells of a frame are.
+        assert!(behind <= 24, "films drift apart: {ticks:?}");
         have = plan.after;
         if plan.complete {
             assert_eq!(ticks, [40; 4]);
