@@ -9,7 +9,7 @@ use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN};
 use crate::{
     gpu::Gpu,
     output::write_text,
-    verify::{Check, Part, Run},
+    verify::{Check, Extent, Part, Run},
 };
 
 /// Measure this machine's GPU against the references; fails if a check does
@@ -52,7 +52,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         println!("{:<72} {:>12.4e} {:>12.4e}{verdict}", check.name, check.measured, check.limit);
         checks.push(check);
     };
-    let mut run = Run { gpu: &gpu, long: arguments.long, report: &mut report };
+    let extent = if arguments.long { Extent::Long } else { Extent::Full };
+    let mut run = Run { gpu: &gpu, extent, report: &mut report };
     let parts: Vec<Part> = arguments.parts.iter().flat_map(|parts| parts.0.iter().copied()).collect();
     for part in &parts {
         run.part(*part)?;

@@ -7,6 +7,7 @@ mod boundaries;
 mod bursting;
 mod far;
 mod flow;
+mod fuzz;
 mod history;
 mod interaction;
 mod lamps;
