@@ -9,7 +9,7 @@ use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN, failure, progress::Progre
 use crate::{
     gpu::Gpu,
     output::{check_target, print, write_text},
-    verify::{Check, Part, Run},
+    verify::{Check, Extent, Part, Run},
 };
 
 /// Measure this machine's GPU against the references; fails if a check does
@@ -70,7 +70,8 @@ fn measure(arguments: &Arguments, gpu: &Gpu) -> anyhow::Result<Vec<Check>> {
             done.add(1);
             checks.push(check);
         };
-        Run { gpu, long: arguments.long, report: &mut report }.part(*part)?;
+        let extent = if arguments.long { Extent::Long } else { Extent::Full };
+        Run { gpu, extent, report: &mut report }.part(*part)?;
     }
     if parts.iter().any(|part| matches!(part, Part::Optics | Part::Picture)) {
         print(PHYSICS_IS_LESS_CERTAIN)?;

@@ -101,7 +101,8 @@ pub enum GpuError {
     Shader(#[from] ShaderError),
 }
 
-/// Adapter, device, queue, and the pipelines made so far.
+/// Adapter, device, queue, and the pipelines made so far. A clone is another handle to the same device and pipelines.
+#[derive(Clone)]
 pub struct Gpu {
     /// The instance that the adapter came from; windows make their surfaces with it.
     pub instance: wgpu::Instance,
@@ -112,10 +113,10 @@ pub struct Gpu {
     /// Its queue.
     pub queue: wgpu::Queue,
     /// Pipelines, made on first use.
-    pub pipelines: Pipelines,
+    pub pipelines: Arc<Pipelines>,
     lost: Arc<AtomicBool>,
     failure: Arc<Mutex<Option<GpuError>>>,
-    uploaded_bytes: AtomicU64,
+    uploaded_bytes: Arc<AtomicU64>,
 }
 
 impl Gpu {
@@ -172,8 +173,8 @@ impl Gpu {
         let lost = Arc::new(AtomicBool::new(false));
         let failure = Arc::new(Mutex::new(None));
         watch(&device, &lost, &failure);
-        let pipelines = Pipelines::new();
-        Ok(Self { instance, adapter, device, queue, pipelines, lost, failure, uploaded_bytes: AtomicU64::new(0) })
+        let (pipelines, uploaded_bytes) = (Arc::new(Pipelines::new()), Arc::default());
+        Ok(Self { instance, adapter, device, queue, pipelines, lost, failure, uploaded_bytes })
     }
 
     /// Name of the adapter, with its backend: what every command prints.

@@ -60,7 +60,7 @@ fn stationary(run: &mut Run<'_>) -> Result<(), GpuError> {
         ("a jet about (1,1,1)", DVec3::ONE, 0.1, 5e-3),
         ("a jet about (0.9,-0.3,0.5)", oblique, 0.1, 5e-3),
     ] {
-        let turns = if run.long || axis == DVec3::ONE { 10 } else { 2 };
+        let turns = if run.is_long() || axis == DVec3::ONE { 10 } else { 2 };
         if let Some(found) = measured(run, case(FlowCaseKind::Stationary, axis, (1, 1), k), 64, 80, turns)? {
             run.at_most(format!("{name}, {turns} turns, l2 of vorticity"), found.l2, limit);
         }

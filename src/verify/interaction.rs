@@ -120,9 +120,9 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     undriven(run)?;
     sloshing(run)?;
     creeping(run)?;
-    anything(run, "", 3000, 0.5)?;
+    anything(run, "", run.short_or_full(200, 3000), 0.5)?;
     // Accelerated as no bubble could bear.
-    anything(run, ", dragged by kilometres", 200, 1000.0)
+    anything(run, ", dragged by kilometres", run.short_or_full(100, 200), 1000.0)
 }
 
 /// A film without weight in air at rest.
@@ -137,7 +137,7 @@ pub fn weightless(cells: u32) -> Scene {
 
 /// After its first step, the middle of a stir moves as the closed form says.
 fn pushed(run: &mut Run<'_>) -> Result<(), GpuError> {
-    for radius_deg in [8.0, 15.0, 40.0] {
+    for radius_deg in run.short_or_full([15.0].as_slice(), &[8.0, 15.0, 40.0]).iter().copied() {
         let stir = Stir { at: [0.5, 0.4, 0.3], velocity_m_s: [-0.04, 0.05, 0.0], radius_deg, ..Stir::default() };
         let event = Event { tick: 0, change: Change::Stir(stir.clone()) };
         let scene = Scene { events: vec![event], ..weightless(64) };
@@ -164,7 +164,8 @@ fn pushed(run: &mut Run<'_>) -> Result<(), GpuError> {
 /// However hard a film is stirred, once nothing drives it it has no more energy than it was left with: a film without weight, and a heavy
 /// one of the same thickness everywhere. Hardly anything slows them down.
 fn undriven(run: &mut Run<'_>) -> Result<(), GpuError> {
-    const LOOKS: u64 = 12;
+    const LOOK_TICKS: u64 = 10;
+    let looks = run.short_or_full(3, 12);
     let film = |cells, gravity_m_s2: [f64; 3]| {
         let mut scene = weightless(cells);
         // So nearly even that gravity does nothing to it, but not so even that it would not flow.
@@ -177,7 +178,9 @@ fn undriven(run: &mut Run<'_>) -> Result<(), GpuError> {
         ("a film without weight", [0.0; 3], 32, 6.0, &[0.3, 1.0]),
         ("a heavy even film", [0.0, 0.0, -9.81], 16, 15.0, &[0.3, 3.0]),
     ] {
-        for speed in speeds_m_s {
+        // The fastest is the hardest.
+        let first = run.short_or_full(speeds_m_s.len() - 1, 0);
+        for speed in &speeds_m_s[first..] {
             let velocity_m_s = [-0.6 * speed, 0.75 * speed, 0.0];
             let stir = Stir { at: [0.5, 0.4, 0.3], velocity_m_s, radius_deg, ..Stir::default() };
             let left_alone = stir.ticks;
@@ -186,12 +189,14 @@ fn undriven(run: &mut Run<'_>) -> Result<(), GpuError> {
             let mut played = Played::new(run.gpu, &scene)?;
             played.play_to(left_alone)?;
             let (start, mut later) = (played.energy()?, Vec::new());
-            for look in 1..=LOOKS {
-                played.play_to(left_alone + 10 * look)?;
+            for look in 1..=looks {
+                played.play_to(left_alone + LOOK_TICKS * look)?;
                 later.push(played.energy()? / start);
             }
-            let what =
-                format!("{name}, stirred at {speed} m/s over {radius_deg}°: most energy in 2 s over that at the start");
+            let seconds = (looks * LOOK_TICKS) as f64 * scene.motion.tick_s;
+            let what = format!(
+                "{name}, stirred at {speed} m/s over {radius_deg}°: most energy in {seconds} s over that at the start"
+            );
             run.at_most(what, largest(later.into_iter()), 1.001);
         }
     }
@@ -209,7 +214,7 @@ fn sloshing(run: &mut Run<'_>) -> Result<(), GpuError> {
 fn swing(run: &mut Run<'_>, name: &str, events: Vec<Event>) -> Result<(), GpuError> {
     let (drag_1_s, a) = (1.0, 0.6);
     let mut scene = Scene { events, ..Scene::default() };
-    scene.bubbles[0].film.cells = 64;
+    scene.bubbles[0].film.cells = run.short_or_full(32, 64);
     (scene.bubbles[0].film.state, scene.bubbles[0].film.stratification) = (FilmStateName::Rest, a);
     (scene.motion.strength, scene.motion.drag_1_s) = (0.0, drag_1_s);
     scene.motion.diffusion_mm2_s = 0.0;
@@ -297,11 +302,11 @@ fn creeping(run: &mut Run<'_>) -> Result<(), GpuError> {
         Ok::<f64, GpuError>(tilt - (slope.x / -slope.z).atan())
     };
     const FROM_S: f64 = 8.0;
-    const TO_S: f64 = 30.0;
-    let (first, last): (f64, f64) = (angle(FROM_S)?, angle(TO_S)?);
+    let to_s = run.short_or_full(12.0, 30.0);
+    let (first, last): (f64, f64) = (angle(FROM_S)?, angle(to_s)?);
     let swing = 0.5 * a * 9.81 / (1e-3 * scene.bubbles[0].radius_mm);
     let expected = 0.5 * drag_1_s - (0.25 * drag_1_s * drag_1_s - swing).sqrt();
-    let found = (first / last).ln() / (TO_S - FROM_S);
+    let found = (first / last).ln() / (to_s - FROM_S);
     run.at_most("a nearly even film creeps to its level: error of the rate", (found / expected - 1.0).abs(), 0.03);
     Ok(())
 }

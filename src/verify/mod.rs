@@ -104,7 +104,7 @@ impl Part {
 
     fn effort(self) -> (u64, u64) {
         match self {
-            Self::Optics => (75, 100),
+            Self::Optics => (100, 150),
             Self::Picture => (12, 300),
             Self::Transport => (45, 60),
             Self::Flow => (35, 160),
@@ -114,12 +114,23 @@ impl Part {
     }
 }
 
+/// How much to verify.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Extent {
+    /// Each kind of check, with few cases and steps: what a developer waits for.
+    Short,
+    /// All that ends within minutes.
+    Full,
+    /// What takes longer, too.
+    Long,
+}
+
 /// How much to verify, and who hears of each check as it is done.
 pub struct Run<'a> {
     /// The device.
     pub gpu: &'a Gpu,
-    /// Whether checks that take longer than minutes run too.
-    pub long: bool,
+    /// How much to verify.
+    pub extent: Extent,
     /// Hears of each check.
     pub report: &'a mut dyn FnMut(Check),
 }
@@ -138,6 +149,15 @@ impl Run<'_> {
         }?;
         log::info!("{} verified in {:.0} s", part.name(), started.elapsed().as_secs_f64());
         Ok(())
+    }
+
+    /// The short form of something, or the full one.
+    fn short_or_full<T>(&self, short: T, full: T) -> T {
+        if self.extent >= Extent::Full { full } else { short }
+    }
+
+    fn is_long(&self) -> bool {
+        self.extent >= Extent::Long
     }
 
     fn at_most(&mut self, name: impl Into<String>, measured: f64, limit: f64) {

@@ -28,7 +28,7 @@ const LIMITS: [(Quality, [f64; 2]); 3] =
 
 pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut renderer = Renderer::new(pollster::block_on(run.gpu.another())?);
-    let scenes = if run.long { 12 } else { LIGHTS.len() };
+    let scenes = if run.is_long() { 12 } else { LIGHTS.len() };
     let random: Vec<_> = (0..scenes).map(random_scene).collect::<Result<_, _>>()?;
     let lamps: Vec<_> = ["sodium", "A"].into_iter().map(lamplit_scene).collect::<Result<_, _>>()?;
     measure(run, &mut renderer, &format!("{scenes} pictures in coloured light"), random)?;

@@ -64,28 +64,27 @@ struct Stress<'a> {
 pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     steps(run)?;
     grids(run)?;
-    for (name, initial) in FIELDS {
-        let wind = deformation();
-        let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
-        stress(
-            run,
-            &Stress {
-                name: format!("field {name}"),
-                cells: 24,
-                initial: *initial,
-                steps: 60,
-                step: &step,
-                planted: None,
-            },
-        )?;
-    }
+    fields(run)?;
     winds(run)?;
     gravity(run)?;
     spoilt(run)?;
     refused(run)?;
     super::interaction::run(run)?;
     super::extremes::run(run)?;
-    if run.long { long(run) } else { Ok(()) }
+    if run.is_long() { long(run) } else { Ok(()) }
+}
+
+fn fields(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let steps = run.short_or_full(15, 60);
+    for (name, initial) in FIELDS {
+        let wind = deformation();
+        let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
+        stress(
+            run,
+            &Stress { name: format!("field {name}"), cells: 24, initial: *initial, steps, step: &step, planted: None },
+        )?;
+    }
+    Ok(())
 }
 
 fn deformation() -> Wind {
@@ -96,25 +95,26 @@ fn deformation() -> Wind {
 /// Steps from a thousandth of a cell to 200 cells, and none at all.
 fn steps(run: &mut Run<'_>) -> Result<(), GpuError> {
     const CELLS: usize = 32;
-    let wind = deformation();
+    let (wind, steps) = (deformation(), run.short_or_full(20, 100));
     let cell_s = std::f64::consts::FRAC_PI_2 / CELLS as f64 / 2.0; // The fastest wind is near 2 rad/s.
     for cfl in [1e-3, 0.1, 1.0, 20.0, 200.0, 0.0] {
         let dt = cfl * cell_s;
         let step = |k: u32| Step::wind(&wind, dt * f64::from(k), dt * f64::from(k + 1));
         let name = format!("steps of {cfl} cells");
-        stress(run, &Stress { name, cells: CELLS, initial: bells, steps: 100, step: &step, planted: None })?;
+        stress(run, &Stress { name, cells: CELLS, initial: bells, steps, step: &step, planted: None })?;
     }
     let spikes = |k: u32| Step::wind(&wind, 0.0, if k.is_multiple_of(7) { 3.0 } else { 0.01 });
     stress(
         run,
-        &Stress { name: "spikes of dt".into(), cells: CELLS, initial: bells, steps: 70, step: &spikes, planted: None },
+        &Stress { name: "spikes of dt".into(), cells: CELLS, initial: bells, steps, step: &spikes, planted: None },
     )
 }
 
 fn grids(run: &mut Run<'_>) -> Result<(), GpuError> {
     let wind = deformation();
     let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
-    for (cells, steps) in [(16, 100), (17, 100), (61, 40), (255, 8), (1024, 2)] {
+    let [small, odd, large, huge] = run.short_or_full([20, 6, 2, 1], [100, 40, 8, 2]);
+    for (cells, steps) in [(16, small), (17, small), (61, odd), (255, large), (1024, huge)] {
         stress(
             run,
             &Stress { name: format!("N = {cells}"), cells, initial: bells, steps, step: &step, planted: None },
@@ -125,6 +125,7 @@ fn grids(run: &mut Run<'_>) -> Result<(), GpuError> {
 
 /// Winds that fold the map within a step, and that turn round at each.
 fn winds(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let [folds, turns] = run.short_or_full([15, 20], [60, 100]);
     let flow = PrescribedFlow::stirred(3, 300.0);
     let folding = |k: u32| Step::prescribed(&flow, 0.1 * f64::from(k), 0.1 * f64::from(k + 1));
     stress(
@@ -133,7 +134,7 @@ fn winds(run: &mut Run<'_>) -> Result<(), GpuError> {
             name: "a wind that folds the map".into(),
             cells: 32,
             initial: bells,
-            steps: 60,
+            steps: folds,
             step: &folding,
             planted: None,
         },
@@ -150,7 +151,7 @@ fn winds(run: &mut Run<'_>) -> Result<(), GpuError> {
             name: "a wind that flips at each step".into(),
             cells: 32,
             initial: bells,
-            steps: 100,
+            steps: turns,
             step: &flips,
             planted: None,
         },
@@ -164,7 +165,7 @@ fn gravity(run: &mut Run<'_>) -> Result<(), GpuError> {
     let field = field(run.gpu, 32, RULES, film.profile())?;
     let mut film = FreeFilm::new(run.gpu, field, FlowForces::default(), PrescribedFlow::default())?;
     let before = film.thickness()?;
-    for turn in 0..50 {
+    for turn in 0..run.short_or_full(6, 50) {
         film.forces.gravity = DVec3::NEG_Z * if turn % 2 == 0 { 50.0 * 9.81 / 0.05 } else { -50.0 * 9.81 / 0.05 };
         film.run(4, STEP_S)?;
     }
@@ -177,11 +178,12 @@ fn gravity(run: &mut Run<'_>) -> Result<(), GpuError> {
 fn spoilt(run: &mut Run<'_>) -> Result<(), GpuError> {
     let wind = deformation();
     let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
+    let steps = run.short_or_full(15, 40);
     for planted in [Planted::Tracer, Planted::Map] {
         for (name, value) in [("NaN", f32::NAN), ("infinity", f32::INFINITY), ("-infinity", f32::NEG_INFINITY)] {
             let name = format!("{name} in the {planted:?}").to_lowercase();
             let planted = Some((10, planted, value));
-            stress(run, &Stress { name, cells: 24, initial: bells, steps: 40, step: &step, planted })?;
+            stress(run, &Stress { name, cells: 24, initial: bells, steps, step: &step, planted })?;
         }
     }
     Ok(())

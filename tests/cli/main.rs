@@ -1,4 +1,5 @@
-//! The command line as scripts see it: exit codes, one clear line on stderr, no file left behind, columns and keys.
+//! The program from outside. The command line as scripts see it: exit codes, one clear line on stderr, no file left behind, columns and keys;
+//! and the window as people see it.
 
 mod colour;
 mod files;
@@ -9,6 +10,8 @@ mod sequence;
 mod streams;
 #[path = "../support/mod.rs"]
 mod support;
+#[cfg(target_os = "linux")]
+mod window;
 
 use std::{
     path::{Path, PathBuf},

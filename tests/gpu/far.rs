@@ -10,12 +10,15 @@ use soapfilm::{
     verify::reference,
 };
 
-use crate::support::{load, mean_and_max, radiance, renderer, still};
+use crate::support::{load, mean_and_max, radiance, renderer, short_or_long, still};
 
 const SIZE: [u32; 2] = [64, 64];
 const FOV_Y_DEG: f64 = 9.0;
+
 /// Pixels across the bubble.
-const DIAMETERS: [f64; 3] = [10.0, 20.0, 40.0];
+fn diameters() -> &'static [f64] {
+    short_or_long(&[10.0, 40.0], &[10.0, 20.0, 40.0])
+}
 
 /// The picture with each bubble's samples and filter as given.
 fn drawn(renderer: &mut Renderer, want: &Want, samples: u32, filtered: bool) -> Vec<DVec3> {
@@ -83,7 +86,7 @@ fn sorted() -> LoadedScene {
 fn far_bubbles_do_not_sparkle() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = sorted();
-    for diameter in DIAMETERS {
+    for diameter in diameters().iter().copied() {
         let pixel_m = step_back(&mut loaded.scene, diameter);
         let mut errors = Vec::new();
         for tenths in [0.0, 3.0, 7.0] {
@@ -111,8 +114,7 @@ fn filtered_thickness_is_nearer_to_the_truth() {
     assert!(filtered.0 <= 0.9 * plain.0, "{filtered:?} {plain:?}");
 }
 
-/// Frames of a bubble that drifts across the picture, and how far it does from one to the next, in pixels.
-const FRAMES: u32 = 6;
+/// How far a bubble drifts across the picture from one frame to the next, in pixels.
 const DRIFT_PIXELS: [f64; 2] = [0.31, 0.17];
 
 /// What changes from frame to frame, in CIELAB: the mean of the truth's changes; mean and maximum of what the device's differ from them.
@@ -127,7 +129,7 @@ fn changes(renderer: &mut Renderer, loaded: &mut LoadedScene, diameter: f64, tim
     let pixel_m = step_back(&mut loaded.scene, diameter);
     let (mut before, mut white) = (None, None);
     let (mut truths, mut excesses) = (Vec::new(), Vec::new());
-    for frame in 0..FRAMES {
+    for frame in 0..short_or_long(3, 6) {
         let [right, up] = DRIFT_PIXELS.map(|pixels| f64::from(frame) * pixels * pixel_m);
         loaded.scene.bubbles[0].center_m = [0.0, right, up];
         let want = still(loaded, SIZE, time_s);
@@ -157,7 +159,7 @@ fn far_blown_bubbles_change_as_they_must() {
     let mut loaded = load("default");
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
     for time_s in [0.0, 1.0] {
-        for diameter in DIAMETERS {
+        for diameter in diameters().iter().copied() {
             let changes = changes(&mut renderer, &mut loaded, diameter, time_s);
             eprintln!("measured: {time_s} s, {diameter} pixels across: {changes:.3?} from frame to frame");
             let Changes { truth, excess, most } = changes;
@@ -181,7 +183,7 @@ fn blown(detail: Detail, diameter: f64, time_s: f64) -> Want {
 fn half_of_the_cells_show_a_far_bubble_as_it_is() {
     let (Some(mut full), Some(mut half)) = (renderer(), renderer()) else { return };
     for (time_s, limits) in [(0.0, Some([0.2, 3.0])), (0.1, None)] {
-        for diameter in DIAMETERS {
+        for diameter in diameters().iter().copied() {
             let want = blown(Detail::Full, diameter, time_s);
             let truth = radiance(&mut full, &want);
             let seen = radiance(&mut half, &blown(Detail::Half, diameter, time_s));

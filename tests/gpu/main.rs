@@ -8,6 +8,7 @@ mod bursting;
 mod extremes;
 mod far;
 mod flow;
+mod fuzz;
 mod history;
 mod interaction;
 mod lamps;

@@ -1,20 +1,62 @@
-//! What the integration tests share: an adapter, and pictures of scenes.
+//! What the integration tests share: a device, pictures of scenes, and how much is asked of them.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub mod page;
+
+use std::{
+    process::{Command, Stdio},
+    sync::OnceLock,
+};
+
+use cpu_time::ProcessTime;
 use glam::DVec3;
 use soapfilm::{
     gpu::{AdapterChoice, Gpu, Renderer},
     input::{LoadedScene, load_scene},
     physics::colour::Gamut,
     plan::{Moment, Pace, Shot, Want, want},
-    verify::{Check, Part, Run},
+    verify::{Check, Extent, Part, Run},
 };
 
 /// Part of the name of the adapter that must be there; without it a machine that has none skips the tests that need one.
 pub const REQUIRE_ADAPTER: &str = "SOAPFILM_REQUIRE_ADAPTER";
+/// Set to 1: every test runs in full, however long that takes. Otherwise those with many cases or steps take fewer, of each kind.
+const LONG_TESTS: &str = "SOAPFILM_LONG_TESTS";
+/// Set to 1: other people's tools must be there; without it a machine that has none skips what needs them.
+pub const REQUIRE_TOOLS: &str = "SOAPFILM_REQUIRE_TOOLS";
+/// Set to 1: what drives a real window must be there.
+pub const REQUIRE_WINDOW: &str = "SOAPFILM_REQUIRE_WINDOW";
 
-/// The adapter to test on, or nothing where none is required and none is there.
+fn is_set(variable: &str) -> bool {
+    std::env::var(variable).is_ok_and(|value| value == "1")
+}
+
+/// The short form of something, or the whole of it where every test runs in full.
+pub fn short_or_long<T>(short: T, long: T) -> T {
+    if is_set(LONG_TESTS) { long } else { short }
+}
+
+/// Whether all of these programs can be started. Where they cannot, says so, and fails if a variable demands them.
+pub fn has_tools(tools: &[&str], required_by: &str) -> bool {
+    let quiet = |tool: &str| Command::new(tool).arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    let missing: Vec<_> = tools.iter().copied().filter(|tool| quiet(tool).is_err()).collect();
+    if missing.is_empty() {
+        return true;
+    }
+    let missing = missing.join(", ");
+    assert!(!is_set(required_by), "{required_by}=1, but {missing} is not installed");
+    eprintln!("skipped: {missing} is not installed");
+    false
+}
+
+/// The device to test on, the same one for all tests of a binary: what one test compiled another need not. Nothing where no adapter is required
+/// and none is there. A test that loses a device, or leaves errors on it, opens its own.
 pub fn gpu() -> Option<Gpu> {
+    static SHARED: OnceLock<Option<Gpu>> = OnceLock::new();
+    SHARED.get_or_init(open).clone()
+}
+
+fn open() -> Option<Gpu> {
     let required = std::env::var(REQUIRE_ADAPTER).ok().filter(|name| !name.is_empty());
     let choice = AdapterChoice { name: required.clone(), backend: None }.or_env();
     match (pollster::block_on(Gpu::headless(&choice)), required) {
@@ -36,14 +78,24 @@ pub fn gpu() -> Option<Gpu> {
 pub fn hold(part: Part, at_least: usize) {
     let Some(gpu) = gpu() else { return };
     let mut checks: Vec<Check> = Vec::new();
+    let mut since = ProcessTime::now();
     let mut report = |check: Check| {
-        eprintln!("measured: {}: {:.4e} (limit {:.4e})", check.name, check.measured, check.limit);
+        let Check { name, measured, limit } = &check;
+        eprintln!(
+            "measured: {name}: {measured:.4e} (limit {limit:.4e}), after {:.1} s of CPU",
+            since.elapsed().as_secs_f64()
+        );
         checks.push(check);
+        since = ProcessTime::now();
     };
-    Run { gpu: &gpu, long: false, report: &mut report }.part(part).unwrap();
+    let extent = short_or_long(Extent::Short, Extent::Full);
+    Run { gpu: &gpu, extent, report: &mut report }.part(part).unwrap();
     assert!(checks.len() >= at_least, "only {} checks", checks.len());
     let (made, told) = (checks.len() as u64, part.checks());
-    assert!(made.abs_diff(told) <= told / 3, "a display of progress counts on {told} checks, these are {made}");
+    assert!(
+        extent == Extent::Short || made.abs_diff(told) <= told / 3,
+        "a display of progress counts on {told} checks, these are {made}"
+    );
     let failed: Vec<_> = checks.iter().filter(|check| !check.passed()).collect();
     assert!(failed.is_empty(), "{failed:#?}");
 }

@@ -1,32 +1,16 @@
 //! The format's page against the code, and reading and writing whole scenes.
 
 use super::*;
+use page::{Row, documented};
 
+#[path = "../../../tests/support/page.rs"]
+mod page;
 mod random;
 mod refusals;
 mod settings;
 
 fn with_version(text: &str) -> String {
     format!("version = 1\n{text}")
-}
-
-/// Reads the tables of the format's page: `(section, key, default, range)`.
-fn documented() -> Vec<[&'static str; 4]> {
-    let mut section = "";
-    let mut rows = Vec::new();
-    for line in include_str!("../../../assets/scenes/README.md").lines() {
-        if let Some(header) = line.strip_prefix("## ") {
-            // Keys of a kind of event stand below the last thing named: `kind = "stir"`.
-            section = header.trim_matches('`').rsplit('`').next().unwrap_or_default().trim_matches(['[', ']']);
-        }
-        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        if let ["", key, default, range, _, ""] = cells[..]
-            && key.starts_with('`')
-        {
-            rows.push([section, key.trim_matches('`'), default.trim_matches('`'), range]);
-        }
-    }
-    rows
 }
 
 /// The table of a scene's TOML that a section names; the first item of a list, the event of a kind.
@@ -75,7 +59,7 @@ fn documented_keys_are_the_coded_keys() {
         let belongs = |key: &str| !path.contains("event") && kind(path).is_none() || of_all(key) == (path == "event");
         let keys = coded.filter(|(_, value)| !is_section(value)).map(|(key, _)| key.as_str());
         let mut coded: Vec<&str> = keys.filter(|key| belongs(key)).collect();
-        let mut listed: Vec<&str> = rows.iter().filter(|row| row[0] == path).map(|row| row[1]).collect();
+        let mut listed: Vec<&str> = rows.iter().filter(|row| row.section == path).map(|row| row.key).collect();
         coded.sort_unstable();
         listed.sort_unstable();
         assert_eq!(listed, coded, "[{path}]");
@@ -104,7 +88,7 @@ fn documented_defaults_are_the_coded_defaults() {
     let coded = toml::Table::try_from(scene).unwrap();
     let rows = documented();
     assert!(rows.len() > 30, "only {} keys found in the page", rows.len());
-    for [path, key, default, _] in rows {
+    for Row { section: path, key, default, .. } in rows {
         let listed = (default != "absent")
             .then(|| toml::from_str::<toml::Table>(&format!("x = {default}")).unwrap()["x"].clone());
         assert_eq!(section(&coded, path).get(key), listed.as_ref(), "{key} in [{path}]");
@@ -127,7 +111,7 @@ fn written(key: &str, default: &str, value: f64) -> String {
 #[test]
 fn documented_ranges_are_the_enforced_ranges() {
     let mut ranges = 0;
-    for [path, key, default, range] in documented() {
+    for Row { section: path, key, default, range, .. } in documented() {
         let accepts = |value| Scene::from_toml(&setting(path, key, &written(key, default, value)), key).is_ok();
         let (low, high) = match range.split_once(" ..= ") {
             Some((low, high)) => (low.parse().unwrap(), high.parse().unwrap()),

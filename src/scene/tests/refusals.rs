@@ -10,11 +10,11 @@ type Case = (&'static str, &'static str);
 fn numbers() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
     let holds_numbers =
         |default: &str| default == "absent" || default.starts_with(['[', '-']) || default.parse::<f64>().is_ok();
-    let rows = documented().into_iter().filter(move |row| holds_numbers(row[2]) && row[1] != "version");
+    let rows = documented().into_iter().filter(move |row| holds_numbers(row.default) && row.key != "version");
     // Radiances are absent unless given, and hold three numbers like all lists.
-    rows.map(|[section, key, default, _]| match key {
-        "constant" | "radiance" => (section, key, "[]"),
-        _ => (section, key, default),
+    rows.map(|row| match row.key {
+        "constant" | "radiance" => (row.section, row.key, "[]"),
+        _ => (row.section, row.key, row.default),
     })
 }
 

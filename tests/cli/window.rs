@@ -2,7 +2,6 @@
 //!
 //! Needs Xvfb, xdotool and ImageMagick's `import`. Without them the test says that it was skipped, and fails where
 //! `SOAPFILM_REQUIRE_WINDOW=1` demands it.
-#![cfg(target_os = "linux")]
 
 use std::{
     io::{BufRead, BufReader},
@@ -12,6 +11,8 @@ use std::{
 };
 
 use image::RgbImage;
+
+use crate::support::{REQUIRE_WINDOW, has_tools};
 
 /// What a software rasteriser on a busy machine may take for its first picture.
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -184,20 +185,7 @@ fn difference(region: Region, a: &RgbImage, b: &RgbImage) -> f64 {
 }
 
 fn tools_are_there() -> bool {
-    let missing: Vec<_> = ["Xvfb", "xdotool", "import"]
-        .into_iter()
-        .filter(|tool| {
-            let quiet = |command: &mut Command| command.stdout(Stdio::null()).stderr(Stdio::null()).status().is_err();
-            quiet(Command::new(tool).arg("-version"))
-        })
-        .collect();
-    if missing.is_empty() {
-        return true;
-    }
-    let demanded = std::env::var("SOAPFILM_REQUIRE_WINDOW").is_ok_and(|value| value == "1");
-    assert!(!demanded, "SOAPFILM_REQUIRE_WINDOW=1, but {} is not installed", missing.join(", "));
-    eprintln!("skipped: {} is not installed", missing.join(", "));
-    false
+    has_tools(&["Xvfb", "xdotool", "import"], REQUIRE_WINDOW)
 }
 
 /// A film on which nothing acts, so that what moves was moved by hand.
