@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::{AdapterArguments, measure, parse, progress::Progress, reference};
 use crate::{
-    gpu::{GpuError, Renderer},
+    gpu::Renderer,
     input::LoadedScene,
     output::{Metadata, Picture},
     physics::{
@@ -15,6 +15,7 @@ use crate::{
         sphere::{HaloTable, PaddedField},
     },
     plan::{Moment, Pace, Shot, Want, want},
+    studio::MAX_TICKS,
     verify::{
         self,
         reference::{MovedFilms, needs_device},
@@ -59,9 +60,6 @@ pub struct Arguments {
     #[command(flatten)]
     adapter: AdapterArguments,
 }
-
-/// Ticks that one picture may need: a day at 60 a second takes hours, more is a slip of the pen.
-pub const MAX_TICKS: u64 = 10_000_000;
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let format = Format::of(arguments)?;
@@ -109,7 +107,7 @@ impl Format {
 
 fn draw(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result<Picture> {
     let mut renderer = Renderer::new(arguments.adapter.open()?);
-    fits(&renderer, arguments.size)?;
+    renderer.gpu.check_picture_size(arguments.size)?;
     let plan = renderer.bring(want)?;
     if arguments.explain {
         print!("{plan}");
@@ -129,17 +127,6 @@ fn draw(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result<Pi
         Format::Exr => Picture::radiance_from_bt2020(arguments.size, &bytemuck::pod_collect_to_vec(&bytes)),
     };
     Ok(picture)
-}
-
-/// Refuses a picture that the adapter cannot hold before anything is made for it.
-pub fn fits(renderer: &Renderer, [width, height]: [u32; 2]) -> Result<(), GpuError> {
-    let limits = renderer.gpu.device.limits();
-    let side = limits.max_texture_dimension_2d;
-    if width.max(height) > side {
-        let limit = format!("its textures have at most {side} pixels a side");
-        return Err(GpuError::TooLarge { width, height, limit });
-    }
-    Ok(())
 }
 
 fn compute(arguments: &Arguments, want: &Want, format: Format) -> anyhow::Result<Picture> {
@@ -163,7 +150,7 @@ fn moved_films(arguments: &Arguments, want: &Want) -> anyhow::Result<MovedFilms>
         return Ok(MovedFilms::new());
     }
     let mut renderer = Renderer::new(arguments.adapter.open()?);
-    fits(&renderer, arguments.size)?;
+    renderer.gpu.check_picture_size(arguments.size)?;
     renderer.bring(want)?;
     let films = bubbles.iter().filter(|bubble| needs_device(bubble)).map(|bubble| {
         let (grid, thickness_nm) = renderer.read_film(bubble.index)?.context("the film was not moved")?;

@@ -8,17 +8,14 @@ use std::{
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 
-use super::{
-    AdapterArguments, parse,
-    progress::Progress,
-    render::{MAX_TICKS, fits},
-};
+use super::{AdapterArguments, parse, progress::Progress};
 use crate::{
     gpu::Renderer,
     input::LoadedScene,
     output::{Metadata, Picture},
     physics::colour::Gamut,
     plan::{Moment, Pace, Shot, want},
+    studio::MAX_TICKS,
 };
 
 /// Draw numbered pictures into a folder; frame N shows the film N / fps seconds after its start
@@ -90,7 +87,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
     let mut renderer = Renderer::new(arguments.adapter.open()?);
-    fits(&renderer, arguments.size)?;
+    renderer.gpu.check_picture_size(arguments.size)?;
     let progress = Progress::new("sequence", frames.clone().count());
     let mut skipped = 0;
     for frame in frames {

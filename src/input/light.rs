@@ -30,6 +30,16 @@ pub fn load_environment(
         Environment::Windows => CubeMap::from_procedural(Procedural::Windows),
         Environment::File(path) => CubeMap::from_equirect(&read_environment(&folder.join(path), notes)?),
     };
+    without_patches(light, map, folder, notes)
+}
+
+/// An environment without the light of its patches, and the lamps that these are.
+pub(super) fn without_patches(
+    light: &Light,
+    map: CubeMap,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<(Arc<CubeMap>, Vec<Lamp>), LoadError> {
     if light.patches.is_empty() {
         return Ok((Arc::new(map), Vec::new()));
     }

@@ -76,18 +76,23 @@ pub fn load_scene(name: &str) -> Result<LoadedScene, LoadError> {
             (Scene::from_toml(&text, name)?, path.parent().map(Path::to_owned).unwrap_or_default())
         }
     };
+    with_resources(scene, name, &folder)
+}
+
+/// Loads what a scene names; file paths start from a folder.
+pub(super) fn with_resources(scene: Scene, name: &str, folder: &Path) -> Result<LoadedScene, LoadError> {
     let mut notes = Vec::new();
-    let (environment, lamps) = load_environment(&scene.light, &folder, &mut notes)?;
+    let (environment, lamps) = load_environment(&scene.light, folder, &mut notes)?;
     let resources = Resources {
         environment,
-        illuminant: Arc::new(load_illuminant(&scene.light.illuminant, &folder, &mut notes)?),
+        illuminant: Arc::new(load_illuminant(&scene.light.illuminant, folder, &mut notes)?),
         lamps,
-        liquids: load_liquids(&scene, &folder, &mut notes)?,
+        liquids: load_liquids(&scene, folder, &mut notes)?,
     };
     // Several lamps or films may come from one file.
     let mut told = BTreeSet::new();
     notes.retain(|note| told.insert(note.clone()));
-    Ok(LoadedScene { scene, name: name.to_owned(), folder, resources, notes })
+    Ok(LoadedScene { scene, name: name.to_owned(), folder: folder.to_owned(), resources, notes })
 }
 
 /// A liquid by its name or index, or from the `.csv` file of that path. What a user should know of how it was read is added to `notes`.

@@ -14,6 +14,6 @@ pub use atomic::write_atomically;
 pub use error::OutputError;
 pub use exr::{ExrPicture, ExrPrimaries};
 pub use metadata::Metadata;
-pub use picture::{Picture, write_text};
+pub use picture::{Picture, bt709_from_bt2020, save_display, save_radiance, write_text};
 pub use png::PngPicture;
 pub use table::CsvWriter;

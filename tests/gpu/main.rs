@@ -17,5 +17,6 @@ mod optics;
 mod passes;
 mod pictures;
 mod shaders;
+mod studio;
 mod transport;
 mod zoom;
