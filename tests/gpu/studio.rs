@@ -47,9 +47,11 @@ fn films_keep_their_liquid_wherever_the_camera_looks() {
     let away = scene(|scene| scene.camera.target_m = [0.0, 50.0, 0.0]);
     let film = studio.film(&loaded, 0, 0.2).unwrap();
     assert_eq!(film.len(), 6 * 32 * 32);
-    let thickness_nm = loaded.scene.bubbles[0].film.thickness_nm;
     // The film is kept as f32, and its liquid within 1e-7.
-    assert!((mean_nm(&film) / thickness_nm - 1.0).abs() < 1e-5, "{} of {thickness_nm} nm", mean_nm(&film));
+    let [before, after] = [&studio.film(&loaded, 0, 0.0).unwrap(), &film].map(|film| mean_nm(film));
+    assert!((after / before - 1.0).abs() < 1e-6, "{before} nm at first, {after} nm later");
+    // That of one seed differs from the scene's mean by some percent.
+    assert!((before / loaded.scene.bubbles[0].film.thickness_nm - 1.0).abs() < 0.1, "{before} nm");
     let (thin, thick) = film
         .iter()
         .fold((f64::MAX, 0.0_f64), |(thin, thick), cell| (thin.min(cell.thickness_nm), thick.max(cell.thickness_nm)));
