@@ -1,5 +1,14 @@
 //! Soap bubbles with correct thin-film interference, on wgpu.
 //!
+//! A picture takes three lines; [`studio`] does it, and also reads films and tells colours:
+//!
+//! ```no_run
+//! let scene = soapfilm::load_scene("windows")?;
+//! let mut studio = soapfilm::Studio::open()?;
+//! studio.render(&scene, [1280, 720], 5.0)?.save("bubble.png")?;
+//! # Ok::<(), soapfilm::Error>(())
+//! ```
+//!
 //! The colours of the film come from spectral optics, the film flows, and the two are one field: the thickness that the simulation
 //! moves is the thickness that the shader colours.
 //!
@@ -10,6 +19,7 @@
 //! | module | question it answers | knows nothing of |
 //! |---|---|---|
 //! | [`cli`], [`app`] | who asks: the command line, and the window | each other |
+//! | [`studio`] | the library's front door: a picture, a film or a colour in a few lines | the command line, windows |
 //! | [`output`], [`input`] | files: pictures, tables and reports out; environments and spectra in | windows, GPUs |
 //! | [`verify`] | whether it is right: measurements against references | windows, files |
 //! | [`gpu`] | HOW: one module for each pass, named like its shader, and the executor that walks a plan | windows, files |
@@ -34,4 +44,15 @@ pub mod physics;
 pub mod plan;
 pub mod scene;
 #[cfg(not(target_arch = "wasm32"))]
+pub mod studio;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod verify;
+
+pub use glam;
+pub use gpu::AdapterChoice;
+#[cfg(not(target_arch = "wasm32"))]
+pub use input::{LoadedScene, load_scene};
+pub use physics::environment::CubeMap;
+pub use scene::Scene;
+#[cfg(not(target_arch = "wasm32"))]
+pub use studio::{Colour, Error, FilmCell, Picture, Radiance, Studio, colour};

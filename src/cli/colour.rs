@@ -54,8 +54,7 @@ pub struct Arguments {
     /// Thickness in nm of the layer of soap molecules on each face
     #[arg(long, value_name = "NM", default_value = "0", allow_negative_numbers = true, value_parser = parse::skin_nm)]
     skin: f64,
-    /// The light: D65, D50, A, E, FL2, FL11, LED, sodium, a black body like `3000 K`, or a CSV file of wavelengths and powers
-    #[arg(long, value_name = "LIGHT", default_value = "D65")]
+    #[arg(long, value_name = "LIGHT", default_value = "D65", help = parse::illuminant_help())]
     illuminant: String,
     /// `fast`, `standard`, `spectral` (as pictures of that quality have it) or `reference` (f64 on the CPU, no GPU needed)
     #[arg(long, value_name = "QUALITY", default_value = "standard", value_parser = parse::quality)]

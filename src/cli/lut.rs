@@ -31,8 +31,7 @@ pub struct Arguments {
     /// Thickness in nm of the layer of soap molecules on each face
     #[arg(long, value_name = "NM", default_value = "0", value_parser = parse::skin_nm)]
     skin: f64,
-    /// The light: a name, a black body like `3000 K`, or a CSV file of wavelength_nm,power
-    #[arg(long, value_name = "LIGHT", default_value = "D65")]
+    #[arg(long, value_name = "LIGHT", default_value = "D65", help = parse::illuminant_help())]
     illuminant: String,
     /// Thickness at the last row for normal incidence, in nm
     #[arg(long, value_name = "NM", default_value = "1500", value_parser = parse::range_nm)]

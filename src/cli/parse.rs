@@ -2,7 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use crate::{physics::colour::Gamut, scene};
+use crate::{
+    physics::colour::{BuiltIn, Gamut},
+    scene,
+};
 
 /// Pixels of the largest picture: what a card of 4 GB can hold at full precision.
 const MAX_PIXELS: u64 = 1 << 26;
@@ -114,6 +117,12 @@ pub fn quality(text: &str) -> Result<Quality, String> {
     named
         .or((text == "reference").then_some(Quality::Reference))
         .ok_or_else(|| "use `fast`, `standard`, `spectral` or `reference`".to_owned())
+}
+
+/// What `--illuminant` takes.
+pub fn illuminant_help() -> String {
+    let names = BuiltIn::names();
+    format!("The light: {names}, a black body like `3000 K`, or a CSV file of wavelengths and powers")
 }
 
 /// `srgb` or `p3`.

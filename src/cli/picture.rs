@@ -19,6 +19,7 @@ use crate::{
         sphere::{HaloTable, PaddedField},
     },
     plan::{Moment, Pace, Plan, Shot, Want, has_one_film, plan},
+    studio::MAX_TICKS,
     verify::reference::{MovedFilms, needs_device, radiance},
 };
 
@@ -70,9 +71,6 @@ impl Format {
         known.with_context(|| format!("{}: write to a file that ends in .png or .exr", path.display()))
     }
 }
-
-/// Ticks that one picture may need: a day at 60 per second takes hours, more is a typing mistake.
-const MAX_TICKS: u64 = 10_000_000;
 
 /// Draws pictures of one scene.
 pub struct Painter<'a> {
@@ -140,7 +138,7 @@ impl<'a> Painter<'a> {
     pub fn renderer(&mut self) -> anyhow::Result<&mut Renderer> {
         if self.renderer.is_none() {
             let renderer = Renderer::new(self.arguments.adapter.open()?);
-            fits(&renderer, self.arguments.size)?;
+            renderer.gpu.check_picture_size(self.arguments.size)?;
             self.renderer = Some(renderer);
         }
         self.renderer.as_mut().context("no adapter was opened")
@@ -205,17 +203,6 @@ fn carry_out(renderer: &mut Renderer, want: &Want, progress: &Progress) -> Resul
     let done = renderer.execute(&plan);
     renderer.watcher = None;
     done.map(|()| plan)
-}
-
-/// Refuses a picture that the adapter cannot hold before anything is made for it.
-fn fits(renderer: &Renderer, [width, height]: [u32; 2]) -> Result<(), GpuError> {
-    let limits = renderer.gpu.device.limits();
-    let side = limits.max_texture_dimension_2d;
-    if width.max(height) > side {
-        let limit = format!("its textures have at most {side} pixels a side");
-        return Err(GpuError::TooLarge { width, height, limit });
-    }
-    Ok(())
 }
 
 #[cfg(test)]

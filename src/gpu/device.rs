@@ -190,6 +190,19 @@ impl Gpu {
         format!("{} {}", info.driver, info.driver_info).trim().to_owned()
     }
 
+    /// Refuses a picture that the adapter cannot hold before anything is made for it.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`] for one with a side that is too long.
+    pub fn check_picture_size(&self, [width, height]: [u32; 2]) -> Result<(), GpuError> {
+        let side = self.device.limits().max_texture_dimension_2d;
+        if width.max(height) > side {
+            let limit = format!("its textures have at most {side} pixels a side");
+            return Err(GpuError::TooLarge { width, height, limit });
+        }
+        Ok(())
+    }
+
     /// Whether passes can be timed on the GPU.
     #[must_use]
     pub fn can_time(&self) -> bool {

@@ -81,7 +81,7 @@ pub const SOURCES: &[(&str, &str)] = sources![
 ];
 
 /// A shader that cannot be used.
-#[derive(Clone, Debug, thiserror::Error, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("shader {place}: {message}")]
 pub struct ShaderError {
     /// File and line, like `optics/airy.wgsl:12`.

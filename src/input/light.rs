@@ -33,6 +33,16 @@ pub fn load_environment(
             CubeMap::from_equirect(&picture.map_err(|error| Fault::unusable("environment", error).inside("light"))?)
         }
     };
+    without_patches(light, map, folder, notes)
+}
+
+/// An environment without the light of its patches, and the lamps that these are.
+pub(super) fn without_patches(
+    light: &Light,
+    map: CubeMap,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<(Arc<CubeMap>, Vec<Lamp>), LoadError> {
     if light.patches.is_empty() {
         return Ok((Arc::new(map), Vec::new()));
     }

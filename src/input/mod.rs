@@ -5,6 +5,7 @@ mod environment;
 mod error;
 mod exr;
 mod light;
+mod own;
 mod panic_guard;
 mod radiance;
 mod scene;

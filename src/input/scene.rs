@@ -105,6 +105,16 @@ pub fn load_scene_with(name: impl AsRef<Path>, settings: &[Setting]) -> Result<L
         }
     };
     let scene = source.read()?;
+    with_resources(scene, source, name, folder)
+}
+
+/// Loads what a scene names; file paths start from a folder. `source` is what the scene was read from.
+pub(super) fn with_resources(
+    scene: Scene,
+    source: SceneSource,
+    name: String,
+    folder: PathBuf,
+) -> Result<LoadedScene, LoadError> {
     let mut notes = Vec::new();
     let resources = load_resources(&scene, &folder, &mut notes).map_err(|error| match error {
         LoadError::Key(fault) => source.locate(fault).into(),

@@ -21,7 +21,7 @@ pub use exr::{ExrPicture, ExrPrimaries};
 pub use film_table::{FilmTableFile, TABLE_LAYERS, TableFormat, TablePrecision};
 pub use frame_rate::{FrameRate, FrameRateError};
 pub use metadata::Metadata;
-pub use picture::{Picture, write_text};
+pub use picture::{Picture, bt709_from_bt2020, save_display, save_radiance, write_text};
 pub use png::PngPicture;
 pub use signals::watch_signals;
 pub use stream::{StreamError, print, tell};

@@ -32,10 +32,7 @@ impl Picture {
     /// Scene radiance from linear BT.2020 with a fourth number that means nothing.
     #[must_use]
     pub fn radiance_from_bt2020(size: [u32; 2], rgba: &[[f32; 4]]) -> Self {
-        let matrix = bt2020_to_bt709();
-        let rgb =
-            rgba.iter().map(|[r, g, b, _]| (matrix * Vec3::new(*r, *g, *b).as_dvec3()).as_vec3().to_array()).collect();
-        Self::Radiance { size, rgb }
+        Self::Radiance { size, rgb: bt709_from_bt2020(rgba) }
     }
 
     /// Writes a PNG of what a display shows, or an EXR of radiance.
@@ -44,22 +41,53 @@ impl Picture {
     /// Those of [`write_atomically`].
     pub fn save(&self, path: &Path, metadata: &Metadata) -> Result<(), OutputError> {
         match self {
-            Self::Display { size: [width, height], gamut, rgba } => {
-                PngPicture { width: *width, height: *height, rgba, gamut: *gamut, metadata }.save(path)
-            }
-            Self::Radiance { size: [width, height], rgb } => {
-                let picture = ExrPicture {
-                    width: *width as usize,
-                    height: *height as usize,
-                    channels: ["R", "G", "B"],
-                    pixels: rgb,
-                    primaries: Some(ExrPrimaries::Bt709),
-                    metadata,
-                };
-                picture.save(path)
-            }
+            Self::Display { size, gamut, rgba } => save_display(path, *size, *gamut, rgba, metadata),
+            Self::Radiance { size, rgb } => save_radiance(path, *size, rgb, metadata),
         }
     }
+}
+
+/// Linear BT.709 of pixels in linear BT.2020 with a fourth number that means nothing.
+#[must_use]
+pub fn bt709_from_bt2020(rgba: &[[f32; 4]]) -> Vec<[f32; 3]> {
+    let matrix = bt2020_to_bt709();
+    let pixel = |[r, g, b, _]: &[f32; 4]| (matrix * Vec3::new(*r, *g, *b).as_dvec3()).as_vec3().to_array();
+    rgba.iter().map(pixel).collect()
+}
+
+/// Writes a PNG of what a display shows: 4 · width · height bytes.
+///
+/// # Errors
+/// Those of [`write_atomically`].
+pub fn save_display(
+    path: &Path,
+    [width, height]: [u32; 2],
+    gamut: Gamut,
+    rgba: &[u8],
+    metadata: &Metadata,
+) -> Result<(), OutputError> {
+    PngPicture { width, height, rgba, gamut, metadata }.save(path)
+}
+
+/// Writes an EXR of scene radiance in linear BT.709: width · height pixels.
+///
+/// # Errors
+/// Those of [`write_atomically`].
+pub fn save_radiance(
+    path: &Path,
+    [width, height]: [u32; 2],
+    rgb: &[[f32; 3]],
+    metadata: &Metadata,
+) -> Result<(), OutputError> {
+    let picture = ExrPicture {
+        width: width as usize,
+        height: height as usize,
+        channels: ["R", "G", "B"],
+        pixels: rgb,
+        primaries: Some(ExrPrimaries::Bt709),
+        metadata,
+    };
+    picture.save(path)
 }
 
 /// Writes a text file, whole or not at all.

@@ -66,7 +66,7 @@ fn radiance_in(
         size: key.size,
         camera: camera(&key.camera),
         optics: &optics,
-        spheres: key.bubbles.iter().map(|bubble| sphere(bubble, key.on_bath, films)).collect::<Result<_, _>>()?,
+        spheres: key.bubbles.iter().map(|bubble| film_sphere(bubble, key.on_bath, films)).collect::<Result<_, _>>()?,
         surroundings: &surroundings,
         backdrop: match light.backdrop {
             BackdropKey::Environment => None,
@@ -100,18 +100,24 @@ fn turned(light: &LightKey, direction: DVec3) -> DVec3 {
     DVec3::new(cos * direction.x + sin * direction.y, cos * direction.y - sin * direction.x, direction.z)
 }
 
-fn sphere<'a>(key: &BubbleKey, on_bath: bool, films: &'a MovedFilms) -> Result<FilmSphere<'a>, ReferenceError> {
-    let field: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match &key.film {
-        FilmKey::Field(_) if needs_device(key) => {
-            let film = films.get(&key.index).ok_or(ReferenceError::NotMoved(key.index))?;
-            // As pictures of the device interpolate what it shows.
-            Box::new(|direction| film.bilinear(direction))
-        }
-        FilmKey::Uniform(thickness_nm) => {
+/// A bubble as pictures see it: its film thinned by evaporation, with its hole, and with nothing beyond its rim.
+///
+/// # Errors
+/// A film's grid that is too coarse or too fine, or one that [`needs_device`] and is not there.
+pub fn film_sphere<'a>(
+    key: &BubbleKey,
+    on_bath: bool,
+    films: &'a MovedFilms,
+) -> Result<FilmSphere<'a>, ReferenceError> {
+    let field: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match (&key.film, films.get(&key.index)) {
+        // As pictures of the device interpolate what it shows.
+        (FilmKey::Field(_), Some(film)) => Box::new(|direction| film.bilinear(direction)),
+        (FilmKey::Field(_), None) if needs_device(key) => return Err(ReferenceError::NotMoved(key.index)),
+        (FilmKey::Uniform(thickness_nm), _) => {
             let thickness_nm = *thickness_nm;
             Box::new(move |_| thickness_nm)
         }
-        FilmKey::Field(field) => {
+        (FilmKey::Field(field), None) => {
             let film = film(field)?;
             Box::new(move |direction| film.value(direction))
         }

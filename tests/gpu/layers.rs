@@ -11,8 +11,9 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("verify", &["gpu", "plan", "scene", "physics"]),
     ("input", &["plan", "scene", "physics"]),
     ("output", &["plan", "scene", "physics"]),
-    ("cli", &["output", "input", "verify", "gpu", "plan", "scene", "physics"]),
-    ("app", &["output", "input", "gpu", "plan", "scene", "physics"]),
+    ("studio", &["output", "input", "verify", "gpu", "plan", "scene", "physics"]),
+    ("cli", &["studio", "output", "input", "verify", "gpu", "plan", "scene", "physics"]),
+    ("app", &["studio", "output", "input", "gpu", "plan", "scene", "physics"]),
 ];
 
 /// The top modules that a text names by `crate::…`, with their lines from 1; comments do not count.

@@ -18,5 +18,6 @@ mod optics;
 mod passes;
 mod pictures;
 mod shaders;
+mod studio;
 mod transport;
 mod zoom;

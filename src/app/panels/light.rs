@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     app::model::{Model, Request, Target},
-    physics::colour::Illuminant,
+    physics::colour::{BUILT_IN, BuiltIn},
     scene::{Environment, Light},
 };
 
@@ -69,27 +69,15 @@ fn environment(ui: &mut Ui, model: &mut Model) {
     model.requests.extend(wanted.map(Request::LoadLight));
 }
 
-/// What the illuminants of [`Illuminant::NAMES`] are.
-const ILLUMINANTS: [&str; 8] = [
-    "Daylight, 6500 K",
-    "Daylight at the horizon, 5000 K",
-    "Incandescent lamp, 2856 K",
-    "Equal power at every wavelength",
-    "Fluorescent lamp, broad bands",
-    "Fluorescent lamp, three narrow bands",
-    "White LED: a blue one and a phosphor",
-    "Sodium street lamp: two yellow lines",
-];
-
 fn illuminant(ui: &mut Ui, model: &mut Model) {
     let light = &model.scene.light;
     let mut chosen: Option<&str> = None;
     row(ui, "Illuminant", "The spectrum that white light has", |ui| {
         let list = egui::ComboBox::from_id_salt("illuminant").selected_text(light.illuminant.as_str());
         list.show_ui(ui, |ui| {
-            for (name, help) in Illuminant::NAMES.iter().zip(ILLUMINANTS) {
+            for BuiltIn { name, help, .. } in BUILT_IN {
                 let is = light.illuminant.eq_ignore_ascii_case(name);
-                if ui.selectable_label(is, *name).on_hover_text(help).clicked() && !is {
+                if ui.selectable_label(is, *name).on_hover_text(*help).clicked() && !is {
                     chosen = Some(name);
                 }
             }

@@ -4,18 +4,8 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use super::Observer;
+use super::{BUILT_IN, BuiltIn, Observer};
 use crate::physics::spectra::{FIRST_NM, SAMPLES, Spectrum, SpectrumError, wavelength_nm};
-
-const D65: &str = include_str!("../../../assets/spectra/illuminant_d65.csv");
-const D50: &str = include_str!("../../../assets/spectra/illuminant_d50.csv");
-const A: &str = include_str!("../../../assets/spectra/illuminant_a.csv");
-const FL2: &str = include_str!("../../../assets/spectra/illuminant_fl2.csv");
-const FL11: &str = include_str!("../../../assets/spectra/illuminant_fl11.csv");
-const LED: &str = include_str!("../../../assets/spectra/illuminant_led_b3.csv");
-
-/// The sodium doublet D₂, D₁ in air, nm, and relative powers of a thin vapour lamp (NIST Atomic Spectra Database).
-const SODIUM: [Line; 2] = [Line { wavelength_nm: 588.995, power: 2.0 }, Line { wavelength_nm: 589.592, power: 1.0 }];
 
 /// Second radiation constant hc/k, nm K (CODATA 2018).
 const SECOND_RADIATION_NM_K: f64 = 1.438_776_877e7;
@@ -31,7 +21,7 @@ const LEAST_SEEN: f64 = 2e-5;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum UnknownIlluminant {
     /// No light of that name.
-    #[error("unknown illuminant `{0}`; known are {known}, a black body like `3000 K`, or a file like `lamp.csv`", known = Illuminant::NAMES.join(", "))]
+    #[error("unknown illuminant `{0}`; known are {known}, a black body like `3000 K`, or a file like `lamp.csv`", known = BuiltIn::names())]
     Name(String),
     /// A black body too cold or too hot.
     #[error("a black body of {0} K is no lamp here; name one from 800 K to 100000 K")]
@@ -51,17 +41,12 @@ pub struct Line {
 /// out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Illuminant {
-    name: String,
-    spectrum: Spectrum,
-    lines: Vec<Line>,
+    pub(super) name: String,
+    pub(super) spectrum: Spectrum,
+    pub(super) lines: Vec<Line>,
 }
 
 impl Illuminant {
-    /// Names of the built-in illuminants, which [`FromStr`] takes in any case: CIE daylights D65 and D50, CIE A (tungsten, 2856 K), E (equal
-    /// power at every wavelength), the CIE fluorescent lamps FL2 (broad) and FL11 (three bands), the CIE white LED B3, and sodium vapour
-    /// (its two lines alone).
-    pub const NAMES: [&str; 8] = ["D65", "D50", "A", "E", "FL2", "FL11", "LED", "sodium"];
-
     /// A light source of one's own; refuses a spectrum without power in the visible range, or with none that is seen.
     pub fn new(name: impl Into<String>, spectrum: Spectrum) -> Result<Self, SpectrumError> {
         let name = name.into();
@@ -124,41 +109,26 @@ impl Illuminant {
         let lines = continuous.chain(self.lines.iter().copied()).collect();
         Self { name: self.name.clone(), spectrum: Spectrum::constant(0.0), lines }
     }
-
-    fn built_in(name: &str, text: &str) -> Self {
-        // The text is part of the program, and a test below parses every built-in.
-        let light = Self::from_csv(name, text, &mut Vec::new()).expect("built-in illuminants are valid");
-        Self { name: name.into(), ..light }
-    }
 }
 
 impl Default for Illuminant {
     /// D65, the white of the RGB spaces in use here.
     fn default() -> Self {
-        Self::built_in("D65", D65)
+        BUILT_IN[0].illuminant()
     }
 }
 
 impl FromStr for Illuminant {
     type Err = UnknownIlluminant;
 
-    /// One of [`Illuminant::NAMES`], or a temperature like `3000 K`.
+    /// A name of [`BUILT_IN`] in any case, or a temperature like `3000 K`.
     fn from_str(name: &str) -> Result<Self, Self::Err> {
         let upper = name.trim().to_ascii_uppercase();
         if let Some(temperature) = upper.strip_suffix('K').and_then(|number| number.trim().parse().ok()) {
             return Self::black_body(temperature);
         }
-        match upper.as_str() {
-            "D65" => Ok(Self::default()),
-            "D50" => Ok(Self::built_in("D50", D50)),
-            "A" => Ok(Self::built_in("A", A)),
-            "E" => Ok(Self { name: "E".into(), spectrum: Spectrum::constant(1.0), lines: Vec::new() }),
-            "FL2" => Ok(Self::built_in("FL2", FL2)),
-            "FL11" => Ok(Self::built_in("FL11", FL11)),
-            "LED" => Ok(Self::built_in("LED", LED)),
-            "SODIUM" => Ok(Self { name: "sodium".into(), spectrum: Spectrum::constant(0.0), lines: SODIUM.to_vec() }),
-            _ => Err(UnknownIlluminant::Name(name.into())),
-        }
+        let known = BuiltIn::named(name.trim()).ok_or_else(|| UnknownIlluminant::Name(name.into()))?;
+        Ok(known.illuminant())
     }
 }
 
@@ -168,13 +138,6 @@ mod tests {
 
     fn light(name: &str) -> Illuminant {
         name.parse().expect("built in")
-    }
-
-    #[test]
-    fn every_name_is_known_in_any_case() {
-        for name in Illuminant::NAMES {
-            assert_eq!(light(&name.to_lowercase()).name(), name);
-        }
     }
 
     #[test]
@@ -200,13 +163,6 @@ mod tests {
         assert_eq!(light("2856 k").name(), "2856 K");
         assert_eq!("500 K".parse::<Illuminant>(), Err(UnknownIlluminant::Temperature(500.0)));
         assert!(matches!("nan K".parse::<Illuminant>(), Err(UnknownIlluminant::Temperature(_))));
-    }
-
-    #[test]
-    fn only_sodium_is_monochromatic() {
-        for name in Illuminant::NAMES {
-            assert_eq!(light(name).is_monochromatic(), name == "sodium");
-        }
     }
 
     #[test]

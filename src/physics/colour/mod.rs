@@ -6,6 +6,7 @@
 
 mod adaptation;
 mod bands;
+mod built_in;
 mod cie;
 mod delta_e;
 mod display;
@@ -21,6 +22,7 @@ mod reference_tests;
 
 pub use adaptation::{adapted_to_d50, daylight_scale, seen_light, white_balance};
 pub use bands::{Band, BandTask, fit_bands, responses};
+pub use built_in::{BUILT_IN, BuiltIn};
 pub use cie::{ColourWeights, Observer};
 pub use delta_e::{Lab, ciede2000, xyz_to_lab};
 pub use display::{Display, Gamut};

@@ -1,0 +1,83 @@
+//! The film of a bubble as numbers.
+
+use glam::DVec3;
+
+use super::{Error, Studio, moment, shot};
+use crate::{
+    input::LoadedScene,
+    physics::sphere::{CubedSphere, HaloTable, PaddedField},
+    plan::{BubbleKey, FilmKey, centre_path, film_grids, settle_detail},
+    scene::{Camera, Scene},
+    verify::reference::{MovedFilms, ReferenceError, film_sphere},
+};
+
+/// One cell of a film.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmCell {
+    /// Unit vector from the bubble's centre to the cell's middle, in the world's axes: +z is up.
+    pub direction: DVec3,
+    /// The cell's solid angle in steradians; those of all cells add up to 4π.
+    pub solid_angle_sr: f64,
+    /// Thickness along the normal, nm; 0 where there is no film: in a hole, below a ring or a bath.
+    pub thickness_nm: f64,
+}
+
+/// Width and height in pixels of the picture that brings a film: small, for only the film is read.
+const SIZE: [u32; 2] = [64, 64];
+
+/// Reads a bubble's film at a time in seconds.
+pub(super) fn read(
+    studio: &mut Studio,
+    loaded: &LoadedScene,
+    bubble: usize,
+    time_s: f64,
+) -> Result<Vec<FilmCell>, Error> {
+    let count = loaded.scene.bubbles.len();
+    if bubble >= count {
+        return Err(Error::NoBubble { index: bubble, count });
+    }
+    let moment = moment(&loaded.scene, time_s)?;
+    let mut close_up = loaded.clone();
+    look_at(&mut close_up.scene, bubble, time_s);
+    let mut want = shot(&close_up, SIZE, moment, false)?;
+    want.picture.draw.bubbles.retain(|key| key.index == bubble);
+    let key = want.picture.draw.bubbles.first().cloned().ok_or(Error::NoFilm { bubble, time_s })?;
+    studio.renderer.bring(&want)?;
+    let grid_of_scene = film_grids(&close_up.scene, bubble)[0] as usize;
+    let (grid, films) = moved(studio, &key, grid_of_scene)?;
+    cells(&key, grid, &films)
+}
+
+/// Turns the camera to a bubble. How fine its film is stays as the scene's own camera has it.
+fn look_at(scene: &mut Scene, bubble: usize, time_s: f64) {
+    settle_detail(scene);
+    let target = &scene.bubbles[bubble];
+    let centre_m = centre_path(scene, bubble, target).at(time_s).place_m;
+    let distance_m = 4.0 * 1e-3 * target.radius_mm;
+    // From above, where a camera is never below a bath.
+    scene.camera = Camera { target_m: centre_m.into(), distance_m, elevation_deg: 45.0, ..Camera::default() };
+}
+
+/// The grid of a film, and the thickness that the device has for it; a film of one thickness has neither there and takes the scene's grid.
+fn moved(studio: &Studio, key: &BubbleKey, grid_of_scene: usize) -> Result<(CubedSphere, MovedFilms), Error> {
+    if let FilmKey::Uniform(_) = key.film {
+        return Ok((CubedSphere::new(grid_of_scene).map_err(ReferenceError::from)?, MovedFilms::new()));
+    }
+    let read = studio.renderer.read_film(key.index)?;
+    let (grid, thickness_nm) = read.ok_or(Error::NothingDrawn)?;
+    let cells: Vec<f32> = bytemuck::pod_collect_to_vec(&studio.wait(Some(thickness_nm))?);
+    let field = PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| f64::from(cells[cell]));
+    Ok((grid, MovedFilms::from([(key.index, field)])))
+}
+
+/// The film as pictures see it: thinned by evaporation, with its hole, and with nothing beyond its rim.
+fn cells(key: &BubbleKey, grid: CubedSphere, films: &MovedFilms) -> Result<Vec<FilmCell>, Error> {
+    // A bath shows the image of the film below its rim; there is no film.
+    let sphere = film_sphere(key, false, films)?;
+    let to_world = key.to_film.transpose();
+    let cell = |(index, solid_angle_sr): (usize, f64)| {
+        let direction = to_world * grid.cell_direction(index);
+        FilmCell { direction, solid_angle_sr, thickness_nm: (sphere.thickness_nm)(direction) }
+    };
+    Ok(grid.areas().into_iter().enumerate().map(cell).collect())
+}
