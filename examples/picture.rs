@@ -8,7 +8,7 @@ use soapfilm::{Error, Studio, load_scene};
 
 fn main() -> Result<(), Error> {
     let mut arguments = std::env::args().skip(1);
-    let scene = load_scene(&arguments.next().unwrap_or_else(|| "windows".to_owned()))?;
+    let scene = load_scene(arguments.next().unwrap_or_else(|| "windows".to_owned()))?;
     let file = arguments.next().map_or_else(|| std::env::temp_dir().join("bubble.png"), PathBuf::from);
 
     // The adapter is opened once and draws as many pictures as you like.
