@@ -21,8 +21,8 @@ pub use detail::{film_grids, settle_detail};
 pub use films::{centre_path, film_key, film_turn};
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmEnd, FilmKey,
-    FlowLaw, FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, RestingFilm,
-    TableKey, TonemapKey, left_nm, range_nm,
+    FlowLaw, FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, OpticsKey,
+    PushKey, RestingFilm, TableKey, TonemapKey, left_nm, range_nm,
 };
 pub use want::{Lamp, Resources, Shot, WantError, want};
 

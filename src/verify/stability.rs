@@ -81,14 +81,7 @@ fn fields(run: &mut Run<'_>) -> Result<(), GpuError> {
         let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
         stress(
             run,
-            &Stress {
-                name: format!("field {name}"),
-                cells: 24,
-                initial: *initial,
-                steps,
-                step: &step,
-                planted: None,
-            },
+            &Stress { name: format!("field {name}"), cells: 24, initial: *initial, steps, step: &step, planted: None },
         )?;
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use soapfilm::verify::{Part, reference};
 
-use crate::support::{hold, load, mean_and_max, radiance, renderer, still};
+use crate::support::{hold, load, mean_and_max, radiance, renderer, short_or_long, still};
 
 #[test]
 fn films_that_end_keep_to_theory() {
@@ -35,7 +35,9 @@ fn a_bath_looks_as_its_f64_twin_does() {
     for preset in ["bath", "ring"] {
         let mut loaded = load(preset);
         loaded.scene.bubbles[0].film.state = soapfilm::scene::FilmStateName::Rest;
-        let want = still(&loaded, [64, 36], 0.0);
+        let mut want = still(&loaded, [64, 36], 0.0);
+        // Fewer samples than pictures of this size have, the same for both.
+        want.picture.draw.bubbles[0].samples = short_or_long(3, 8);
         let found = radiance(&mut renderer, &want);
         let truth = reference::radiance(&want.picture.draw, &Default::default(), &|| ()).unwrap();
         let brightest = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);

@@ -11,7 +11,7 @@ use soapfilm::{
     scene::{Change, Event, FilmStateName, Prick},
 };
 
-use crate::support::{load, radiance, renderer, still};
+use crate::support::{load, radiance, renderer, short_or_long, still};
 
 const SIZE: [u32; 2] = [64, 36];
 const CELLS: u32 = 64;
@@ -63,7 +63,8 @@ fn what_collapses_to_black_film_is_not_lost() {
 fn black_film_ends_at_a_level_border_as_sharp_as_cells() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = thin(70.0);
-    (loaded.scene.bubbles[0].film.cells, loaded.scene.motion.strength) = (256, 0.0);
+    let cells = short_or_long(128, 256);
+    (loaded.scene.bubbles[0].film.cells, loaded.scene.motion.strength) = (cells, 0.0);
     let (grid, values, _) = shown(&mut renderer, &still(&loaded, SIZE, 2.0));
     let heights = |is_part: &dyn Fn(f64) -> bool| {
         let cells = values.iter().enumerate().filter(|(_, nm)| is_part(**nm));
@@ -87,6 +88,7 @@ fn black_film_ends_at_a_level_border_as_sharp_as_cells() {
 fn black_film_grows_as_the_film_evaporates_and_then_evaporates_no_more() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = thin(150.0);
+    loaded.scene.bubbles[0].film.cells = short_or_long(32, CELLS);
     loaded.scene.motion.evaporation_nm_s = 40.0;
     let mut black = vec![0.0];
     for time_s in [1.0, 2.0, 3.0, 4.0, 9.0] {

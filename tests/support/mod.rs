@@ -81,7 +81,10 @@ pub fn hold(part: Part, at_least: usize) {
     let mut since = ProcessTime::now();
     let mut report = |check: Check| {
         let Check { name, measured, limit } = &check;
-        eprintln!("measured: {name}: {measured:.4e} (limit {limit:.4e}), after {:.1} s of CPU", since.elapsed().as_secs_f64());
+        eprintln!(
+            "measured: {name}: {measured:.4e} (limit {limit:.4e}), after {:.1} s of CPU",
+            since.elapsed().as_secs_f64()
+        );
         checks.push(check);
         since = ProcessTime::now();
     };

@@ -12,14 +12,17 @@ use crate::support::page::documented;
 
 /// Items of each list of a scene, at most.
 const MAX_ITEMS: usize = 2;
-/// Keys that decide which pipelines draw a scene. A software driver compiles each of those for a second.
-const OF_PIPELINES: [&str; 14] = [
+/// Cells along an edge of a film at most: random patches take a while on grids as fine as scenes may have, which are tested elsewhere.
+const MAX_CELLS: u32 = 24;
+/// Keys that decide which pipelines and tables draw a scene, for each of which a software driver works for a second.
+const OF_PIPELINES: [&str; 15] = [
     "boundary",
     "state",
     "cells",
     "detail",
     "thickness_nm",
     "index",
+    "skin_nm",
     "fov_y_deg",
     "illuminant",
     "constant",
@@ -47,17 +50,18 @@ pub struct Frame {
 
 /// Random frames.
 pub fn frames() -> impl Strategy<Value = Frame> {
-    let kinds: Vec<_> = documented().iter().map(|row| row.section).filter(|section| section.starts_with("kind")).collect();
+    let kinds: Vec<_> =
+        documented().iter().map(|row| row.section).filter(|section| section.starts_with("kind")).collect();
     let bubbles = prop_oneof![6 => Just(1), 1 => Just(0), 1 => Just(MAX_ITEMS)];
     let events = prop::collection::vec(prop::sample::select(kinds), 0..=MAX_ITEMS);
+    let patches = prop_oneof![4 => Just(0), 1 => 1..=MAX_ITEMS];
     let radii = prop_oneof![
         5 => Just(Some(4.8)),
         2 => prop::sample::select(vec![0.0, 0.5, 1.0, 1.02, 2.0, 100.0]).prop_map(Some),
         1 => Just(None)
     ];
-    (settings(|key| OF_PIPELINES.contains(&key)), bubbles, 0..=MAX_ITEMS, events, radii).prop_map(
-        |(settings, bubbles, patches, events, radii)| Frame { settings, bubbles, patches, events, radii },
-    )
+    (settings(|key| OF_PIPELINES.contains(&key)), bubbles, patches, events, radii)
+        .prop_map(|(settings, bubbles, patches, events, radii)| Frame { settings, bubbles, patches, events, radii })
 }
 
 /// Random valid scenes in a frame.
@@ -69,8 +73,7 @@ pub fn scenes(frame: Frame) -> impl Strategy<Value = Scene> {
 fn settings(takes: fn(&str) -> bool) -> impl Strategy<Value = Settings> {
     let rows = documented().into_iter().filter(|row| takes(row.key) && !["version", "kind"].contains(&row.key));
     let places = rows.flat_map(|row| (0..MAX_ITEMS).map(move |item| (row, item)));
-    let (keys, values): (Vec<_>, Vec<_>) =
-        places.map(|(row, item)| ((row.section, item, row.key), value(row))).unzip();
+    let (keys, values): (Vec<_>, Vec<_>) = places.map(|(row, item)| ((row.section, item, row.key), value(row))).unzip();
     values.prop_map(move |values| {
         let pairs = keys.iter().zip(values);
         pairs.filter_map(|(key, value)| Some((*key, value?))).collect()
@@ -84,8 +87,10 @@ impl Frame {
             let own = settings.iter().filter(|((of, at, _), _)| (*of, *at) == (section, item));
             own.map(|((.., key), value)| ((*key).to_owned(), value.clone())).collect()
         };
-        let mut scene: Table =
-            ["camera", "light", "view", "motion"].map(|name| (name.to_owned(), Value::Table(table(name, 0)))).into_iter().collect();
+        let mut scene: Table = ["camera", "light", "view", "motion"]
+            .map(|name| (name.to_owned(), Value::Table(table(name, 0))))
+            .into_iter()
+            .collect();
         scene.insert("version".to_owned(), Value::Integer(1));
         let bubble = |item| {
             let mut bubble = table("bubble", item);
@@ -142,6 +147,7 @@ fn reconcile(scene: &mut Scene) {
     }
     let mut has_rim = false;
     for bubble in bubbles.iter_mut() {
+        bubble.film.cells = bubble.film.cells.min(MAX_CELLS);
         has_rim |= bubble.boundary != Boundary::Free;
         if bubble.boundary == Boundary::Ring {
             bubble.rim_deg = bubble.rim_deg.min(150.0);

@@ -7,7 +7,7 @@ use crate::support::page::{Row, documented};
 
 /// A value of a key, or none: its default. Shrinks to none.
 pub fn value(row: Row) -> BoxedStrategy<Option<Value>> {
-    prop_oneof![5 => Just(None), 4 => chosen(row).prop_map(Some)].boxed()
+    prop_oneof![Just(None), chosen(row).prop_map(Some)].boxed()
 }
 
 fn chosen(row: Row) -> BoxedStrategy<Value> {
