@@ -9,9 +9,7 @@ use super::{
     pipelines::ComputeKey,
     timing::Recorder,
 };
-
-/// Patches that one pass takes.
-pub const MAX_PATCHES: usize = 64;
+use crate::plan::MAX_RIM_PATCHES;
 
 /// See `shaders/pass/drain.wgsl`.
 #[repr(C)]
@@ -49,7 +47,7 @@ pub struct DrainUniform {
     /// Patches in use.
     pub patches_count: u32,
     /// Patches; those in use come first.
-    pub patches: [PatchValue; MAX_PATCHES],
+    pub patches: [PatchValue; MAX_RIM_PATCHES],
 }
 
 /// How film leaves at its rim, now.
@@ -84,8 +82,8 @@ impl DrainLaw {
             rim_z,
             inversion,
             patch_radius: self.patch_radius as f32,
-            patches_count: self.patches.len().min(MAX_PATCHES) as u32,
-            patches: [PatchValue::zeroed(); MAX_PATCHES],
+            patches_count: self.patches.len().min(MAX_RIM_PATCHES) as u32,
+            patches: [PatchValue::zeroed(); MAX_RIM_PATCHES],
         };
         for (slot, (middle, thickness, age)) in uniform.patches.iter_mut().zip(&self.patches) {
             slot.middle_thickness = middle.extend(*thickness).as_vec4().to_array();

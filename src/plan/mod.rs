@@ -22,8 +22,8 @@ use fields::StepBudget;
 pub use films::{centre_path, film_key, film_turn};
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmEnd, FilmKey,
-    FlowLaw, FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, Moment, OpenHoleKey, OpticsKey, PushKey, RestingFilm,
-    TableKey, TonemapKey, exposed_ev, left_nm, range_nm,
+    FlowLaw, FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, OpticsKey,
+    PushKey, RestingFilm, TableKey, TonemapKey, exposed_ev, left_nm, range_nm,
 };
 pub use want::{Lamp, Resources, Shot, has_one_film, want};
 

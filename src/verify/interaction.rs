@@ -120,7 +120,7 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     undriven(run)?;
     sloshing(run)?;
     creeping(run)?;
-    anything(run, "", run.short_or_full(200, 3000), 0.5)?;
+    anything(run, "", run.short_or_full(100, 3000), 0.5)?;
     // Accelerated as no bubble could bear.
     anything(run, ", dragged by kilometres", run.short_or_full(100, 200), 1000.0)
 }
@@ -240,12 +240,12 @@ fn swing(run: &mut Run<'_>, name: &str, events: Vec<Event>) -> Result<(), GpuErr
 
 /// Interactions as wild as scenes allow, then peace.
 fn anything(run: &mut Run<'_>, name: &str, events: u64, reach_m: f64) -> Result<(), GpuError> {
-    /// Half a minute, in ticks.
-    const PEACE: u64 = 1800;
+    // Half a minute, or a third of it with as much more drag.
+    let (drag_1_s, peace_s) = run.short_or_full((6.0, 10.0), (2.0, 30.0));
     let mut random = Random::new(7);
     let mut scene = Scene::default();
     scene.bubbles[0].film.cells = 16;
-    scene.motion.strength = 0.0;
+    (scene.motion.strength, scene.motion.drag_1_s) = (0.0, drag_1_s);
     scene.events = (0..events).map(|tick| Event { tick, change: anything_at_all(&mut random, reach_m) }).collect();
     let calm = MotionChange { gravity_m_s2: Some([0.0, 0.0, -9.81]), ..MotionChange::default() };
     scene.events.push(Event { tick: events, change: Change::Motion(calm) });
@@ -256,7 +256,7 @@ fn anything(run: &mut Run<'_>, name: &str, events: u64, reach_m: f64) -> Result<
         played.play_to(tick)?;
         fastest = largest([fastest, played.fastest()?].into_iter());
     }
-    played.play_to(events + PEACE)?;
+    played.play_to(events + (peace_s / scene.motion.tick_s) as u64)?;
     let (last, after) = (played.fastest()?, played.thickness()?);
     let (excess, drift) = super::stability::departures(played.sphere(), &before, &after);
     let name = format!("{events} random interactions{name}");
@@ -266,7 +266,7 @@ fn anything(run: &mut Run<'_>, name: &str, events: u64, reach_m: f64) -> Result<
     run.at_most(format!("{name}: drift of mass"), drift, 1e-7);
     // The fastest air has 30 m/s, on a radius of 5 cm.
     run.at_most(format!("{name}: fastest flow, rad/s"), fastest, 30.0 / 0.05);
-    run.at_most(format!("{name}: flow that is left after half a minute, rad/s"), last, at_rest(&scene, &after));
+    run.at_most(format!("{name}: flow that is left after {peace_s} s, rad/s"), last, at_rest(&scene, &after));
     Ok(())
 }
 

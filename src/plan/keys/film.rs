@@ -303,13 +303,15 @@ impl FieldKey {
             || self.initial.range_nm().0 - self.thinned_nm(ticks) < 1e9 * BLACK_FILM_ONSET
     }
 
-    /// Patches that leave the film's rim between two times in ticks, under the law at the later one.
+    /// Patches that leave the film's rim between two times in ticks, under the law at the later one: the first [`MAX_RIM_PATCHES`].
     #[must_use]
     pub fn patches_during(&self, from_ticks: f64, to_ticks: f64) -> Vec<Patch> {
         let FlowLaw::Free(free) = self.law(to_ticks as u64) else { return Vec::new() };
         let Some(regeneration) = self.regeneration() else { return Vec::new() };
         let rate = regeneration.rate_1_s(free.patch_speed(&regeneration));
-        regeneration.patches(rate, from_ticks * self.tick_s, to_ticks * self.tick_s).collect()
+        let patches = regeneration.patches(rate, from_ticks * self.tick_s, to_ticks * self.tick_s);
+        // Of the smallest patches there would be millions, finer than any cell.
+        patches.take(MAX_RIM_PATCHES).collect()
     }
 
     /// What pushes the film in a step between two times in ticks.
@@ -352,6 +354,9 @@ pub fn evaporated_nm(rates: &[(u64, f64)], tick_s: f64, ticks: f64) -> f64 {
     let lost = |((from, rate), end): (&(u64, f64), f64)| rate * tick_s * (ticks.min(end) - *from as f64).max(0.0);
     rates.iter().zip(ends).map(lost).sum()
 }
+
+/// Patches from its rim that a film takes in one step at most.
+pub const MAX_RIM_PATCHES: usize = 64;
 
 /// A hole in a film that bursts.
 #[derive(Clone, Copy, Debug, PartialEq)]

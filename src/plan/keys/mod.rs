@@ -7,8 +7,8 @@ mod picture;
 mod rest;
 
 pub use film::{
-    BLACK_FILM_NM, FieldKey, FilmEnd, FilmKey, FlowLaw, FlowSegment, FreeFlow, HoleKey, Moment, OpenHoleKey, PushKey,
-    evaporated_nm, left_nm,
+    BLACK_FILM_NM, FieldKey, FilmEnd, FilmKey, FlowLaw, FlowSegment, FreeFlow, HoleKey, MAX_RIM_PATCHES, Moment,
+    OpenHoleKey, PushKey, evaporated_nm, left_nm,
 };
 pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
 pub use picture::{
