@@ -108,7 +108,7 @@ impl AdapterArguments {
 
     /// Opens the adapter without a window, and names it on stderr.
     fn open(&self) -> Result<Gpu, GpuError> {
-        let gpu = pollster::block_on(Gpu::headless(&self.choice()))?;
+        let gpu = without_logs(|| pollster::block_on(Gpu::headless(&self.choice())))?;
         tell(format_args!("adapter: {}, {}", gpu.adapter_name(), gpu.driver()));
         Ok(gpu)
     }
@@ -187,6 +187,18 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
 /// Says on stderr what a user should know of how files were read.
 fn tell_notes(notes: &[String]) {
     notes.iter().for_each(|note| tell(format_args!("note: {note}")));
+}
+
+/// Does something that tells by its result all that a user needs to know: drivers that are not there complain at length when others are looked
+/// for. Who asks for logs by `RUST_LOG` gets them.
+fn without_logs<T>(action: impl FnOnce() -> T) -> T {
+    let level = log::max_level();
+    if std::env::var_os("RUST_LOG").is_none() {
+        log::set_max_level(log::LevelFilter::Off);
+    }
+    let result = action();
+    log::set_max_level(level);
+    result
 }
 
 /// Errors that drivers and libraries log reach the user in a line each; `RUST_LOG` asks for more.

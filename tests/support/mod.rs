@@ -27,7 +27,8 @@ pub const REQUIRE_TOOLS: &str = "SOAPFILM_REQUIRE_TOOLS";
 /// Set to 1: what drives a real window must be there.
 pub const REQUIRE_WINDOW: &str = "SOAPFILM_REQUIRE_WINDOW";
 
-fn is_set(variable: &str) -> bool {
+/// Whether an environment variable is 1.
+pub fn is_set(variable: &str) -> bool {
     std::env::var(variable).is_ok_and(|value| value == "1")
 }
 
