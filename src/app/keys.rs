@@ -7,7 +7,7 @@ use super::tools::Tool;
 /// What a key does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Lets film time stand or run.
+    /// Plays or pauses the film.
     Pause,
     /// Goes on by one tick.
     Step,

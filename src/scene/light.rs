@@ -185,7 +185,7 @@ impl View {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Quality {
-    /// Products from a handful of wavelengths.
+    /// Light that meets several walls is summed over few wavelengths.
     Fast,
     /// Products from a dozen wavelengths: the error can hardly be seen.
     #[default]

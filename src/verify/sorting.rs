@@ -32,7 +32,7 @@ pub struct Sorting {
     pub flow_cells: u32,
     /// Multigrid cycles of a step.
     pub cycles: Cycles,
-    /// Which of all films.
+    /// Seed: each gives another film.
     pub seed: u32,
     /// Kinematic viscosity, m²/s.
     pub viscosity_m2_s: f64,

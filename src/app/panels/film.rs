@@ -95,7 +95,7 @@ fn edit(ui: &mut Ui, film: &mut Film) {
     let help = "Thickness of the layer of soap molecules on each face; soap has about 2 nm.";
     slider(ui, "Skins", &mut film.skin_nm, 0.0..=5.0, help, |slider| slider.suffix(" nm").max_decimals(1));
     if film.state == FilmStateName::Blown {
-        seed(ui, "Film seed", &mut film.seed, "Which of all random films");
+        seed(ui, "Film seed", &mut film.seed, "The seed of the random film: each seed gives another film");
     }
     if film.state != FilmStateName::Uniform {
         choice(ui, "Cells", &mut film.cells, &CELLS);

@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     }
     dials(ui, model);
     let mut number = motion.seed;
-    if seed(ui, "Flow seed", &mut number, "Which of all such flows") {
+    if seed(ui, "Flow seed", &mut number, "The seed of the random flow: each seed gives another flow") {
         model.change_motion(MotionChange { seed: Some(number), ..MotionChange::default() });
     }
     let speed = &mut model.scene.motion.speed;
@@ -52,7 +52,7 @@ fn clock(ui: &mut Ui, model: &mut Model) {
     let time_s = model.clock.time_s(&model.scene.motion);
     group(ui, &format!("{time_s:.1} s"), |ui| {
         let pause = if model.clock.running { "Pause" } else { "Run" };
-        if ui.button(pause).on_hover_text("Lets film time stand or run (Space)").clicked() {
+        if ui.button(pause).on_hover_text("Play or pause the film (Space)").clicked() {
             model.clock.running = !model.clock.running;
         }
         if ui.button("Step").on_hover_text("One tick further (.)").clicked() {

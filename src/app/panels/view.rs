@@ -32,9 +32,9 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
 }
 
 const QUALITIES: [(Quality, &str, &str); 3] = [
-    (Quality::Fast, "fast", "Products of walls from a handful of wavelengths"),
-    (Quality::Standard, "standard", "Products of walls from a dozen wavelengths"),
-    (Quality::Spectral, "spectral", "Everything from some thirty wavelengths"),
+    (Quality::Fast, "fast", "Fastest: light that meets several walls is summed over few wavelengths"),
+    (Quality::Standard, "standard", "Light that meets several walls is summed over a dozen wavelengths"),
+    (Quality::Spectral, "spectral", "Most exact: all light is summed over some thirty wavelengths or more"),
 ];
 
 fn polariser(ui: &mut Ui, view: &mut View) {

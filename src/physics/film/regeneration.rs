@@ -21,7 +21,7 @@ pub struct Regeneration {
     pub radius: f64,
     /// Factor on how many there are; 1 where half of the rim is taken up by patches.
     pub amount: f64,
-    /// Which of all sequences.
+    /// Seed: each gives another sequence.
     pub seed: u32,
 }
 

@@ -68,21 +68,21 @@ pub enum FlowLaw {
     Sloshing {
         /// Factor on all speeds.
         strength: f64,
-        /// Which of all such flows.
+        /// Seed: each gives another flow.
         seed: u32,
     },
     /// A slow large-scale breath of air that never quite rests.
     Draught {
         /// Factor on all speeds.
         strength: f64,
-        /// Which of all such flows.
+        /// Seed: each gives another flow.
         seed: u32,
     },
     /// The draught, and vortices that drift in it.
     Stirred {
         /// Factor on all speeds.
         strength: f64,
-        /// Which of all such flows.
+        /// Seed: each gives another flow.
         seed: u32,
     },
     /// By gravity and the air: vorticity and stream function are solved for.
@@ -100,7 +100,7 @@ pub struct FreeFlow {
     pub drainage: f64,
     /// Factor on the speed of the draught around the film.
     pub draught: f64,
-    /// Which of all draughts.
+    /// Seed: each gives another draught.
     pub seed: u32,
 }
 
