@@ -1,8 +1,14 @@
 //! Brings data back from the device without ever blocking a caller that must not be: begin, poll, take.
 
 use std::sync::{Arc, Mutex, PoisonError};
+#[cfg(not(target_arch = "wasm32"))]
+use std::time::{Duration, Instant};
 
 use super::{Gpu, GpuError};
+
+/// How long a copy may take to be told once the device has done it.
+#[cfg(not(target_arch = "wasm32"))]
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Bytes on their way from the device.
 pub struct Readback {
@@ -72,7 +78,15 @@ impl Readback {
     /// Waits for the bytes. Not for browsers, where nothing may block.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn wait(self, gpu: &Gpu) -> Result<Vec<u8>, GpuError> {
-        gpu.wait()?;
-        self.try_take().unwrap_or_else(|| Err(GpuError::Lost("a copy never arrived".to_owned())))
+        let since = Instant::now();
+        while since.elapsed() < PATIENCE {
+            gpu.wait()?;
+            if let Some(bytes) = self.try_take() {
+                return bytes;
+            }
+            // Another thread that waits for the same device may have been told of this copy, and passes it on in a moment.
+            std::thread::yield_now();
+        }
+        Err(GpuError::Lost("a copy never arrived".to_owned()))
     }
 }
