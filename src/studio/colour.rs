@@ -44,7 +44,7 @@ impl Colour {
 /// let bright = soapfilm::colour(104.0, 1.0)?;
 /// assert!((bright.xyz.y - 0.078).abs() < 0.002);
 /// // Much thinner film is black.
-/// assert_eq!(soapfilm::colour(5.0, 1.0)?.srgb(0.0), [0, 0, 0]);
+/// assert!(soapfilm::colour(5.0, 1.0)?.xyz.y < 0.001);
 /// # Ok::<(), soapfilm::Error>(())
 /// ```
 ///

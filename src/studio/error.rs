@@ -1,12 +1,14 @@
 //! What can go wrong in a studio.
 
+use std::fmt;
+
 use super::{MAX_THICKNESS_NM, MAX_TICKS};
 use crate::{
     gpu::GpuError, input::LoadError, output::OutputError, scene::SceneError, verify::reference::ReferenceError,
 };
 
 /// Why there is no picture, no film or no colour. Each message is one line that says what is wrong and what to do.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 pub enum Error {
     /// The scene, or a file that it names, cannot be loaded.
     #[error(transparent)]
@@ -62,4 +64,11 @@ pub enum Error {
     /// The device kept no picture.
     #[error("nothing was drawn; please report this scene")]
     NothingDrawn,
+}
+
+impl fmt::Debug for Error {
+    /// The message: it is what a program shows whose `main` returns this error.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
 }

@@ -3,7 +3,10 @@
 use super::*;
 
 fn told<T: std::fmt::Debug>(result: Result<T, Error>) -> String {
-    result.expect_err("refused").to_string()
+    let error = result.expect_err("refused");
+    // What a `main` prints that returns the error.
+    assert_eq!(format!("{error:?}"), error.to_string());
+    error.to_string()
 }
 
 #[test]

@@ -1,6 +1,11 @@
 //! The library's front door draws what the renderer draws, and reads films as pictures see them.
 
-use soapfilm::{CubeMap, Error, FilmCell, LoadedScene, Scene, Studio, glam::DVec3, load_scene, scene::Boundary};
+use soapfilm::{
+    CubeMap, Error, FilmCell, LoadedScene, Scene, Studio,
+    glam::DVec3,
+    load_scene,
+    scene::{Boundary, Change, Event, Prick},
+};
 
 use crate::support;
 
@@ -72,6 +77,25 @@ fn what_is_no_film_has_no_thickness() {
     assert!(matches!(told, Error::NoBubble { index: 1, count: 1 }), "{told}");
     let told = studio.render(&bath, [0, 5], 0.0).unwrap_err();
     assert!(matches!(told, Error::Size([0, 5])), "{told}");
+}
+
+#[test]
+fn a_bubble_that_is_pricked_has_a_hole_and_then_no_film() {
+    let Some(mut studio) = studio() else { return };
+    let pricked = scene(|scene| {
+        scene.motion.burst_slowdown = 100.0;
+        scene.events.push(Event { tick: 6, change: Change::Prick(Prick { bubble: 0, at: [0.0, 0.0, 1.0] }) });
+    });
+    let without = |studio: &mut Studio, time_s: f64| {
+        let film = studio.film(&pricked, 0, time_s).unwrap();
+        film.into_iter().filter(|cell| cell.thickness_nm == 0.0).collect::<Vec<_>>()
+    };
+    assert!(without(&mut studio, 0.05).is_empty());
+    let hole = without(&mut studio, 0.3);
+    assert!(!hole.is_empty() && hole.iter().all(|cell| cell.direction.z > 0.5), "{} cells", hole.len());
+    // A film of 5 cm bursts within some 20 ms, here in 2 s, and a new bubble is blown after 2 s more.
+    let told = studio.film(&pricked, 0, 3.0).unwrap_err();
+    assert!(matches!(told, Error::NoFilm { bubble: 0, .. }), "{told}");
 }
 
 #[test]
