@@ -35,6 +35,7 @@ fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
         ("OUTLINE", vec![0.0, 1.0]),
         ("STRETCHED", vec![0.0, 1.0]),
         ("BURST", vec![0.0, 1.0]),
+        ("FULL_PRECISION", vec![0.0, 1.0]),
         ("ON_BATH", vec![0.0, 1.0]),
         ("ON_RING", vec![0.0, 1.0]),
         ("HOLE_MERIDIANS", vec![soapfilm::physics::film::HOLE_MERIDIANS as f64]),
