@@ -104,7 +104,7 @@ impl Part {
 
     fn effort(self) -> (u64, u64) {
         match self {
-            Self::Optics => (100, 150),
+            Self::Optics => (85, 130),
             Self::Picture => (12, 300),
             Self::Transport => (45, 60),
             Self::Flow => (35, 160),
