@@ -21,7 +21,7 @@ fn main() -> Result<(), Error> {
     picture.save(&file)?;
     println!("wrote {}", file.display());
 
-    // The same as linear BT.709, before exposure and tone curve: numbers to compute with.
+    // Radiance in linear BT.709, before exposure and tone curve: numbers to compute with.
     let radiance = studio.radiance(&scene, size, 5.0)?;
     let brightest = radiance.rgb.iter().flatten().copied().fold(0.0, f32::max);
     let file = file.with_extension("exr");

@@ -47,7 +47,7 @@ vec3 film_reflection(sampler2D lut, float cos_theta, float thickness_nm) {
     return film_max_reflectance(cos_theta) * part;
 }
 
-// The same from the array texture of a .ktx2 or .bin file. Layer 0 is for unpolarised light, 1 for s, 2 for p.
+// Samples the array texture of a .ktx2 or .bin file. Layer 0 is for unpolarised light, 1 for s, 2 for p.
 vec3 film_reflection_of_layer(sampler2DArray lut, int layer, float cos_theta, float thickness_nm) {
     vec3 part = textureLod(lut, vec3(film_uv(cos_theta, thickness_nm), float(layer)), 0.0).rgb;
     return film_max_reflectance(cos_theta) * part;

@@ -42,7 +42,7 @@ float3 film_reflection(Texture2D<float4> lut, SamplerState lut_sampler, float co
     return film_max_reflectance(cos_theta) * part;
 }
 
-// The same from the array texture of a .ktx2 or .bin file. Layer 0 is for unpolarised light, 1 for s, 2 for p.
+// Samples the array texture of a .ktx2 or .bin file. Layer 0 is for unpolarised light, 1 for s, 2 for p.
 float3 film_reflection_of_layer(Texture2DArray<float4> lut, SamplerState lut_sampler, int layer, float cos_theta, float thickness_nm) {
     float3 part = lut.SampleLevel(lut_sampler, float3(film_uv(cos_theta, thickness_nm), float(layer)), 0.0).rgb;
     return film_max_reflectance(cos_theta) * part;

@@ -45,7 +45,7 @@ float3 film_reflection(texture2d<float> lut, sampler lut_sampler, float cos_thet
     return film_max_reflectance(cos_theta) * part;
 }
 
-// The same from the array texture of a .ktx2 or .bin file. Layer 0 is for unpolarised light, 1 for s, 2 for p.
+// Samples the array texture of a .ktx2 or .bin file. Layer 0 is for unpolarised light, 1 for s, 2 for p.
 float3 film_reflection_of_layer(texture2d_array<float> lut, sampler lut_sampler, uint layer, float cos_theta, float thickness_nm) {
     float3 part = lut.sample(lut_sampler, film_uv(cos_theta, thickness_nm), layer, level(0.0)).rgb;
     return film_max_reflectance(cos_theta) * part;

@@ -42,7 +42,7 @@ fn film_reflection(lut: texture_2d<f32>, lut_sampler: sampler, cos_theta: f32, t
     return film_max_reflectance(cos_theta) * part;
 }
 
-// The same from the array texture of a .ktx2 or .bin file. Layer 0 is for unpolarised light, 1 for s, 2 for p.
+// Samples the array texture of a .ktx2 or .bin file. Layer 0 is for unpolarised light, 1 for s, 2 for p.
 fn film_reflection_of_layer(lut: texture_2d_array<f32>, lut_sampler: sampler, layer: i32, cos_theta: f32, thickness_nm: f32) -> vec3f {
     let part = textureSampleLevel(lut, lut_sampler, film_uv(cos_theta, thickness_nm), layer, 0.0).rgb;
     return film_max_reflectance(cos_theta) * part;

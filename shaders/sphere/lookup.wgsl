@@ -115,7 +115,7 @@ fn map_quad_row(map: u32, place: u32, first: vec4f, second: vec4f) -> QuadRow {
     return QuadRow(weighted(first, a, b, c, d), weighted(second, a, b, c, d));
 }
 
-// The same at two by two cells of a finer grid that share a stencil: a quarter of the loads do. The first may be numbered -1, the halo's
+// A map at two by two cells of a finer grid that share a stencil: a quarter of the loads do. The first may be numbered -1, the halo's
 // neighbour; the direction may be that of any of them, for all it does is to stand in for what is lost.
 fn map_at_quad(map: u32, first_id: vec2i, panel: u32, other_cells: u32, direction: vec3f, cells: u32) -> array<vec4f, 4> {
     let at = centre_of(first_id - i32(HALO), panel, other_cells, cells);

@@ -10,7 +10,8 @@ struct Silhouette {
     inside: vec3f,
 }
 
-// `to_centre_m` leads from the eye to the centre; `plane` is the sample's point on the plane one metre before the eye, relative to the eye; `width` its square's side in pixels.
+// `to_centre_m` leads from the eye to the centre. `plane` is the sample's point on the plane one metre before the eye, relative to the eye;
+// `width` is the side of its square in pixels.
 // The distance to the outline is measured as an angle, asin(R/D) minus the angle to the centre, and divided by how fast that angle
 // changes from pixel to pixel.
 fn silhouette(view: View, to_centre_m: vec3f, radius_m: f32, plane: vec3f, width: f32) -> Silhouette {

@@ -14,13 +14,10 @@ use crate::{
     gpu::{GpuError, Renderer},
     input::LoadedScene,
     output::{Metadata, Picture},
-    physics::{
-        colour::Gamut,
-        sphere::{HaloTable, PaddedField},
-    },
+    physics::colour::Gamut,
     plan::{Moment, Pace, Plan, Shot, Want, has_one_film, plan},
     studio::MAX_TICKS,
-    verify::reference::{MovedFilms, needs_device, radiance},
+    verify::reference::{MovedFilms, moved_film, needs_device, radiance},
 };
 
 /// The options of a picture; a new one belongs here, so that every command that draws pictures has it.
@@ -186,9 +183,7 @@ impl<'a> Painter<'a> {
         let renderer = self.renderer()?;
         renderer.bring(want)?;
         let films = bubbles.iter().filter(|bubble| needs_device(bubble)).map(|bubble| {
-            let (grid, thickness_nm) = renderer.read_film(bubble.index)?.context("the film was not moved")?;
-            let cells: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.wait(&renderer.gpu)?);
-            let field = PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| f64::from(cells[cell]));
+            let (_, field) = moved_film(renderer, bubble.index)?.context("the film was not moved")?;
             Ok((bubble.index, field))
         });
         films.collect()

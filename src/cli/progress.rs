@@ -20,7 +20,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A bar for work of so many parts, which take about the same time each.
+    /// A bar for work in `parts` parts, which all take about as long.
     pub fn new(name: &'static str, parts: u64) -> Self {
         // The default draws on stderr, and draws nothing where that is no terminal.
         let bar = ProgressBar::new(parts.max(1).saturating_mul(PART_STEPS)).with_style(style()).with_prefix(name);
@@ -35,12 +35,12 @@ impl Progress {
         !self.bar.is_hidden()
     }
 
-    /// Begins the next part, which takes so many units of work.
+    /// Begins the next part, which takes `units` units of work.
     pub fn part(&self, units: u64) -> Part {
         self.parts(1, units)
     }
 
-    /// Begins something that takes as long as so many parts, and so many units of work.
+    /// Begins work that takes as long as `parts` parts and is done in `units` units.
     pub fn parts(&self, parts: u64, units: u64) -> Part {
         let start = self.parts_begun.fetch_add(parts, Ordering::Relaxed).saturating_mul(PART_STEPS);
         self.bar.set_position(start);

@@ -29,7 +29,8 @@ impl RemapRule {
         (self.latest_ticks / 8).max(1)
     }
 
-    /// Whether a remap is due so many ticks after the last decision whatever the map: after as many again it would come too late.
+    /// Whether a remap is due `ticks` ticks after the last decision, whatever the map has become. The next decision comes as long after this
+    /// one, which would be too late.
     #[must_use]
     pub fn is_due_after(self, ticks: u32) -> bool {
         ticks > self.latest_ticks / 2

@@ -77,7 +77,7 @@ pub struct BubbleUniform {
     pub thickness_nm: f32,
     /// Cells along a panel's edge.
     pub cells: u32,
-    /// The same of its tracer.
+    /// Cells along a panel's edge of its tracer.
     pub tracer_cells: u32,
     /// What has evaporated, in nm.
     pub thinned_nm: f32,

@@ -88,7 +88,7 @@ pub fn load_scene(name: impl AsRef<Path>) -> Result<LoadedScene, LoadError> {
     load_scene_with(name, &[])
 }
 
-/// The same with settings over the scene's text.
+/// Loads a preset or a scene file with settings over its text.
 ///
 /// # Errors
 ///

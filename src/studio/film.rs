@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::{Error, Studio, moment, shot};
 use crate::{
     input::LoadedScene,
-    physics::sphere::{CubedSphere, HaloTable, PaddedField},
+    physics::sphere::CubedSphere,
     plan::{BubbleKey, FilmKey, centre_path, film_grids, settle_detail},
     scene::{Camera, Scene},
-    verify::reference::{MovedFilms, ReferenceError, film_sphere},
+    verify::reference::{MovedFilms, ReferenceError, film_sphere, moved_film},
 };
 
 /// One cell of a film.
@@ -63,10 +63,7 @@ fn moved(studio: &Studio, key: &BubbleKey, grid_of_scene: usize) -> Result<(Cube
     if let FilmKey::Uniform(_) = key.film {
         return Ok((CubedSphere::new(grid_of_scene).map_err(ReferenceError::from)?, MovedFilms::new()));
     }
-    let read = studio.renderer.read_film(key.index)?;
-    let (grid, thickness_nm) = read.ok_or(Error::NothingDrawn)?;
-    let cells: Vec<f32> = bytemuck::pod_collect_to_vec(&studio.wait(Some(thickness_nm))?);
-    let field = PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| f64::from(cells[cell]));
+    let (grid, field) = moved_film(&studio.renderer, key.index)?.ok_or(Error::NothingDrawn)?;
     Ok((grid, MovedFilms::from([(key.index, field)])))
 }
 

@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use crate::{
+    gpu::{GpuError, Renderer},
     physics::{
         film::Hole,
         picture::{FilmSphere, PictureCamera, PictureScene},
-        sphere::{CubedSphere, GridError, PaddedField},
+        sphere::{CubedSphere, GridError, HaloTable, PaddedField},
         transport::FlowMap,
     },
     plan::{
@@ -19,6 +20,18 @@ use crate::{
 
 /// Thickness in nm of films that the device has moved, by the index of the film.
 pub type MovedFilms = BTreeMap<usize, PaddedField<f64>>;
+
+/// A film as the device has it at the moment that it shows, nm: its grid and its thickness, with all that pictures interpolate. None for a film
+/// without a field.
+///
+/// # Errors
+/// The device is lost, or refused a command.
+pub fn moved_film(renderer: &Renderer, film: usize) -> Result<Option<(CubedSphere, PaddedField<f64>)>, GpuError> {
+    let Some((grid, thickness_nm)) = renderer.read_film(film)? else { return Ok(None) };
+    let cells: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.wait(&renderer.gpu)?);
+    let field = PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| f64::from(cells[cell]));
+    Ok(Some((grid, field)))
+}
 
 /// No picture in f64.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

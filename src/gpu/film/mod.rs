@@ -249,7 +249,7 @@ impl Field {
         self.rules.scheme.keeps_map().then_some(&self.map[0])
     }
 
-    /// The same if it is not known to be the identity.
+    /// The map, if the scheme keeps one and it is not known to be the identity.
     fn map_so_far(&self) -> Option<&wgpu::Buffer> {
         self.kept_map().filter(|_| !self.map_is_identity)
     }

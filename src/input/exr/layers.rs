@@ -43,7 +43,7 @@ const MAX_NAMED: usize = 4;
 pub(super) struct Layer {
     /// Index of the part, which has a header of its own.
     pub part: usize,
-    /// Indices of the red, green and blue channel in the part; three times the same for a grey picture.
+    /// Indices of the red, green and blue channel in the part: one channel three times where the picture is grey.
     pub channels: [usize; 3],
     /// Its name; empty for the one that has none, which OpenEXR means as the picture itself.
     name: String,

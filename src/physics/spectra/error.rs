@@ -23,7 +23,7 @@ pub enum SpectrumError {
         /// The likeliest reason.
         hint: &'static str,
     },
-    /// Text that is no number, or a number that is not finite.
+    /// A field that does not hold a finite number.
     #[error("{file}, line {line}: `{text}` is not a finite number; {hint}")]
     NotFinite {
         /// File it stands in.

@@ -145,7 +145,8 @@ impl BandsKey {
     }
 
     /// How many times as many bands as water a film of the same thickness needs. One of a denser liquid has more fringes, and as its faces
-    /// reflect more they are sharper: measured from index 2 to 4, so that errors are as small as water's. Up to 1.4, water's do.
+    /// reflect more they are sharper: measured from index 2 to 4, so that `fast` and `standard` err in the
+    /// mean no more than for water. Up to 1.4, water's do.
     fn bands_over_water(&self) -> f64 {
         1.0 + 4.3 * (self.optics.film.reference_index() - 1.4).max(0.0)
     }
