@@ -5,9 +5,9 @@ use glam::DVec3;
 use soapfilm::{
     gpu::{
         Gpu, GpuError, Renderer,
-        bake_table::Table,
         bands::Bands,
-        probe_colour::{ColourProbe, ProbePoint},
+        passes::bake_table::Table,
+        passes::probe_colour::{ColourProbe, ProbePoint},
     },
     input::load_scene,
     physics::{

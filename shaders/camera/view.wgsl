@@ -1,7 +1,7 @@
 // The camera: rays through pixels. Places are relative to the eye: far from the origin, f32 would round the distance between a place and
 // the eye.
 
-// Mirrors `ViewUniform` in src/gpu/draw.rs.
+// Mirrors `ViewUniform` in src/gpu/passes/backdrop.rs.
 struct View {
     // Unit vector along the line of sight.
     forward: vec3f,

@@ -1,4 +1,4 @@
-// What the device itself knows of a film and decides about it. Mirrors `ControlBlock` in src/gpu/film/control.rs.
+// What the device itself knows of a film and decides about it. Mirrors `ControlBlock` in src/gpu/control.rs.
 struct Control {
     ticks_since_remap: u32,
     remaps: u32,

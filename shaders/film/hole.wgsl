@@ -6,7 +6,7 @@ const TAU: f32 = 6.2831853;
 // Meridians about the middle along which the rim is known, evenly spaced.
 override HOLE_MERIDIANS: u32;
 
-// The rim on a meridian. Mirrors `RimValue` in src/gpu/open_hole.rs.
+// The rim on a meridian. Mirrors `RimValue` in src/gpu/passes/open_hole.rs.
 struct Rim {
     // Angles from the middle to the film that is still at rest, and to where the rim begins.
     outer_rad: f32,

@@ -1,6 +1,6 @@
 // The test winds of the transport literature, in radians a second on the unit sphere. The f64 truth is src/physics/transport.
 
-// Which velocity field a pipeline is made for: see `FlowKind` in src/gpu/trace_step.rs.
+// Which velocity field a pipeline is made for: see `FlowKind` in src/gpu/passes/trace_step.rs.
 override FLOW: u32;
 const FLOW_PRESCRIBED: u32 = 0u;
 const FLOW_SOLID_BODY: u32 = 1u;

@@ -1,6 +1,6 @@
 // What the passes of one multigrid solution of (laplacian - k) psi = f share on the finest grid.
 
-// Mirrors `SolveUniform` in src/gpu/flow/multigrid.rs.
+// Mirrors `SolveUniform` in src/gpu/passes/flow_residual.rs.
 struct Solve {
     // Of each sweep after a correction.
     weights: vec3f,

@@ -1,6 +1,6 @@
 // What the passes of one step of the flow share.
 
-// Mirrors `FlowUniform` in src/gpu/flow/mod.rs.
+// Mirrors `FlowUniform` in src/gpu/passes/flow_measure.rs.
 struct Flow {
     // Gravity over the radius, 1/s2.
     gravity: vec3f,
@@ -15,7 +15,7 @@ struct Flow {
     cells: u32,
 }
 
-// Mirrors `FlowMeasures` in src/gpu/flow/mod.rs.
+// Mirrors `FlowMeasures` in src/gpu/passes/flow_measure.rs.
 struct Measures {
     // Mean vorticity, 1/s.
     zeta_mean: f32,

@@ -1,6 +1,6 @@
 // The light around the bubble, and what stands straight behind it.
 
-// Mirrors `LightUniform` in src/gpu/draw.rs. All colours are linear BT.2020. Light is RGB that stands for a spectrum relative to the
+// Mirrors `LightUniform` in src/gpu/passes/backdrop.rs. All colours are linear BT.2020. Light is RGB that stands for a spectrum relative to the
 // illuminant's (src/physics/colour/uplift.rs); what is seen of it is a colour.
 struct Light {
     // Factor on the environment's radiance.

@@ -3,7 +3,7 @@
 // the middle, for there the reflectance starts as a parabola from black, and the eye sees small errors best in the dark.
 // The first and last texel centres sit exactly on the ends of the range: no film is a row of exact zeros.
 
-// What a table spans. Mirrors `TableAxes` in src/gpu/bake_table.rs.
+// What a table spans. Mirrors `TableAxes` in src/gpu/passes/bake_table.rs.
 struct TableAxes {
     // Columns and rows of texels.
     size: vec2f,

@@ -10,7 +10,7 @@ import package::optics::table::{FilmPoint, TableAxes, film_of_texel};
 override COLOURED: u32;
 override POLARISED: u32;
 
-// Mirrors `BakeUniform` in src/gpu/bake_table.rs.
+// Mirrors `BakeUniform` in src/gpu/passes/bake_table.rs.
 struct Bake {
     axes: TableAxes,
     first_row: u32,

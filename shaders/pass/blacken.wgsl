@@ -8,7 +8,7 @@
 import package::film::control::Control;
 import package::sphere::cubed::{HALO, is_cell};
 
-// Mirrors `BlackenUniform` in src/gpu/blacken.rs.
+// Mirrors `BlackenUniform` in src/gpu/passes/blacken.rs.
 struct Blacken {
     // Cells along a panel's edge.
     cells: u32,

@@ -33,7 +33,7 @@ override BURST: u32;
 // 1: the film ends at a ring.
 override ON_RING: u32;
 
-// Mirrors `BubbleUniform` in src/gpu/draw.rs.
+// Mirrors `BubbleUniform` in src/gpu/passes/bubble.rs.
 struct Bubble {
     // From the eye to the centre.
     to_centre_m: vec3f,

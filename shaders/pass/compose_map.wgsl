@@ -12,7 +12,7 @@ override HAS_MAP: u32;
 // 0: nothing is gathered, and the fourth number of every map is 0, which need not be loaded.
 override GATHERS: u32;
 
-// Mirrors `ComposeUniform` in src/gpu/compose_map.rs.
+// Mirrors `ComposeUniform` in src/gpu/passes/compose_map.rs.
 struct Compose {
     // Cells along a panel's edge, of the map and of the step.
     cells: u32,

@@ -4,7 +4,7 @@
 import package::film::control::{Balance, Control, is_finite};
 import package::sphere::cubed::padded_index;
 
-// Mirrors `ConserveUniform` in src/gpu/conserve.rs.
+// Mirrors `ConserveUniform` in src/gpu/passes/conserve.rs.
 struct Conserve {
     cells: u32,
     // Workgroups that `sum_parts` runs, 256 at most.

@@ -3,7 +3,7 @@
 import package::film::control::Control;
 import package::sphere::cubed::{HALO, padded_index};
 
-// Mirrors `DecideUniform` in src/gpu/decide_remap.rs.
+// Mirrors `DecideUniform` in src/gpu/passes/decide_remap.rs.
 struct Decide {
     // Cells along a panel's edge.
     cells: u32,

@@ -5,7 +5,7 @@
 import package::film::control::Control;
 import package::sphere::cubed::HALO;
 
-// Mirrors `DiffuseUniform` in src/gpu/diffuse.rs.
+// Mirrors `DiffuseUniform` in src/gpu/passes/diffuse.rs.
 struct Diffuse {
     // Cells along a panel's edge.
     cells: u32,

@@ -11,13 +11,14 @@ import package::sphere::lookup::{healed, tracer_at};
 const MAX_PATCHES: u32 = 64u;
 
 struct Patch {
-    // Middle, and thickness over that of the film around.
-    middle_thickness: vec4f,
+    middle: vec3f,
+    // Over that of the film around.
+    thickness: f32,
     // Ticks since it left.
     age: u32,
 }
 
-// Mirrors `DrainUniform` in src/gpu/drain.rs.
+// Mirrors `DrainUniform` in src/gpu/passes/drain.rs.
 struct Drain {
     // Gravity over the radius, 1/s2.
     gravity: vec3f,
@@ -81,9 +82,9 @@ fn left_by_patches(x: vec3f) -> f32 {
     var left = 1.0;
     for (var k = 0u; k < min(drain.patches_count, MAX_PATCHES); k++) {
         let thin = drain.patches[k];
-        let away = distance(x, thin.middle_thickness.xyz) / drain.patch_radius;
+        let away = distance(x, thin.middle) / drain.patch_radius;
         let inside = 1.0 - smoothstep(0.7, 1.3, away);
-        left *= select(1.0, 1.0 - inside * (1.0 - thin.middle_thickness.w), thin.age < control.ticks_remapped);
+        left *= select(1.0, 1.0 - inside * (1.0 - thin.thickness), thin.age < control.ticks_remapped);
     }
     return left;
 }

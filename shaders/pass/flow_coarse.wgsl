@@ -8,7 +8,7 @@ import package::sphere::halo::HaloEntry;
 
 const LANES: u32 = 128u;
 
-// One grid. Mirrors `CoarseLevel` in src/gpu/flow/multigrid.rs.
+// One grid. Mirrors `CoarseLevel` in src/gpu/passes/flow_coarse.rs.
 struct Level {
     // Of each sweep.
     weights: vec3f,
@@ -21,7 +21,7 @@ struct Level {
     halo: u32,
 }
 
-// Mirrors `CoarseUniform` in src/gpu/flow/multigrid.rs.
+// Mirrors `CoarseUniform` in src/gpu/passes/flow_coarse.rs.
 struct Coarse {
     // How many grids, the finest first, of which only the residual is here.
     levels: u32,

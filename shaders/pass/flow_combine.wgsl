@@ -3,7 +3,7 @@
 import package::flow::operators::usable_or_zero;
 import package::flow::step::Measures;
 
-// Mirrors `CombineUniform` in src/gpu/flow/mod.rs.
+// Mirrors `CombineUniform` in src/gpu/passes/flow_combine.rs.
 struct Combine {
     first: f32,
     second: f32,

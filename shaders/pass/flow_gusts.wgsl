@@ -4,7 +4,7 @@
 import package::film::prescribed::{MAX_VORTICES, MAX_WAVES, Vortex, Wave, vortex_vorticity, wave_vorticity};
 import package::sphere::cubed::{HALO, padded_index, panel_direction};
 
-// Mirrors `GustsUniform` in src/gpu/film/free.rs.
+// Mirrors `GustsUniform` in src/gpu/passes/flow_gusts.rs.
 struct Gusts {
     // Cells along a panel's edge.
     cells: u32,

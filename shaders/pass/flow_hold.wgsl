@@ -6,7 +6,7 @@ import package::sphere::cubed::{HALO, padded_index, panel_direction};
 
 const LANES: u32 = 256u;
 
-// Mirrors `HoldUniform` in src/gpu/flow/hold.rs.
+// Mirrors `HoldUniform` in src/gpu/passes/flow_hold.rs.
 struct Hold {
     // Cells along a panel's edge.
     cells: u32,

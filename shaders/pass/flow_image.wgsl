@@ -3,7 +3,7 @@
 import package::sphere::cap::{Cap, image, stretch};
 import package::sphere::cubed::{HALO, locate, padded_index, panel_direction};
 
-// Mirrors `ImageUniform` in src/gpu/flow/image.rs.
+// Mirrors `ImageUniform` in src/gpu/passes/flow_image.rs.
 struct Image {
     // Where the film ends: see `Cap`.
     rim_z: f32,

@@ -6,12 +6,14 @@ import package::sphere::cubed::{HALO, padded_index, panel_direction};
 const MAX_PUSHES: u32 = 32u;
 
 struct Push {
-    centre_sharpness: vec4f,
+    centre: vec3f,
+    sharpness: f32,
     // Velocity towards which the film is drawn, rad/s, and how fast it is, 1/s.
-    velocity_rate: vec4f,
+    velocity: vec3f,
+    rate: f32,
 }
 
-// Mirrors `PushesUniform` in src/gpu/film/free.rs.
+// Mirrors `PushesUniform` in src/gpu/passes/flow_push.rs.
 struct Pushes {
     // Cells along a panel's edge.
     cells: u32,
@@ -29,10 +31,8 @@ struct Pushes {
 @group(0) @binding(4) var<storage, read_write> forcing: array<f32>;
 
 fn push_source(push: Push, x: vec3f, u: vec3f, vorticity: f32) -> f32 {
-    let centre = push.centre_sharpness.xyz;
-    let sharpness = push.centre_sharpness.w;
-    let strength = push.velocity_rate.w * exp(sharpness * (dot(centre, x) - 1.0));
-    return strength * (sharpness * dot(x, cross(centre, push.velocity_rate.xyz - u)) - vorticity);
+    let strength = push.rate * exp(push.sharpness * (dot(push.centre, x) - 1.0));
+    return strength * (push.sharpness * dot(x, cross(push.centre, push.velocity - u)) - vorticity);
 }
 
 @compute @workgroup_size(64)

@@ -11,7 +11,7 @@ override HAS_MAP: u32;
 // 1: the film ends at a rim, beyond which is the image of what is within.
 override HAS_RIM: u32;
 
-// Mirrors `ThicknessUniform` in src/gpu/film/free.rs.
+// Mirrors `ThicknessUniform` in src/gpu/passes/flow_thickness.rs.
 struct Thickness {
     // Cells along a panel's edge: of the flow, of the map, and of the tracer.
     cells: u32,

@@ -13,7 +13,7 @@ override UNIFORM_FILM: u32;
 const PI: f32 = 3.14159265;
 const LANES: u32 = 256u;
 
-// Mirrors `OpenHoleUniform` in src/gpu/open_hole.rs.
+// Mirrors `OpenHoleUniform` in src/gpu/passes/open_hole.rs.
 struct OpenHole {
     // Direction of its middle in the film; of no account where `seeks` is 1.
     middle: vec3f,

@@ -5,7 +5,7 @@ import package::optics::film_colour::film_reflection;
 import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{BANDS, EVERYTHING, Hits, INNER, Walls, band_radiance, resolved};
 
-// Front, back and exit wall of one ray. Mirrors `ProbePoint` in src/gpu/probe_colour.rs.
+// Front, back and exit wall of one ray. Mirrors `ProbePoint` in src/gpu/passes/probe_colour.rs.
 struct ProbePoint {
     cos_theta: f32,
     front_nm: f32,

@@ -6,7 +6,7 @@ import package::sphere::cap::{Cap, image};
 import package::sphere::cubed::{cell_place, is_cell, is_quad, panel_direction, quad_cell};
 import package::sphere::lookup::{healed, map_at, map_at_cell, map_at_quad, tracer_at};
 
-// What the map's fourth number means: see `Gathered` in src/gpu/sample_tracer.rs.
+// What the map's fourth number means: see `Gathered` in src/gpu/passes/sample_tracer.rs.
 override GATHERED: u32;
 const GATHERED_NOTHING: u32 = 0u;
 // The logarithm of the area ratio, for a density in a wind that diverges.
@@ -22,7 +22,7 @@ override HAS_MAP: u32;
 // 1: the film ends at a rim, beyond which is the image of what is within.
 override HAS_RIM: u32;
 
-// Mirrors `SampleUniform` in src/gpu/sample_tracer.rs.
+// Mirrors `SampleUniform` in src/gpu/passes/sample_tracer.rs.
 struct Sample {
     // Cells along a panel's edge: of what is written, of the map, and of the tracer.
     cells: u32,

@@ -2,7 +2,7 @@
 
 import package::colour::display::{dithered, encode_srgb, into_gamut, tone_curve};
 
-// Mirrors `TonemapUniform` in src/gpu/tonemap.rs.
+// Mirrors `TonemapUniform` in src/gpu/passes/tonemap.rs.
 struct Tonemap {
     // White balance, linear BT.2020.
     balance: mat3x3f,

@@ -4,7 +4,7 @@
 import package::flow::backtrace::backtrace;
 import package::sphere::cubed::{cell_place, is_cell, panel_direction};
 
-// Mirrors `SolvedUniform` in src/gpu/trace_step.rs.
+// Mirrors `SolvedUniform` in src/gpu/passes/trace_flow.rs.
 struct Solved {
     dt_s: f32,
     // Cells along a panel's edge.

@@ -7,7 +7,7 @@ import package::film::prescribed::{MAX_VORTICES, MAX_WAVES, Vortex, Wave, vortex
 import package::film::wind::{FLOW, FLOW_PRESCRIBED, WindMoment, wind_divergence, wind_velocity};
 import package::sphere::cubed::{cell_place, is_cell, panel_direction};
 
-// One step. Mirrors `StepUniform` in src/gpu/trace_step.rs.
+// One step. Mirrors `StepUniform` in src/gpu/passes/trace_step.rs.
 struct Step {
     // Columns take the test wind's frame to the world.
     frame: mat3x3f,

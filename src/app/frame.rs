@@ -273,7 +273,7 @@ impl View {
         let Some(folder) = self.watch.as_mut().and_then(|watch| watch.changed(Instant::now())) else { return };
         let library = crate::gpu::shaders::Library::Directory(folder.to_owned());
         let renderer = &mut self.stage.renderer;
-        match renderer.gpu.pipelines.reload(&renderer.gpu, library) {
+        match renderer.gpu.pipelines.reload(&renderer.gpu.device, library) {
             Ok(()) => {
                 renderer.forget_picture();
                 model.messages.withdraw("shader ");

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::{AdapterArguments, parse, progress::Progress, strip};
 use crate::{
-    gpu::probe_colour::{ColourProbe, ProbePoint},
+    gpu::passes::probe_colour::{ColourProbe, ProbePoint},
     input::{load_illuminant, load_liquid, read_table_text},
     output::{Metadata, print, write_text},
     physics::{

@@ -1,34 +1,39 @@
 //! Wavelengths on the device: all of a light's for the table's bake, and the fitted few that shaders sum over.
 
-use bytemuck::{Pod, Zeroable};
+use bytemuck::Zeroable;
 use glam::DMat3;
 
-use super::{Gpu, draw::matrix};
+use super::{
+    device::Gpu,
+    kernel::{Matrix, overrides, shader_struct},
+    uniform_buffer::UniformBuffer,
+};
 use crate::{
     physics::colour::{Band, BandTask, fit_bands, responses},
     plan::{BandsKey, OpticsKey},
 };
 
-/// One wavelength: see `shaders/optics/band.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct BandSample {
-    /// From light to what is seen of it: columns of a matrix, the fourth number of each is padding.
-    pub response: [[f32; 4]; 3],
-    /// The wavelength.
-    pub wavelength_nm: f32,
-    /// Refractive index of the film's liquid there.
-    pub index: f32,
-    /// The widest step from one thickness to the next that is told from wider ones, in nm.
-    pub gap_nm: f32,
-    /// Width of the part of the spectrum that it is a sample of, in nm; 0 for a line.
-    pub width_nm: f32,
+shader_struct! {
+    /// One wavelength: see `shaders/optics/band.wgsl`.
+    #[derive(PartialEq)]
+    pub struct BandSample {
+        /// From light to what is seen of it.
+        pub response: Matrix,
+        /// The wavelength.
+        pub wavelength_nm: f32,
+        /// Refractive index of the film's liquid there.
+        pub index: f32,
+        /// The widest step from one thickness to the next that is told from wider ones, in nm.
+        pub gap_nm: f32,
+        /// Width of the part of the spectrum that it is a sample of, in nm; 0 for a line.
+        pub width_nm: f32,
+    }
 }
 
 impl From<&Band> for BandSample {
     fn from(band: &Band) -> Self {
         Self {
-            response: matrix(band.response),
+            response: band.response.into(),
             wavelength_nm: band.wavelength_nm as f32,
             index: band.index as f32,
             gap_nm: f32::MAX,
@@ -54,7 +59,7 @@ pub(super) fn spectrum_samples(key: &OpticsKey) -> Vec<BandSample> {
 /// Fitted wavelengths on the device.
 pub struct Bands {
     /// [`MOST_BANDS`] of [`BandSample`], those beyond the count zero. A uniform, for all lanes of a processor read the same one at once.
-    pub buffer: wgpu::Buffer,
+    pub buffer: UniformBuffer<[BandSample; MOST_BANDS]>,
     /// How many count.
     pub count: u32,
     /// Whether there are films that they are too few for.
@@ -92,11 +97,22 @@ impl Bands {
         samples.iter_mut().zip(&bands).for_each(|(place, band)| *place = sample(band));
         Self { buffer: gpu.uniform("bands", &samples), count: bands.len() as u32, thick: false, task }
     }
+
+    /// The constants of kernels that sum over them.
+    #[must_use]
+    pub fn overrides(&self) -> BandOverrides {
+        BandOverrides { EVERYTHING: self.task == BandTask::Everything, BANDS: self.count, THICK: self.thick }
+    }
 }
 
-/// The constants of all passes that sum over bands.
-#[must_use]
-pub fn band_constants(bands: &Bands) -> [(&'static str, u32); 3] {
-    let everything = u32::from(bands.task == BandTask::Everything);
-    [("EVERYTHING", everything), ("BANDS", bands.count), ("THICK", bands.thick.into())]
+overrides! {
+    /// Constants of all kernels that sum over bands.
+    pub struct BandOverrides {
+        /// Whether bands stand for all that is seen, and no table is read.
+        override EVERYTHING: bool;
+        /// How many count.
+        override BANDS: u32 in [13];
+        /// Whether there are films that they are too few for.
+        override THICK: bool;
+    }
 }

@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicBool, AtomicU64, Ordering},
 };
 
-use super::{abilities::missing_ability, pipelines::Pipelines, shaders::ShaderError};
+use super::{abilities::missing_ability, pipelines::Pipelines, shaders::ShaderError, uniform_buffer::UniformBuffer};
 
 /// What a user asked for; without a name or backend the best adapter there is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -275,11 +275,11 @@ impl Gpu {
 
     /// A uniform buffer that holds one value.
     #[must_use]
-    pub fn uniform<T: bytemuck::NoUninit>(&self, label: &str, value: &T) -> wgpu::Buffer {
+    pub fn uniform<T: bytemuck::NoUninit>(&self, label: &str, value: &T) -> UniformBuffer<T> {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let buffer = self.buffer(label, size_of::<T>() as u64, usage);
         self.upload(&buffer, std::slice::from_ref(value));
-        buffer
+        UniformBuffer::of(buffer)
     }
 
     /// A storage buffer that holds a list, which must not be empty.
@@ -291,16 +291,9 @@ impl Gpu {
         buffer
     }
 
-    /// A bind group of resources numbered from 0.
-    #[must_use]
-    pub fn bind(&self, layout: &wgpu::BindGroupLayout, resources: &[wgpu::BindingResource<'_>]) -> wgpu::BindGroup {
-        let places: Vec<_> = (0..).zip(resources.iter().cloned()).collect();
-        self.bind_at(layout, &places)
-    }
-
     /// A bind group of resources, each with its number.
     #[must_use]
-    pub fn bind_at(
+    pub fn bind(
         &self,
         layout: &wgpu::BindGroupLayout,
         resources: &[(u32, wgpu::BindingResource<'_>)],

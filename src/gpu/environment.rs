@@ -1,6 +1,6 @@
 //! The environment on the device: a cube map with all its levels.
 
-use super::Gpu;
+use super::device::Gpu;
 use crate::physics::environment::CubeMap;
 
 /// An environment and how it is sampled.

@@ -6,8 +6,9 @@ use cpu_time::ProcessTime;
 use rayon::prelude::*;
 
 use super::{
-    Gpu, GpuError,
-    flow::{Cycles, FlowMeasures, FlowSolver},
+    device::{Gpu, GpuError},
+    flow::{Cycles, FlowSolver},
+    passes::flow_measure::FlowMeasures,
     readback::Readback,
     timing::Recorder,
 };

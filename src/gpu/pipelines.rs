@@ -9,14 +9,13 @@ use std::{
 };
 
 use super::{
-    Gpu, GpuError,
     late_errors::LateErrors,
     shaders::{Composed, Library, ShaderError},
 };
 use crate::physics::sphere::HALO;
 
-/// Constants that several passes share. A shader declares those it needs as `override NAME: T;` without a default.
-const SHARED_CONSTANTS: &[(&str, u32)] = &[("HALO", HALO as u32)];
+/// Constants that all passes share. A shader declares those it needs as `override NAME: T;` without a default.
+pub const SHARED_CONSTANTS: &[(&str, u32)] = &[("HALO", HALO as u32)];
 
 /// What tells one compute pipeline from another.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -80,35 +79,35 @@ impl Pipelines {
     }
 
     /// The compute pipeline of a key, made now if need be.
-    pub fn compute(&self, gpu: &Gpu, key: &ComputeKey) -> Result<wgpu::ComputePipeline, GpuError> {
+    pub fn compute(&self, device: &wgpu::Device, key: &ComputeKey) -> Result<wgpu::ComputePipeline, ShaderError> {
         if let Some(pipeline) = self.made().compute.get(key) {
             return Ok(pipeline.clone());
         }
-        let pipeline = make_compute(gpu, (&self.library(), &self.late), key)?;
+        let pipeline = make_compute(device, (&self.library(), &self.late), key)?;
         self.count.fetch_add(1, Ordering::Relaxed);
         self.made().compute.insert(key.clone(), pipeline.clone());
         Ok(pipeline)
     }
 
     /// The render pipeline of a key, made now if need be.
-    pub fn render(&self, gpu: &Gpu, key: &RenderKey) -> Result<wgpu::RenderPipeline, GpuError> {
+    pub fn render(&self, device: &wgpu::Device, key: &RenderKey) -> Result<wgpu::RenderPipeline, ShaderError> {
         if let Some(pipeline) = self.made().render.get(key) {
             return Ok(pipeline.clone());
         }
-        let pipeline = make_render(gpu, (&self.library(), &self.late), key)?;
+        let pipeline = make_render(device, (&self.library(), &self.late), key)?;
         self.count.fetch_add(1, Ordering::Relaxed);
         self.made().render.insert(key.clone(), pipeline.clone());
         Ok(pipeline)
     }
 
     /// Makes all pipelines anew from another library. If one fails, everything stays as it was.
-    pub fn reload(&self, gpu: &Gpu, library: Library) -> Result<(), GpuError> {
+    pub fn reload(&self, device: &wgpu::Device, library: Library) -> Result<(), ShaderError> {
         let mut fresh = Made::default();
         for key in self.made().compute.keys() {
-            fresh.compute.insert(key.clone(), make_compute(gpu, (&library, &self.late), key)?);
+            fresh.compute.insert(key.clone(), make_compute(device, (&library, &self.late), key)?);
         }
         for key in self.made().render.keys() {
-            fresh.render.insert(key.clone(), make_render(gpu, (&library, &self.late), key)?);
+            fresh.render.insert(key.clone(), make_render(device, (&library, &self.late), key)?);
         }
         self.count.fetch_add((fresh.compute.len() + fresh.render.len()) as u32, Ordering::Relaxed);
         *self.made() = fresh;
@@ -127,12 +126,12 @@ impl Pipelines {
 }
 
 fn make_compute(
-    gpu: &Gpu,
+    device: &wgpu::Device,
     source: (&Library, &LateErrors),
     key: &ComputeKey,
-) -> Result<wgpu::ComputePipeline, GpuError> {
-    make(gpu, source, key.pass, &key.constants, |module, compilation_options| {
-        gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+) -> Result<wgpu::ComputePipeline, ShaderError> {
+    make(device, source, key.pass, &key.constants, |module, compilation_options| {
+        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(key.entry),
             layout: None,
             module,
@@ -143,9 +142,13 @@ fn make_compute(
     })
 }
 
-fn make_render(gpu: &Gpu, source: (&Library, &LateErrors), key: &RenderKey) -> Result<wgpu::RenderPipeline, GpuError> {
-    make(gpu, source, key.pass, &key.constants, |module, compilation_options| {
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+fn make_render(
+    device: &wgpu::Device,
+    source: (&Library, &LateErrors),
+    key: &RenderKey,
+) -> Result<wgpu::RenderPipeline, ShaderError> {
+    make(device, source, key.pass, &key.constants, |module, compilation_options| {
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(key.fragment),
             layout: None,
             vertex: wgpu::VertexState {
@@ -172,15 +175,15 @@ fn make_render(gpu: &Gpu, source: (&Library, &LateErrors), key: &RenderKey) -> R
 /// Composes a pass and builds a pipeline of it. What the compiler or the driver refuses comes back as an error, here or later from
 /// [`Pipelines::late_error`].
 fn make<P>(
-    gpu: &Gpu,
+    device: &wgpu::Device,
     (library, late): (&Library, &LateErrors),
     pass: &'static str,
     constants: &[(&'static str, u32)],
     build: impl FnOnce(&wgpu::ShaderModule, wgpu::PipelineCompilationOptions<'_>) -> P,
-) -> Result<P, GpuError> {
+) -> Result<P, ShaderError> {
     let composed = library.compose(pass)?;
-    let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(pass),
         source: wgpu::ShaderSource::Wgsl(composed.wgsl.as_str().into()),
     });
@@ -196,7 +199,7 @@ fn make<P>(
         Some(shader_error(pass, &composed, messages, &error))
     };
     match late.ask(Box::pin(answer)) {
-        Some(error) => Err(error.into()),
+        Some(error) => Err(error),
         None => Ok(pipeline),
     }
 }

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[cfg(not(target_arch = "wasm32"))]
 use std::time::{Duration, Instant};
 
-use super::{Gpu, GpuError};
+use super::device::{Gpu, GpuError};
 
 /// How long a copy may take to be told once the device has done it.
 #[cfg(not(target_arch = "wasm32"))]

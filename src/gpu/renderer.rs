@@ -5,18 +5,16 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::{
-    Gpu, GpuError,
     abilities::missing_for_measurement,
-    add_light::add_light,
-    bake_table::Table,
     bands::Bands,
-    draw::{DrawInputs, DrawPass, pixels_shaded, radiance_format, strips},
+    device::{Gpu, GpuError},
+    draw::{DrawInputs, DrawPass, pixels_shaded, strips},
     environment::Environment,
     film::{Field, MovingFilm, rules},
-    open_hole::OpenHole,
+    formats::{PICTURE_FORMAT, radiance_format},
+    passes::{add_light::add_light, bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
     readback::Readback,
     timing::{Counts, Recorder, TimeLog},
-    tonemap::{PICTURE_FORMAT, tonemap},
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
@@ -193,7 +191,7 @@ impl Renderer {
         Ok(Some((film.field.sphere(), Readback::of_buffer(&self.gpu, &values, values.size()))))
     }
 
-    /// Starts to bring back the rim of the hole in a film that bursts: a [`RimValue`](super::open_hole::RimValue) for each meridian.
+    /// Starts to bring back the rim of the hole in a film that bursts: a [`RimValue`](super::passes::open_hole::RimValue) for each meridian.
     #[must_use]
     pub fn read_hole(&self, film: usize) -> Option<Readback> {
         let hole = self.products.holes.get(film)?.as_ref()?;

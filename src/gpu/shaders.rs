@@ -7,78 +7,10 @@
 
 use std::{borrow::Cow, collections::BTreeSet, fmt, path::PathBuf};
 
-macro_rules! sources {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $name, ".wgsl")))),*]
-    };
-}
+use include_dir::{Dir, include_dir};
 
-/// Every shader file, by its path below `shaders/` without the ending.
-pub const SOURCES: &[(&str, &str)] = sources![
-    "camera/view",
-    "colour/display",
-    "film/control",
-    "film/hole",
-    "film/prescribed",
-    "film/shown",
-    "film/wind",
-    "flow/backtrace",
-    "flow/laplacian",
-    "flow/operators",
-    "flow/solve",
-    "flow/step",
-    "light/environment",
-    "light/stored",
-    "light/water",
-    "optics/airy",
-    "optics/band",
-    "optics/film_colour",
-    "optics/table",
-    "optics/walls",
-    "pass/add_light",
-    "pass/backdrop",
-    "pass/bake_table",
-    "pass/blacken",
-    "pass/bubble",
-    "pass/compose_map",
-    "pass/conserve",
-    "pass/correct_error",
-    "pass/decide_remap",
-    "pass/diffuse",
-    "pass/drain",
-    "pass/flow_coarse",
-    "pass/flow_combine",
-    "pass/flow_correct",
-    "pass/flow_force",
-    "pass/flow_gusts",
-    "pass/flow_halo",
-    "pass/flow_hold",
-    "pass/flow_image",
-    "pass/flow_measure",
-    "pass/flow_push",
-    "pass/flow_residual",
-    "pass/flow_sweep",
-    "pass/flow_thickness",
-    "pass/flow_trace",
-    "pass/flow_velocity",
-    "pass/open_hole",
-    "pass/probe_colour",
-    "pass/read_film",
-    "pass/reset_map",
-    "pass/sample_tracer",
-    "pass/settle_tracer",
-    "pass/show_film",
-    "pass/tonemap",
-    "pass/trace_flow",
-    "pass/trace_step",
-    "sphere/axes",
-    "sphere/cap",
-    "sphere/cubed",
-    "sphere/halo",
-    "sphere/lookup",
-    "sphere/path",
-    "sphere/silhouette",
-];
+/// Every file of `shaders/`, as it was when the program was built.
+static EMBEDDED: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/shaders");
 
 /// A shader that cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -113,10 +45,10 @@ impl Library {
     fn source(&self, name: &str) -> Result<Cow<'static, str>, ShaderError> {
         let missing = |message: String| ShaderError { place: format!("{name}.wgsl"), message };
         match self {
-            Self::Embedded => SOURCES
-                .iter()
-                .find(|(known, _)| *known == name)
-                .map(|(_, text)| Cow::Borrowed(*text))
+            Self::Embedded => EMBEDDED
+                .get_file(format!("{name}.wgsl"))
+                .and_then(|file| file.contents_utf8())
+                .map(Cow::Borrowed)
                 .ok_or_else(|| missing("no such shader file".to_owned())),
             Self::Directory(root) => std::fs::read_to_string(root.join(name).with_extension("wgsl"))
                 .map(Cow::Owned)
@@ -195,21 +127,6 @@ fn imported_module(import: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn every_file_of_the_folder_is_embedded() {
-        let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders"));
-        let mut found = Vec::new();
-        for folder in std::fs::read_dir(&root).unwrap() {
-            for file in std::fs::read_dir(folder.unwrap().path()).unwrap() {
-                let path = file.unwrap().path().with_extension("");
-                found.push(path.strip_prefix(&root).unwrap().to_str().unwrap().replace('\\', "/"));
-            }
-        }
-        found.sort();
-        assert!(!found.is_empty());
-        assert_eq!(found, SOURCES.iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>());
-    }
 
     #[test]
     fn a_line_of_the_composition_is_a_line_of_a_file() {

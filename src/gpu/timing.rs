@@ -2,7 +2,10 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{Gpu, GpuError, pipelines::ComputeKey};
+use super::{
+    device::{Gpu, GpuError},
+    pipelines::ComputeKey,
+};
 
 /// Passes that one query set can time; a submission takes as many sets as it needs.
 const PASSES_PER_SET: usize = 64;
@@ -89,20 +92,8 @@ impl<'g> Recorder<'g> {
         Some((set, 2 * (place % PASSES_PER_SET) as u32))
     }
 
-    /// One dispatch of a compute pass whose resources are bound from 0 on.
+    /// One dispatch of a compute pass. Resources are bound by number: entry points of one file need not use all of its bindings.
     pub fn compute(
-        &mut self,
-        name: &'static str,
-        key: &ComputeKey,
-        resources: &[wgpu::BindingResource<'_>],
-        groups: Groups<'_>,
-    ) -> Result<(), GpuError> {
-        let places: Vec<_> = (0..).zip(resources.iter().cloned()).collect();
-        self.compute_at(name, key, &places, groups)
-    }
-
-    /// The same with the places that resources are bound at: entry points of one file need not read all of its bindings.
-    pub fn compute_at(
         &mut self,
         name: &'static str,
         key: &ComputeKey,
@@ -110,19 +101,19 @@ impl<'g> Recorder<'g> {
         groups: Groups<'_>,
     ) -> Result<(), GpuError> {
         let gpu = self.gpu;
-        let pipeline = gpu.pipelines.compute(gpu, key)?;
-        let bindings = gpu.bind_at(&pipeline.get_bind_group_layout(0), resources);
+        let pipeline = gpu.pipelines.compute(&gpu.device, key)?;
+        let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), resources);
         self.dispatch(name, &pipeline, &bindings, groups);
         Ok(())
     }
 
     /// One dispatch of a compute pipeline.
-    pub fn dispatch<'a>(
+    fn dispatch(
         &mut self,
         name: &'static str,
         pipeline: &wgpu::ComputePipeline,
         bindings: &wgpu::BindGroup,
-        groups: impl Into<Groups<'a>>,
+        groups: Groups<'_>,
     ) {
         let timestamps = self.next_timestamps(name);
         let timestamp_writes = timestamps.as_ref().map(|(query_set, first)| wgpu::ComputePassTimestampWrites {
@@ -134,7 +125,7 @@ impl<'g> Recorder<'g> {
             self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes });
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, bindings, &[]);
-        match groups.into() {
+        match groups {
             Groups::Count([x, y, z]) => pass.dispatch_workgroups(x, y, z),
             Groups::From(arguments, offset) => pass.dispatch_workgroups_indirect(arguments, offset),
         }

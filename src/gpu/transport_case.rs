@@ -3,13 +3,12 @@
 use rayon::prelude::*;
 
 use super::{
-    Gpu, GpuError,
-    decide_remap::RemapRule,
-    film::{ControlBlock, Field, Rules},
+    control::ControlBlock,
+    device::{Gpu, GpuError},
+    film::{Field, Rules},
+    passes::{decide_remap::RemapRule, sample_tracer::Gathered, trace_step::Step},
     readback::Readback,
-    sample_tracer::Gathered,
     timing::Recorder,
-    trace_step::Step,
 };
 use crate::physics::{
     sphere::CubedSphere,

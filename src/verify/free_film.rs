@@ -5,9 +5,11 @@ use glam::DVec3;
 use crate::{
     gpu::{
         Gpu, GpuError,
-        decide_remap::RemapRule,
-        film::{ControlBlock, Field, FreeMotion, Rules, Surroundings, film_areas},
-        sample_tracer::Gathered,
+        control::ControlBlock,
+        film::{Field, FreeMotion, Rules, Surroundings},
+        grid::film_areas,
+        passes::decide_remap::RemapRule,
+        passes::sample_tracer::Gathered,
         timing::Recorder,
         transport_case::values,
     },

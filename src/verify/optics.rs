@@ -7,7 +7,7 @@ use super::{Run, random::Random};
 use crate::{
     gpu::{
         Gpu, GpuError,
-        probe_colour::{ColourProbe, ProbePoint},
+        passes::probe_colour::{ColourProbe, ProbePoint},
     },
     physics::{
         colour::{BT2020, Walls, m2_delta_e},

@@ -11,11 +11,7 @@ use super::{
 };
 use crate::{
     gpu::{
-        Gpu, GpuError,
-        drain::DrainLaw,
-        film::{Rules, film_areas},
-        flow::FlowSolver,
-        readback::Readback,
+        Gpu, GpuError, film::Rules, flow::FlowSolver, grid::film_areas, passes::drain::DrainLaw, readback::Readback,
         timing::Recorder,
     },
     physics::{

@@ -8,12 +8,7 @@ use super::{
     free_film::{FreeFilm, RULES, field},
 };
 use crate::{
-    gpu::{
-        Gpu, GpuError,
-        decide_remap::RemapRule,
-        film::{ControlBlock, Rules},
-        flow::Cycles,
-    },
+    gpu::{Gpu, GpuError, control::ControlBlock, film::Rules, flow::Cycles, passes::decide_remap::RemapRule},
     physics::{
         film::{InitialFilm, PrescribedFlow},
         flow::{FlowForces, POISSON_CYCLES, VISCOUS_CYCLES},

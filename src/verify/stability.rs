@@ -9,10 +9,7 @@ use super::{
 };
 use crate::{
     gpu::{
-        GpuError,
-        film::{ControlBlock, Planted},
-        timing::Recorder,
-        trace_step::Step,
+        GpuError, control::ControlBlock, film::Planted, passes::trace_step::Step, timing::Recorder,
         transport_case::values,
     },
     physics::{

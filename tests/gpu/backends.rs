@@ -3,7 +3,7 @@
 use soapfilm::{
     gpu::{
         AdapterChoice, Gpu, GpuError, Renderer,
-        probe_colour::{ColourProbe, ProbePoint},
+        passes::probe_colour::{ColourProbe, ProbePoint},
     },
     physics::colour::Walls,
     plan::OpticsKey,

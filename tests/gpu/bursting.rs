@@ -1,7 +1,7 @@
 //! Films that become black, and that burst.
 
 use soapfilm::{
-    gpu::{Renderer, open_hole::RimValue},
+    gpu::{Renderer, passes::open_hole::RimValue},
     input::LoadedScene,
     physics::{
         film::Hole,

@@ -1,208 +1,266 @@
-//! Structs that Rust writes and WGSL reads lie in memory alike.
+//! Kernels are declared as their shaders are written: bindings, what lies in them, constants, entry points.
 
-use std::mem::offset_of;
+use std::collections::BTreeSet;
 
-use naga::{AddressSpace, Handle, Module, Type, TypeInner};
-use soapfilm::{
-    gpu::{
-        bake_table::{BakeUniform, TableAxes},
-        bands::BandSample,
-        blacken::BlackenUniform,
-        compose_map::ComposeUniform,
-        conserve::ConserveUniform,
-        decide_remap::DecideUniform,
-        diffuse::DiffuseUniform,
-        drain::{DrainUniform, PatchValue},
-        draw::{BubbleUniform, LightUniform, ViewUniform},
-        film::{BalanceBlock, ControlBlock, GustsUniform, PushesUniform, RemapArguments, ThicknessUniform},
-        flow::{
-            CoarseLevel, CoarseUniform, CombineUniform, FlowMeasures, FlowUniform, HoldUniform, ImageUniform,
-            SolveUniform,
-        },
-        open_hole::{OpenHoleUniform, RimValue},
-        probe_colour::ProbePoint,
-        sample_tracer::SampleUniform,
-        tonemap::TonemapUniform,
-        trace_step::{SolvedUniform, StepUniform, WindMoment},
-    },
-    physics::{
-        film::{FrozenPush, FrozenVortex, FrozenWave},
-        sphere::HaloEntry,
-    },
+use naga::{GlobalVariable, Module, ShaderStage, valid::ModuleInfo};
+use soapfilm::gpu::{
+    kernel::{Binding, Entries, Kernel, Layout, OverrideValues, Scalar, ScalarKind, SlotKind},
+    passes::kernels,
+    pipelines::SHARED_CONSTANTS,
+    shaders::Library,
 };
 
-use crate::passes::{names, parse};
+use crate::{
+    passes::{entries_together, file_names, parse, validate},
+    shader_kinds::kind_of,
+};
 
-/// A Rust struct by the name that it has in WGSL, and the offsets of its fields by theirs.
-#[derive(Clone)]
-struct Mirror {
-    name: &'static str,
-    size: usize,
-    offsets: Vec<(&'static str, usize)>,
+/// A pass as naga sees it.
+struct Reflected {
+    module: Module,
+    info: ModuleInfo,
 }
 
-/// `Name = Rust { member, other as field }`: each member of the WGSL struct, and the Rust field where its name is another.
-macro_rules! mirror {
-    ($name:ident = $rust:ty { $($member:ident $(as $field:ident)?),+ }) => {
-        Mirror {
-            name: stringify!($name),
-            size: size_of::<$rust>(),
-            offsets: vec![$((stringify!($member), mirror!(@offset $rust, $member $(, $field)?))),+],
-        }
-    };
-    (@offset $rust:ty, $member:ident, $field:ident) => { offset_of!($rust, $field) };
-    (@offset $rust:ty, $member:ident) => { offset_of!($rust, $member) };
-}
-
-/// What pictures and their colours are made from.
-fn picture_mirrors() -> Vec<Mirror> {
-    vec![
-        mirror! { View = ViewUniform { forward, pixel_height, right, width, up, height } },
-        mirror! { Light = LightUniform {
-            gain, texel_angle, backdrop, backdrop_is_environment, scale, turn_cos, polariser, turn_sin, seen
-        } },
-        mirror! { Bubble = BubbleUniform {
-            to_centre_m, radius_m, inner, outer, thickness_nm, cells, tracer_cells, thinned_nm, to_film,
-            stretch, unstretch, black_nm, extra_nm, skins_nm, map_cells, rim_z
-        } },
-        mirror! { TableAxes = TableAxes { size, max_thickness_nm, index } },
-        mirror! { Bake = BakeUniform { axes, first_row } },
-        mirror! { Band = BandSample { response, wavelength_nm, index, gap_nm, width_nm } },
-        mirror! { ProbePoint = ProbePoint { cos_theta, front_nm, back_nm, exit_nm, walls } },
-        mirror! { Tonemap = TonemapUniform {
-            balance, to_display, to_xyz, from_xyz, exposure, dither_seed, dither_steps
-        } },
-        mirror! { OpenHole = OpenHoleUniform {
-            middle, seconds, delay, radius_nm, cells, thickness_nm, thinned_nm, black_nm, seeks
-        } },
-        mirror! { Rim = RimValue { outer_rad, inner_rad, thickness_nm, padding } },
-    ]
-}
-
-/// What moves a film.
-fn film_mirrors() -> Vec<Mirror> {
-    vec![
-        mirror! { Patch = PatchValue { middle_thickness, age } },
-        mirror! { Drain = DrainUniform {
-            gravity, flux, cells, thinned_level_nm, black_nm, drop_cos, rim_z, inversion, patch_radius,
-            patches_count, patches
-        } },
-        mirror! { Compose = ComposeUniform { cells, step_cells, quad_skew } },
-        mirror! { Sample = SampleUniform { cells, map_cells, tracer_cells, rim_z, inversion, quad_skew } },
-        mirror! { Blacken = BlackenUniform { cells, level_nm, thinned_level_nm, black_nm, onset_nm, rate } },
-        mirror! { Conserve = ConserveUniform { cells, parts, mean, mean_rest, low, high, bounded, level, film_area } },
-        mirror! { Decide = DecideUniform {
-            cells, cell_angle, error_limit, ticks, latest_ticks, tracer_groups, sum_groups, map_groups, quad_groups
-        } },
-        mirror! { Arguments = RemapArguments { tracer_groups, sum_groups, one_group, map_groups, quad_groups } },
-        mirror! { Control = ControlBlock { ticks_since_remap, remaps, distortion, healed, ticks_remapped, spared_nm, drained_nm } },
-        mirror! { Balance = BalanceBlock { offset, slope, level } },
-        mirror! { Diffuse = DiffuseUniform { cells, stage, rate, most, before, earlier } },
-        mirror! { Thickness = ThicknessUniform { cells, map_cells, tracer_cells, reference_nm, offset_nm, level_nm, black_nm, rim_z, inversion } },
-        mirror! { Step = StepUniform {
-            frame, moments, turn_rad_s, dt_s, cells, waves_count, vortices_count, traces, waves, vortices
-        } },
-        mirror! { Solved = SolvedUniform { dt_s, cells } },
-        mirror! { WindMoment = WindMoment { shift_sin, shift_cos, reversal } },
-        mirror! { Wave = FrozenWave { k_phase as k, gain as amplitude } },
-        mirror! { Vortex = FrozenVortex { centre_sharpness as center, gain as strength } },
-    ]
-}
-
-/// What solves its flow, and what drives it.
-fn flow_mirrors() -> Vec<Mirror> {
-    vec![
-        mirror! { Hold = HoldUniform { cells, rim, inner } },
-        mirror! { Image = ImageUniform { rim_z, inversion, cells } },
-        mirror! { Flow = FlowUniform { gravity, dt_s, drag, air_drag, min_air_speed, cell_angle, cells } },
-        mirror! { Measures = FlowMeasures { zeta_mean, guess_mean, max_speed, unusable } },
-        mirror! { Combine = CombineUniform { first, second, third, mean } },
-        mirror! { Solve = SolveUniform { weights, shift, gain, cell_angle, cells, coarse_cells, coarse_field } },
-        mirror! { Coarse = CoarseUniform { levels, values, shift, sweeps, level, coarsest } },
-        mirror! { Level = CoarseLevel { weights, cell_angle, cells, field, tangent, halo } },
-        mirror! { HaloEntry = HaloEntry { cell as target, sources as source, weights } },
-        mirror! { Gusts = GustsUniform { cells, waves_count, vortices_count, rate, waves, vortices } },
-        mirror! { Pushes = PushesUniform { cells, count, pushes } },
-        mirror! { Push = FrozenPush { centre_sharpness as centre, velocity_rate as velocity } },
-    ]
-}
-
-/// Structs reachable from a module's buffers, and whether a list of them is read, so that the size counts to the byte.
-fn buffer_structs(module: &Module) -> Vec<(Handle<Type>, bool)> {
-    let in_buffers = module
-        .global_variables
-        .iter()
-        .filter(|(_, variable)| matches!(variable.space, AddressSpace::Uniform | AddressSpace::Storage { .. }));
-    let mut found = Vec::new();
-    in_buffers.for_each(|(_, variable)| collect(module, variable.ty, false, &mut found));
-    found
-}
-
-fn collect(module: &Module, ty: Handle<Type>, in_array: bool, found: &mut Vec<(Handle<Type>, bool)>) {
-    match &module.types[ty].inner {
-        TypeInner::Array { base, .. } => collect(module, *base, true, found),
-        TypeInner::Struct { members, .. } => {
-            found.push((ty, in_array));
-            members.iter().for_each(|member| collect(module, member.ty, false, found));
-        }
-        _ => {}
+impl Reflected {
+    fn of(pass: &str) -> Result<Self, String> {
+        let module = parse(pass)?;
+        let info = validate(pass, &module)?;
+        Ok(Self { module, info })
     }
-}
 
-/// What differs between a struct of a module and its mirror.
-fn differences(module: &Module, ty: Handle<Type>, in_array: bool, mirrors: &[Mirror]) -> Vec<String> {
-    let name = module.types[ty].name.clone().unwrap_or_default();
-    let TypeInner::Struct { members, span } = &module.types[ty].inner else { return vec![] };
-    let Some(mirror) = mirrors.iter().find(|mirror| mirror.name == name) else {
-        return vec![format!("{name}: no Rust struct is compared with it")];
-    };
-    let mut wrong = Vec::new();
-    // A single uniform may be followed by padding that WGSL does not name.
-    let size_fits = if in_array { mirror.size == *span as usize } else { mirror.size >= *span as usize };
-    if !size_fits {
-        wrong.push(format!("{name}: {} bytes in Rust, {span} in WGSL", mirror.size));
+    /// What is wrong with the kernels of a pass.
+    fn all_faults(&self, pass: &str, kernels: &[Kernel]) -> Vec<String> {
+        let missing = undeclared(&self.module, kernels).into_iter();
+        let missing = missing.map(|entry| format!("{pass}: no kernel declares `{entry}`"));
+        kernels.iter().flat_map(|kernel| self.faults(kernel)).chain(missing).collect()
     }
-    let named = members.iter().filter_map(|member| Some((member.name.as_deref()?, member.offset)));
-    for (member, offset) in named.filter(|(member, _)| *member != "pad") {
-        match mirror.offsets.iter().find(|(known, _)| *known == member) {
-            None => wrong.push(format!("{name}.{member}: not compared")),
-            Some((_, rust)) if *rust != offset as usize => {
-                wrong.push(format!("{name}.{member}: at {rust} in Rust, at {offset} in WGSL"));
+
+    /// Bindings that an entry point uses.
+    fn used(&self, stage: ShaderStage, entry: &str) -> Result<Vec<&GlobalVariable>, String> {
+        let mut all = self.module.entry_points.iter();
+        let place = all.position(|known| known.stage == stage && known.name == entry);
+        let info = self.info.get_entry_point(place.ok_or_else(|| format!("the shader has no {stage:?} `{entry}`"))?);
+        let globals = self.module.global_variables.iter();
+        let used = globals.filter(|(handle, global)| global.binding.is_some() && !info[*handle].is_empty());
+        Ok(used.map(|(_, global)| global).collect())
+    }
+
+    /// What is wrong with a kernel.
+    fn faults(&self, kernel: &Kernel) -> Vec<String> {
+        let mut faults = override_faults(&self.module, kernel);
+        for together in entries_together(kernel) {
+            let used: Result<Vec<_>, String> = together.iter().map(|(stage, entry)| self.used(*stage, entry)).collect();
+            let place = format!("{}: {}", kernel.pass, together.last().map_or("", |(_, entry)| entry));
+            let found = used.map_or_else(|fault| vec![fault], |used| self.binding_faults(&used.concat(), kernel));
+            faults.extend(found.into_iter().map(|fault| format!("{place}: {fault}")));
+        }
+        faults
+    }
+
+    fn binding_faults(&self, used: &[&GlobalVariable], kernel: &Kernel) -> Vec<String> {
+        let mut faults = Vec::new();
+        for global in used {
+            let (number, name) = (number_of(global), global.name.as_deref().unwrap_or_default());
+            match kernel.bindings.iter().find(|binding| binding.name == name) {
+                None => faults.push(format!("`{name}` is not declared")),
+                Some(binding) if binding.number != number => {
+                    faults.push(format!("`{name}` is declared at {}, in WGSL at {number}", binding.number));
+                }
+                Some(binding) => faults.extend(self.kind_fault(global, binding)),
             }
-            Some(_) => {}
         }
+        let is_used = |binding: &&Binding| used.iter().any(|global| global.name.as_deref() == Some(binding.name));
+        let unused = kernel.bindings.iter().filter(|binding| !is_used(binding));
+        faults.extend(unused.map(|binding| format!("`{}` is declared and not used", binding.name)));
+        faults
     }
-    wrong
+
+    fn kind_fault(&self, global: &GlobalVariable, binding: &Binding) -> Option<String> {
+        let found = match kind_of(&self.module, global) {
+            Ok(found) => found,
+            Err(fault) => return Some(format!("`{}`: {fault}", binding.name)),
+        };
+        let differ = match (&found, &binding.kind) {
+            (SlotKind::Uniform(wgsl), SlotKind::Uniform(rust))
+            | (SlotKind::Read(wgsl), SlotKind::Read(rust))
+            | (SlotKind::ReadWrite(wgsl), SlotKind::ReadWrite(rust)) => layout_fault(wgsl, rust),
+            (found, declared) if found == declared => None,
+            (found, declared) => Some(format!("declared as {}, in WGSL {}", told(declared), told(found))),
+        };
+        differ.map(|fault| format!("`{}`: {fault}", binding.name))
+    }
+}
+
+fn number_of(global: &GlobalVariable) -> u32 {
+    global.binding.map_or(u32::MAX, |binding| binding.binding)
+}
+
+/// A kind in a few words.
+fn told(kind: &SlotKind) -> String {
+    match kind {
+        SlotKind::Uniform(_) => "a uniform".to_owned(),
+        SlotKind::Read(_) => "read".to_owned(),
+        SlotKind::ReadWrite(_) => "read and written".to_owned(),
+        other => format!("{other:?}"),
+    }
+}
+
+/// What differs between what WGSL reads and what Rust writes.
+fn layout_fault(wgsl: &Layout, rust: &Layout) -> Option<String> {
+    if wgsl.is_list != rust.is_list {
+        return Some(format!("a list: {} in Rust, {} in WGSL", rust.is_list, wgsl.is_list));
+    }
+    // A single value may be followed by padding that WGSL does not name; a list's may not.
+    let size_fits = if wgsl.is_list { rust.size == wgsl.size } else { rust.size >= wgsl.size };
+    if !size_fits {
+        return Some(format!("{} bytes in Rust, {} in WGSL", rust.size, wgsl.size));
+    }
+    let pairs = wgsl.scalars.iter().zip(&rust.scalars);
+    let different = pairs.clone().find(|(wgsl, rust)| wgsl != rust);
+    match different {
+        Some((wgsl, rust)) => Some(format!("{} in Rust, {} in WGSL", scalar_told(rust), scalar_told(wgsl))),
+        None if wgsl.scalars.len() != rust.scalars.len() => {
+            let more = wgsl.scalars.get(pairs.len()).or_else(|| rust.scalars.get(pairs.len()))?;
+            Some(format!("{} is on one side alone", scalar_told(more)))
+        }
+        None => None,
+    }
+}
+
+fn scalar_told(scalar: &Scalar) -> String {
+    format!("`{}` {:?} at {}", scalar.member, scalar.kind, scalar.offset)
+}
+
+fn override_faults(module: &Module, kernel: &Kernel) -> Vec<String> {
+    let shader: Vec<&str> = module.overrides.iter().filter_map(|(_, known)| known.name.as_deref()).collect();
+    let is_shared = |name: &&str| SHARED_CONSTANTS.iter().any(|(shared, _)| shared == name);
+    let is_declared = |name: &&str| kernel.overrides.iter().any(|declared| declared.name == *name);
+    let missing = shader.iter().filter(|name| !is_shared(name) && !is_declared(name));
+    let missing = missing.map(|name| format!("{}: the constant `{name}` is not declared", kernel.pass));
+    let unknown = kernel.overrides.iter().filter(|declared| !shader.contains(&declared.name));
+    let unknown = unknown.map(|declared| format!("{}: the shader has no constant `{}`", kernel.pass, declared.name));
+    missing.chain(unknown).collect()
+}
+
+/// Entry points of a pass that no kernel declares.
+fn undeclared(module: &Module, kernels: &[Kernel]) -> Vec<String> {
+    let declares = |kernel: &Kernel, name: &str| match &kernel.entries {
+        Entries::Compute(entries) => entries.contains(&name),
+        Entries::Draw { vertices, fragment } => vertices.contains(&name) || *fragment == name,
+    };
+    let entries = module.entry_points.iter().map(|entry| entry.name.clone());
+    entries.filter(|entry| !kernels.iter().any(|kernel| declares(kernel, entry))).collect()
 }
 
 #[test]
-fn every_struct_in_a_buffer_lies_like_its_rust_mirror() {
-    let mirrors = [picture_mirrors(), film_mirrors(), flow_mirrors()].concat();
-    let (mut wrong, mut seen) = (Vec::new(), Vec::new());
-    for pass in names() {
-        let module = parse(pass).unwrap();
-        for (ty, in_array) in buffer_structs(&module) {
-            seen.extend(module.types[ty].name.clone());
-            let found = differences(&module, ty, in_array, &mirrors);
-            wrong.extend(found.into_iter().map(|text| format!("{pass}: {text}")));
-        }
+fn kernels_are_declared_as_their_shaders_are_written() {
+    let all = kernels();
+    let files = file_names("pass");
+    let lost = all.iter().filter(|kernel| !files.iter().any(|file| file == kernel.pass));
+    let mut faults: Vec<String> = lost.map(|kernel| format!("{}: no such file", kernel.pass)).collect();
+    for pass in &files {
+        let kernels: Vec<_> = all.iter().filter(|kernel| kernel.pass == pass).cloned().collect();
+        let found = Reflected::of(pass).map(|reflected| reflected.all_faults(pass, &kernels));
+        faults.extend(found.unwrap_or_else(|fault| vec![fault]));
     }
-    for mirror in &mirrors {
-        assert!(seen.iter().any(|name| name == mirror.name), "no pass reads a {}", mirror.name);
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 #[test]
-fn a_moved_or_missing_member_would_be_noticed() {
-    let source = "struct Light { a: f32, b: vec3f, c: f32 } @group(0) @binding(0) var<storage> x: array<Light>;";
-    let module = naga::front::wgsl::parse_str(source).unwrap();
-    let [(ty, in_array)] = buffer_structs(&module)[..] else { panic!("one struct") };
-    let planted = |size, offsets| [Mirror { name: "Light", size, offsets }];
-    let told = |mirror: &[Mirror]| differences(&module, ty, in_array, mirror);
-    assert!(told(&planted(32, vec![("a", 0), ("b", 16), ("c", 28)])).is_empty());
-    assert_eq!(told(&planted(32, vec![("a", 0), ("b", 4), ("c", 28)])), ["Light.b: at 4 in Rust, at 16 in WGSL"]);
-    assert_eq!(told(&planted(32, vec![("a", 0), ("b", 16)])), ["Light.c: not compared"]);
-    assert_eq!(told(&planted(48, vec![("a", 0), ("b", 16), ("c", 28)])), ["Light: 48 bytes in Rust, 32 in WGSL"]);
-    assert!(told(&[])[0].contains("no Rust struct"));
+fn every_shader_file_is_part_of_a_pass() {
+    let mut reached = BTreeSet::new();
+    for pass in file_names("pass") {
+        let composed = Library::Embedded.compose(&pass).unwrap();
+        let lines = 1..=composed.wgsl.lines().count();
+        reached.extend(lines.filter_map(|line| Some(composed.place(line).split_once(".wgsl")?.0.to_owned())));
+    }
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
+    let folders = std::fs::read_dir(root).unwrap().map(|folder| folder.unwrap().file_name().into_string().unwrap());
+    let all: BTreeSet<String> = folders
+        .flat_map(|folder| file_names(&folder).into_iter().map(move |file| format!("{folder}/{file}")))
+        .collect();
+    assert!(all.len() > 50, "only {} files were found", all.len());
+    assert_eq!(reached, all);
+}
+
+/// A shader with one of each that can be mistaken.
+const PLANTED: &str = "
+    struct Light { a: f32, b: vec3u, c: mat3x3f }
+    override N: u32;
+    @group(0) @binding(0) var<uniform> light: Light;
+    @group(0) @binding(1) var<storage, read> from_: array<vec2f>;
+    @group(0) @binding(2) var<storage, read_write> to: array<f32>;
+    @group(0) @binding(3) var film: texture_2d_array<f32>;
+    @compute @workgroup_size(1) fn work() {
+        to[N] = light.a + from_[0].x + textureLoad(film, vec2u(0u), 0u, 0).x;
+    }";
+
+fn scalars(list: &[(usize, ScalarKind, &str)]) -> Vec<Scalar> {
+    list.iter().map(|&(offset, kind, member)| Scalar { offset, kind, member: member.to_owned() }).collect()
+}
+
+/// The kernel as that shader is written.
+fn right() -> Kernel {
+    use ScalarKind::{F32, U32};
+    let mut light = vec![(0, F32, "a"), (16, U32, "b"), (20, U32, "b"), (24, U32, "b")];
+    light.extend([32, 36, 40, 48, 52, 56, 64, 68, 72].map(|offset| (offset, F32, "c")));
+    let list = |size, places: &[(usize, ScalarKind, &str)]| Layout { size, is_list: true, scalars: scalars(places) };
+    let binding = |(number, (name, kind))| Binding { number, name, kind };
+    let kinds = [
+        ("light", SlotKind::Uniform(Layout { size: 80, is_list: false, scalars: scalars(&light) })),
+        ("from_", SlotKind::Read(list(8, &[(0, F32, ""), (4, F32, "")]))),
+        ("to", SlotKind::ReadWrite(list(4, &[(0, F32, "")]))),
+        ("film", SlotKind::Texture(wgpu::TextureViewDimension::D2Array)),
+    ];
+    Kernel {
+        pass: "planted",
+        entries: Entries::Compute(vec!["work"]),
+        bindings: (0..).zip(kinds).map(binding).collect(),
+        overrides: vec![OverrideValues { name: "N", values: vec![0] }],
+    }
+}
+
+/// What is wrong with a kernel that a mistake was planted in.
+fn faults_with(plant: impl FnOnce(&mut Kernel)) -> String {
+    let module = naga::front::wgsl::parse_str(PLANTED).unwrap();
+    let info = validate("tonemap", &module).unwrap();
+    let mut kernel = right();
+    plant(&mut kernel);
+    Reflected { module, info }.all_faults("planted", &[kernel]).join("; ")
+}
+
+fn light(kernel: &mut Kernel) -> &mut Layout {
+    match &mut kernel.bindings[0].kind {
+        SlotKind::Uniform(layout) => layout,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn mistakes_in_a_layout_are_noticed() {
+    let told = |plant: fn(&mut Layout)| faults_with(|kernel| plant(light(kernel)));
+    assert_eq!(faults_with(|_| ()), "");
+    assert_eq!(told(|light| light.size = 96), "", "padding behind a single value");
+    assert!(told(|light| light.scalars[1].offset = 4).contains("`b` U32 at 4 in Rust, `b` U32 at 16 in WGSL"));
+    assert!(told(|light| light.scalars[0].kind = ScalarKind::U32).contains("`a` U32 at 0 in Rust"));
+    assert!(told(|light| light.scalars[0].member = "d".to_owned()).contains("`d` F32 at 0 in Rust"));
+    assert!(told(|light| light.scalars.truncate(12)).contains("`c` F32 at 72 is on one side alone"));
+    assert!(told(|light| light.scalars.extend(scalars(&[(76, ScalarKind::F32, "more")]))).contains("`more` F32 at 76"));
+    assert!(told(|light| light.size = 64).contains("64 bytes in Rust, 80 in WGSL"));
+    assert!(told(|light| light.is_list = true).contains("a list: true in Rust"));
+}
+
+#[test]
+fn mistakes_in_a_kernel_are_noticed() {
+    let told = |plant: fn(&mut Kernel)| faults_with(plant);
+    let dimension = SlotKind::Texture(wgpu::TextureViewDimension::D2);
+    assert!(faults_with(|kernel| kernel.bindings[3].kind = dimension).contains("`film`: declared as Texture(D2)"));
+    assert!(told(|kernel| kernel.bindings.swap_remove(1).number = 0).contains("`from_` is not declared"));
+    assert!(told(|kernel| kernel.bindings[1].number = 7).contains("`from_` is declared at 7, in WGSL at 1"));
+    assert!(told(|kernel| kernel.bindings[1].name = "other").contains("`other` is declared and not used"));
+    assert!(told(|kernel| kernel.bindings[1].kind = kernel.bindings[2].kind.clone()).contains("read and written"));
+    assert!(told(|kernel| kernel.overrides.clear()).contains("the constant `N` is not declared"));
+    assert!(told(|kernel| kernel.overrides[0].name = "M").contains("the shader has no constant `M`"));
+    let renamed = told(|kernel| kernel.entries = Entries::Compute(vec!["rest"]));
+    assert!(renamed.contains("no Compute `rest`") && renamed.contains("no kernel declares `work`"), "{renamed}");
 }

@@ -4,12 +4,17 @@ use naga::{
     Module, ShaderStage,
     valid::{Capabilities, ModuleInfo, ValidationFlags, Validator},
 };
-use soapfilm::gpu::shaders::{Library, SOURCES};
+use soapfilm::gpu::{
+    kernel::{Entries, Kernel},
+    shaders::Library,
+};
 
-/// Names of the passes: one for each file in `shaders/pass/`.
-pub fn names() -> Vec<&'static str> {
-    let names: Vec<_> = SOURCES.iter().filter_map(|(name, _)| name.strip_prefix("pass/")).collect();
-    assert!(!names.is_empty(), "no passes found");
+/// Names of the files of a folder of `shaders/`, without the ending.
+pub fn file_names(folder: &str) -> Vec<String> {
+    let folder = format!("{}/shaders/{folder}", env!("CARGO_MANIFEST_DIR"));
+    let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path().with_extension(""));
+    let mut names: Vec<_> = files.map(|path| path.file_name().unwrap().to_str().unwrap().to_owned()).collect();
+    names.sort();
     names
 }
 
@@ -29,7 +34,13 @@ pub fn validate(pass: &str, module: &Module) -> Result<ModuleInfo, String> {
         .map_err(|error| format!("{pass}: {}", error.emit_to_string(&Library::Embedded.compose(pass).unwrap().wgsl)))
 }
 
-/// Entry points of a pass.
-pub fn entry_points(module: &Module) -> Vec<(ShaderStage, String)> {
-    module.entry_points.iter().map(|entry| (entry.stage, entry.name.clone())).collect()
+/// Entry points of a kernel, those together that make a pipeline.
+pub fn entries_together(kernel: &Kernel) -> Vec<Vec<(ShaderStage, &'static str)>> {
+    match &kernel.entries {
+        Entries::Compute(entries) => entries.iter().map(|entry| vec![(ShaderStage::Compute, *entry)]).collect(),
+        Entries::Draw { vertices, fragment } => {
+            let with_fragment = |vertex| vec![(ShaderStage::Vertex, vertex), (ShaderStage::Fragment, *fragment)];
+            vertices.iter().copied().map(with_fragment).collect()
+        }
+    }
 }

@@ -9,86 +9,66 @@ use naga::{
     valid::ModuleInfo,
 };
 
+use soapfilm::gpu::{
+    kernel::{Entries, Kernel},
+    passes::kernels,
+    pipelines::SHARED_CONSTANTS,
+};
+
 use crate::{
-    passes::{entry_points, names, parse, validate},
+    passes::{entries_together, parse, validate},
     support::{REQUIRE_TOOLS, has_tools},
 };
 
-/// Values that pipelines are specialised with, by constant.
-fn constant_values() -> BTreeMap<&'static str, Vec<f64>> {
-    BTreeMap::from([
-        ("HALO", vec![soapfilm::physics::sphere::HALO as f64]),
-        ("FLOW", vec![0.0, 1.0, 2.0, 3.0]),
-        ("TAPS", vec![2.0, 6.0]),
-        ("LIMITER", vec![1.0]),
-        ("GATHERED", vec![0.0, 1.0, 2.0]),
-        ("GATHERS", vec![0.0, 1.0]),
-        ("SAME_GRID", vec![0.0, 1.0]),
-        ("ON_MAP_GRID", vec![0.0, 1.0]),
-        ("ON_TRACER_GRID", vec![0.0, 1.0]),
-        ("HAS_MAP", vec![0.0, 1.0]),
-        ("HAS_RIM", vec![0.0, 1.0]),
-        ("UNIFORM_FILM", vec![0.0, 1.0]),
-        ("MAGNIFIED", vec![0.0, 1.0]),
-        ("SAMPLES", vec![1.0, 4.0]),
-        ("SIDES", vec![96.0]),
-        ("OUTLINE", vec![0.0, 1.0]),
-        ("STRETCHED", vec![0.0, 1.0]),
-        ("BURST", vec![0.0, 1.0]),
-        ("FULL_PRECISION", vec![0.0, 1.0]),
-        ("ON_BATH", vec![0.0, 1.0]),
-        ("ON_RING", vec![0.0, 1.0]),
-        ("HOLE_MERIDIANS", vec![soapfilm::physics::film::HOLE_MERIDIANS as f64]),
-        ("HOLE_PARTS", vec![soapfilm::physics::film::HOLE_PARTS as f64]),
-        ("INNER", vec![3.0, 7.0, 11.0]),
-        ("FILTERED", vec![0.0, 1.0]),
-        ("THICK", vec![0.0, 1.0]),
-        ("COLOURED", vec![0.0, 1.0]),
-        ("POLARISED", vec![0.0, 1.0]),
-        ("EVERYTHING", vec![0.0, 1.0]),
-        ("BANDS", vec![13.0]),
-        ("SWEEP", vec![0.0, 1.0, 2.0]),
-    ])
-}
-
 /// Values for the constants that a module declares: each of a constant's, beside the first of all others' and beside the last.
-fn specialisations(pass: &str, module: &Module) -> Result<Vec<PipelineConstants>, String> {
-    let known = constant_values();
-    let mut own: Vec<(String, &[f64])> = Vec::new();
+fn specialisations(kernel: &Kernel, module: &Module) -> Result<Vec<PipelineConstants>, String> {
+    let shared = SHARED_CONSTANTS.iter().map(|(name, value)| (*name, vec![*value]));
+    let declared = kernel.overrides.iter().map(|constant| (constant.name, constant.values.clone()));
+    let known: BTreeMap<&str, Vec<u32>> = declared.chain(shared).collect();
+    let mut own: Vec<(String, &[u32])> = Vec::new();
     for (_, constant) in module.overrides.iter() {
         let name = constant.name.clone().unwrap_or_default();
-        let values = known.get(name.as_str()).ok_or_else(|| format!("{pass}: no values to test for `{name}`"))?;
+        let values = known.get(name.as_str()).filter(|values| !values.is_empty());
+        let values = values.ok_or_else(|| format!("{}: no values to test for `{name}`", kernel.pass))?;
         if constant.init.is_some() {
-            return Err(format!("{pass}: `{name}` has a default: a value that is forgotten must be refused"));
+            return Err(format!("{}: `{name}` has a default: a value that is forgotten must be refused", kernel.pass));
         }
         own.push((name, values));
     }
     let ends = [0, usize::MAX].map(|end| {
-        let value = |values: &[f64]| values[end.min(values.len() - 1)];
+        let value = |values: &[u32]| f64::from(values[end.min(values.len() - 1)]);
         own.iter().map(|(name, values)| (name.clone(), value(values))).collect::<PipelineConstants>()
     });
     let changed = |all: &PipelineConstants| {
         let all = all.clone();
         own.iter()
-            .flat_map(|(name, values)| values.iter().map(move |value| (name.clone(), *value)))
+            .flat_map(|(name, values)| values.iter().map(move |value| (name.clone(), f64::from(*value))))
             .map(move |change| all.clone().into_iter().chain([change]).collect())
     };
-    Ok(ends.iter().cloned().chain(ends.iter().flat_map(changed)).collect())
+    let mut every = Vec::new();
+    for constants in ends.iter().cloned().chain(ends.iter().flat_map(changed)) {
+        // Some changes of an end give the end itself.
+        if !every.contains(&constants) {
+            every.push(constants);
+        }
+    }
+    Ok(every)
 }
 
-/// Runs a check on each specialised entry point of each pass and fails with all that went wrong.
+/// Runs a check on each specialised entry point of each kernel and fails with all that went wrong.
 fn for_each_entry_point(check: impl Fn(&str, &Module, &ModuleInfo, (ShaderStage, &str)) -> Result<(), String>) {
     let (mut failures, mut checks) = (Vec::new(), 0);
-    for pass in names() {
+    let kernels = kernels();
+    for kernel in &kernels {
+        let pass = kernel.pass;
         let done = (|| {
             let module = parse(pass)?;
             let info = validate(pass, &module)?;
-            for constants in specialisations(pass, &module)? {
-                for (stage, entry) in entry_points(&module) {
-                    let (module, info) = process_overrides(&module, &info, Some((stage, &entry)), &constants)
+            for constants in specialisations(kernel, &module)? {
+                for (stage, entry) in entries_together(kernel).into_iter().flatten() {
+                    let (module, info) = process_overrides(&module, &info, Some((stage, entry)), &constants)
                         .map_err(|error| format!("{pass}: {entry} with {constants:?}: {error}"))?;
-                    check(pass, &module, &info, (stage, &entry))
-                        .map_err(|error| format!("{pass}: {entry}: {error}"))?;
+                    check(pass, &module, &info, (stage, entry)).map_err(|error| format!("{pass}: {entry}: {error}"))?;
                     checks += 1;
                 }
             }
@@ -96,8 +76,8 @@ fn for_each_entry_point(check: impl Fn(&str, &Module, &ModuleInfo, (ShaderStage,
         })();
         failures.extend(done.err());
     }
-    assert!(failures.is_empty(), "{} of {} passes fail:\n{}", failures.len(), names().len(), failures.join("\n"));
-    assert!(checks >= names().len(), "only {checks} entry points were checked");
+    assert!(failures.is_empty(), "{} of {} kernels fail:\n{}", failures.len(), kernels.len(), failures.join("\n"));
+    assert!(checks >= kernels.len(), "only {checks} entry points were checked");
 }
 
 fn spirv(module: &Module, info: &ModuleInfo, (stage, entry): (ShaderStage, &str)) -> Result<Vec<u32>, String> {
@@ -172,7 +152,9 @@ fn a_broken_pass_would_be_noticed() {
         naga::front::wgsl::parse_str("override N: u32; @compute @workgroup_size(1) fn f() { _ = N; }").unwrap();
     let info = validate("tonemap", &module).unwrap();
     assert!(process_overrides(&module, &info, None, &PipelineConstants::default()).is_err(), "a missing constant");
-    assert!(specialisations("made up", &module).unwrap_err().contains("`N`"));
+    let entries = Entries::Compute(vec!["f"]);
+    let kernel = Kernel { pass: "made up", entries, bindings: vec![], overrides: vec![] };
+    assert!(specialisations(&kernel, &module).unwrap_err().contains("`N`"));
     let needs_features = naga::front::wgsl::parse_str("@group(0) @binding(0) var t: texture_cube_array<f32>;").unwrap();
     assert!(validate("tonemap", &needs_features).is_err(), "an optional capability");
 }

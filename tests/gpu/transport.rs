@@ -5,11 +5,11 @@ use rayon::prelude::*;
 use soapfilm::{
     gpu::{
         Gpu,
-        decide_remap::RemapRule,
         film::{Field, Rules},
-        sample_tracer::Gathered,
+        passes::decide_remap::RemapRule,
+        passes::sample_tracer::Gathered,
+        passes::trace_step::Step,
         timing::Recorder,
-        trace_step::Step,
         transport_case::values,
     },
     physics::{

@@ -1,79 +1,30 @@
 //! A film that moves by itself: the flow feels the thickness through the film's map, and the film follows the flow.
 
-use bytemuck::{Pod, Zeroable};
+use bytemuck::Zeroable;
 
-use super::{
-    super::{
-        Gpu, GpuError,
+use super::Field;
+use crate::{
+    gpu::{
+        device::{Gpu, GpuError},
         flow::{Cycles, FlowSolver},
-        pipelines::ComputeKey,
+        grid::rim_numbers,
+        passes::{
+            flow_gusts::{FlowGusts, GustsUniform},
+            flow_push::{FlowPush, MAX_PUSHES, PushesUniform},
+            flow_thickness::{FlowThickness, ThicknessUniform},
+            trace_step::Step,
+        },
         timing::Recorder,
-        trace_step::Step,
+        uniform_buffer::UniformBuffer,
     },
-    Field, rim_numbers,
+    physics::{
+        film::{FrozenFlow, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Push},
+        flow::{FOLLOWED_TURN, FlowForces, MIN_AIR_SPEED},
+    },
 };
-use crate::physics::{
-    film::{FrozenFlow, FrozenPush, FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Push},
-    flow::{FOLLOWED_TURN, FlowForces, MIN_AIR_SPEED},
-};
 
-/// See `shaders/pass/flow_thickness.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct ThicknessUniform {
-    /// Cells along a panel's edge of the flow.
-    pub cells: u32,
-    /// The same of the map.
-    pub map_cells: u32,
-    /// The same of the tracer.
-    pub tracer_cells: u32,
-    /// Thickness that the logarithm is relative to, nm.
-    pub reference_nm: f32,
-    /// Added to the tracer for the thickness less the reference, nm.
-    pub offset_nm: f32,
-    /// What the tracer departs from, less the reference, nm.
-    pub level_nm: f32,
-    /// Thickness at which evaporation ends, less the reference, nm.
-    pub black_nm: f32,
-    /// Height of the rim that the film ends at.
-    pub rim_z: f32,
-    /// The inversion in it.
-    pub inversion: f32,
-}
-
-/// See `shaders/pass/flow_gusts.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct GustsUniform {
-    /// Cells along a panel's edge.
-    pub cells: u32,
-    /// Waves in use.
-    pub waves_count: u32,
-    /// Vortices in use.
-    pub vortices_count: u32,
-    /// Rate at which the air drags the film along, 1/s.
-    pub rate: f32,
-    /// Waves; those in use come first.
-    pub waves: [FrozenWave; MAX_WAVES],
-    /// Vortices; those in use come first.
-    pub vortices: [FrozenVortex; MAX_VORTICES],
-}
-
-/// Pushes that one pass takes.
-const MAX_PUSHES: usize = 32;
-
-/// See `shaders/pass/flow_push.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct PushesUniform {
-    /// Cells along a panel's edge.
-    pub cells: u32,
-    /// Pushes in use.
-    pub count: u32,
-    pad: [u32; 2],
-    /// Pushes; those in use come first.
-    pub pushes: [FrozenPush; MAX_PUSHES],
-}
+/// Name of the passes that move the film's flow.
+const STEP_FLOW: &str = "step_flow";
 
 /// What a free film is subject to during a step.
 pub struct Surroundings<'a> {
@@ -177,26 +128,19 @@ impl FreeMotion {
             rim_z,
             inversion,
         };
-        let uniform = recorder.gpu.uniform("flow thickness", &uniform);
         let map = field.map_so_far();
-        let bound = [
-            &uniform,
-            &flow.tangents,
-            &field.control.block,
+        let kernel = FlowThickness {
+            HAS_MAP: map.is_some(),
+            HAS_RIM: field.rules.cap.is_some(),
+            thickness: &recorder.gpu.uniform("flow thickness", &uniform),
+            tangents: &flow.tangents,
+            control: &field.control.block,
             // Where there is no map nothing is read from it, and any buffer will do.
-            map.unwrap_or(&field.tracer),
-            &field.tracer,
-            self.solver.log_thickness(),
-        ];
-        // Cubic and limited: a thickness must stay positive, and the flow's cells are too wide for more.
-        let constants = vec![
-            ("HAS_MAP", u32::from(map.is_some())),
-            ("HAS_RIM", u32::from(field.rules.cap.is_some())),
-            ("TAPS", 4),
-            ("LIMITER", 1),
-        ];
-        let key = ComputeKey { pass: "flow_thickness", entry: "flow_thickness", constants };
-        recorder.compute("step_flow", &key, &bound.map(wgpu::Buffer::as_entire_binding), flow.cell_groups().into())
+            map: map.unwrap_or(&field.tracer),
+            tracer: &field.tracer,
+            log_thickness: self.solver.log_thickness(),
+        };
+        kernel.flow_thickness(recorder, STEP_FLOW, flow.cell_groups())
     }
 
     /// Lets the air stir the film.
@@ -210,10 +154,9 @@ impl FreeMotion {
         let flow = field.flow_grid();
         let FlowForces { drag, air_drag, .. } = around.forces;
         let of_air = air_drag * MIN_AIR_SPEED.sqrt() / around.mean_nm.max(around.black_nm);
-        let uniform = gusts(recorder.gpu, &around.air.frozen_at(time_s), flow.cells, drag + of_air);
-        let bound = [&uniform, &flow.tangents, self.solver.forcing()].map(wgpu::Buffer::as_entire_binding);
-        let key = ComputeKey { pass: "flow_gusts", entry: "flow_gusts", constants: vec![] };
-        recorder.compute("step_flow", &key, &bound, flow.cell_groups().into())
+        let gusts = &gusts(recorder.gpu, &around.air.frozen_at(time_s), flow.cells, drag + of_air);
+        let kernel = FlowGusts { gusts, tangents: &flow.tangents, forcing: self.solver.forcing() };
+        kernel.flow_gusts(recorder, STEP_FLOW, flow.cell_groups())
     }
 
     /// Adds what pushes the film to what the air does.
@@ -224,18 +167,20 @@ impl FreeMotion {
             for (slot, push) in uniform.pushes.iter_mut().zip(some) {
                 *slot = push.frozen();
             }
-            let uniform = recorder.gpu.uniform("pushes", &uniform);
-            let Self { solver } = self;
-            let bound = [&uniform, &flow.tangents, solver.velocity(), solver.zeta(), solver.forcing()];
-            let key = ComputeKey { pass: "flow_push", entry: "flow_push", constants: vec![] };
-            let bound = bound.map(wgpu::Buffer::as_entire_binding);
-            recorder.compute("step_flow", &key, &bound, flow.cell_groups().into())?;
+            let kernel = FlowPush {
+                pushes: &recorder.gpu.uniform("pushes", &uniform),
+                tangents: &flow.tangents,
+                velocity: self.solver.velocity(),
+                zeta: self.solver.zeta(),
+                forcing: self.solver.forcing(),
+            };
+            kernel.flow_push(recorder, STEP_FLOW, flow.cell_groups())?;
         }
         Ok(())
     }
 }
 
-fn gusts(gpu: &Gpu, air: &FrozenFlow, cells: u32, rate: f64) -> wgpu::Buffer {
+fn gusts(gpu: &Gpu, air: &FrozenFlow, cells: u32, rate: f64) -> UniformBuffer<GustsUniform> {
     let mut uniform = Box::new(GustsUniform {
         cells,
         waves_count: air.waves.len().min(MAX_WAVES) as u32,

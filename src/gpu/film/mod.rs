@@ -13,35 +13,35 @@
 //! sphere; nothing is ever copied across edges.
 
 mod checkpoint;
-mod control;
 mod free;
-mod grid;
 mod moving;
 mod remap;
 mod rest;
 mod seeded;
 mod shown;
 
-pub use control::{BalanceBlock, Control, ControlBlock, RemapArguments};
-pub use free::{FreeMotion, GustsUniform, PushesUniform, Surroundings, ThicknessUniform};
-pub use grid::{FilmTexture, Grid, film_areas, rim_numbers};
+pub use free::{FreeMotion, Surroundings};
 pub use moving::{MovingFilm, rules};
 use seeded::{Seeded, level_of};
-pub use shown::{NoFilm, Shown};
 
 use super::{
-    Gpu, GpuError,
-    blacken::BlackFilm,
-    compose_map::{Composition, compose_map},
-    conserve::{Target, parts},
-    correct_error::correct_error,
-    decide_remap::RemapRule,
-    diffuse::Diffusion,
-    drain::DrainLaw,
+    control::Control,
+    device::{Gpu, GpuError},
+    grid::Grid,
+    passes::{
+        blacken::BlackFilm,
+        compose_map::{Composition, compose_map},
+        conserve::{Target, parts},
+        correct_error::CorrectError,
+        decide_remap::RemapRule,
+        diffuse::Diffusion,
+        drain::DrainLaw,
+        sample_tracer::{Gathered, Sampling, sample_tracer},
+        trace_step::{Step, trace_step},
+    },
     readback::Readback,
-    sample_tracer::{Gathered, Sampling, sample_tracer},
+    shown_film::FilmTexture,
     timing::{Groups, Recorder},
-    trace_step::{Step, trace_step},
 };
 use crate::physics::{
     film::Cap,
@@ -310,7 +310,8 @@ impl Field {
             self.compose(recorder, STEP, &step.reversed(), None, 1)?;
             let forth = Some(&self.map[1]);
             self.sample(recorder, STEP, grid, forth, [&self.sampled, &self.shown], everywhere)?;
-            correct_error(recorder, &self.tracer, &self.shown, corrected, grid.padded_groups())?;
+            let kernel = CorrectError { tracer: &self.tracer, returned: &self.shown, corrected };
+            kernel.correct_error(recorder, STEP, grid.padded_groups())?;
             self.sample(recorder, STEP, grid, back, [corrected, &self.sampled], everywhere)?;
         }
         self.settle(recorder, [[parts(grid), 1, 1].into(), [1; 3].into(), all])
@@ -353,7 +354,7 @@ impl Field {
         gpu.queue.write_buffer(buffer, place * 4 * numbers, &value.to_ne_bytes());
     }
 
-    /// Starts to bring back what the device knows of the film: a [`ControlBlock`].
+    /// Starts to bring back what the device knows of the film: a [`ControlBlock`](super::control::ControlBlock).
     #[must_use]
     pub fn read_control(&self, gpu: &Gpu) -> Readback {
         Readback::of_buffer(gpu, &self.control.block, self.control.block.size())

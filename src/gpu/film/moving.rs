@@ -2,16 +2,16 @@
 
 use std::ops::Range;
 
-use super::{
-    super::{
-        Gpu, GpuError, blacken::BlackeningLaw, decide_remap::RemapRule, drain::DrainLaw, flow::FlowSolver,
-        sample_tracer::Gathered, timing::Recorder, trace_step::Step,
-    },
-    Field, FreeMotion, Rules, Surroundings,
-    checkpoint::Checkpoint,
-    rest::RestWatch,
-};
+use super::{Field, FreeMotion, Rules, Surroundings, checkpoint::Checkpoint, rest::RestWatch};
 use crate::{
+    gpu::{
+        device::{Gpu, GpuError},
+        flow::FlowSolver,
+        passes::{
+            blacken::BlackeningLaw, decide_remap::RemapRule, drain::DrainLaw, sample_tracer::Gathered, trace_step::Step,
+        },
+        timing::Recorder,
+    },
     physics::{
         film::{
             InitialFilm, Patch, PrescribedFlow,
@@ -165,6 +165,34 @@ impl MovingFilm {
             motion.advance(recorder, field, &around, (now * key.tick_s, dt_ticks * key.tick_s), counted)?;
         }
         Ok(())
+    }
+
+    /// Keeps the state in a slot, the next new one at most.
+    pub fn save(&mut self, recorder: &mut Recorder<'_>, slot: usize) -> Result<(), GpuError> {
+        let checkpoint = Checkpoint {
+            field: self.field.save(recorder),
+            motion: self.motion.as_ref().map(|motion| motion.solver.save(recorder)),
+            watch: self.watch.kept(recorder.gpu)?,
+        };
+        match self.checkpoints.get_mut(slot) {
+            Some(old) => *old = checkpoint,
+            None => self.checkpoints.push(checkpoint),
+        }
+        Ok(())
+    }
+
+    /// Makes the state of a slot the film's again; nothing for an empty slot.
+    pub fn restore(&mut self, recorder: &mut Recorder<'_>, slot: usize) {
+        let Self { field, motion, watch, checkpoints } = self;
+        let Some(checkpoint) = checkpoints.get(slot) else { return };
+        *watch = checkpoint.watch.into();
+        field.restore(recorder, &checkpoint.field);
+        // A film that had not moved by itself then starts to with no motion.
+        let Some(flow) = &checkpoint.motion else {
+            *motion = None;
+            return;
+        };
+        motion.get_or_insert_with(|| FreeMotion::empty(recorder.gpu, field)).solver.restore(recorder, flow);
     }
 
     /// The flow that moves it by itself, once it has.

@@ -1,18 +1,19 @@
 //! Remaps: what is done to a film for good when its map is looked through, and what may only be done then.
 
-use super::{
-    super::{
-        Gpu, GpuError,
+use super::{Field, STEP};
+use crate::gpu::{
+    control::Control,
+    device::{Gpu, GpuError},
+    passes::{
         blacken::{BlackFilm, BlackeningLaw},
         conserve::{Excess, Sum, conserve},
         decide_remap::{RemapRule, decide_remap},
         diffuse::Diffusion,
         drain::DrainLaw,
-        reset_map::reset_map,
-        settle_tracer::settle_tracer,
-        timing::{Groups, Recorder},
+        reset_map::ResetMap,
+        settle_tracer::SettleTracer,
     },
-    Control, Field, STEP,
+    timing::{Groups, Recorder},
 };
 
 impl Field {
@@ -72,7 +73,8 @@ impl Field {
             self.map_is_identity = true;
             return Ok(());
         }
-        reset_map(recorder, STEP, self.map_grid(), &self.map[0], due.map_groups())
+        let kernel = ResetMap { tangents: &self.map_grid().tangents, map: &self.map[0] };
+        kernel.reset_map(recorder, STEP, due.map_groups())
     }
 
     /// Workgroups, if a remap is due, of the sum over the tracer, of its end, and of a pass over the tracer.
@@ -106,7 +108,9 @@ impl Field {
         if self.rules.conserved {
             self.account(recorder, &self.sampled, groups, Excess::Balanced)?;
         }
-        settle_tracer(recorder, &self.control.tracer_balance, &self.sampled, &self.tracer, groups[2])
+        let Self { sampled, tracer, control, .. } = self;
+        let kernel = SettleTracer { balance: &control.tracer_balance, sampled, tracer };
+        kernel.settle_tracer(recorder, STEP, groups[2])
     }
 
     /// Sums what a field on the tracer's grid has too much, and does with it what is said.

@@ -3,12 +3,15 @@
 //! How fast a film flows only the device knows. It is asked every two seconds of the film's time, and the answer is taken two seconds later:
 //! it has long arrived then, so that nothing waits for it, and a film rests from the same tick on however its history is cut into frames.
 
-use super::super::{
-    Gpu, GpuError,
-    flow::{FlowMeasures, FlowSolver},
-    readback::Readback,
+use crate::{
+    gpu::{
+        device::{Gpu, GpuError},
+        flow::FlowSolver,
+        passes::flow_measure::FlowMeasures,
+        readback::Readback,
+    },
+    plan::RestingFilm,
 };
-use crate::plan::RestingFilm;
 
 /// Answers for as long as which a speed may go on to grow as it did, and still not reach the limit: a minute. Rounding lets the speed of a film
 /// at rest grow a little for a while; a film that is about to turn over grows much faster.

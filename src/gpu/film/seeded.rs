@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::Grid;
+use crate::gpu::grid::Grid;
 
 /// A function's departures from a level by padded index, and what must be kept of them.
 pub(super) struct Seeded {

@@ -1,62 +1,18 @@
-//! What pictures read of a film, and what stands in for it where there is none.
+//! A film is made ready for pictures.
 
-use super::{
-    super::{
-        Gpu, GpuError,
+use super::{Field, SHOW};
+use crate::gpu::{
+    device::GpuError,
+    passes::{
         conserve::{Excess, Sum, conserve, parts},
         read_film::read_film,
-        reset_map::reset_map,
-        show_film::show_film,
-        timing::Recorder,
+        reset_map::ResetMap,
+        show_film::ShowFilm,
         trace_step::Step,
     },
-    Control, Field, FilmTexture, SHOW,
+    shown_film::Shown,
+    timing::Recorder,
 };
-
-/// What pictures read of a film.
-#[derive(Clone, Copy)]
-pub struct Shown<'a> {
-    /// The thickness at the film's cells.
-    pub film: &'a wgpu::TextureView,
-    /// The correction of what is looked up through the map.
-    pub balance: &'a wgpu::Buffer,
-    /// The map that it was sampled through.
-    pub map: &'a wgpu::Buffer,
-    /// Its cells along a panel's edge.
-    pub map_cells: u32,
-    /// The tracer that was sampled.
-    pub tracer: &'a wgpu::Buffer,
-    /// Its cells along a panel's edge.
-    pub tracer_cells: u32,
-}
-
-/// An empty film for pictures that read none.
-pub struct NoFilm {
-    film: FilmTexture,
-    control: Control,
-}
-
-impl NoFilm {
-    /// One texel a panel.
-    #[must_use]
-    pub fn new(gpu: &Gpu) -> Self {
-        Self { film: FilmTexture::new(gpu, 1), control: Control::new(gpu) }
-    }
-
-    /// What pictures may bind.
-    #[must_use]
-    pub fn shown(&self) -> Shown<'_> {
-        let Control { shown_balance, partial_sums, .. } = &self.control;
-        Shown {
-            film: &self.film.view,
-            balance: shown_balance,
-            map: partial_sums,
-            map_cells: 0,
-            tracer: partial_sums,
-            tracer_cells: 0,
-        }
-    }
-}
 
 impl Field {
     /// Makes the thickness ready to be drawn, a part of a step ahead of the state if one is given. The state stays.
@@ -69,7 +25,8 @@ impl Field {
         if map.is_none() && self.rules.scheme.keeps_map() {
             // Pictures look through it wherever it leads.
             let grid = self.map_grid();
-            reset_map(recorder, SHOW, grid, &self.map[0], grid.padded_groups().into())?;
+            let kernel = ResetMap { tangents: &grid.tangents, map: &self.map[0] };
+            kernel.reset_map(recorder, SHOW, grid.padded_groups())?;
         }
         self.sample(recorder, SHOW, &self.film, map, [&self.tracer, &self.shown], self.all_cells())?;
         let sum = Sum {
@@ -83,7 +40,8 @@ impl Field {
             let groups = [[parts(&self.film), 1, 1].into(), [1; 3].into()];
             conserve(recorder, SHOW, self.target(0), &sum, groups, Excess::Balanced)?;
         }
-        show_film(recorder, SHOW, &self.film, sum.balance, &self.shown, &self.texture.view)
+        let kernel = ShowFilm { balance: &self.control.shown_balance, sampled: &self.shown, film: &self.texture.view };
+        kernel.show_film(recorder, SHOW, self.film.padded_groups())
     }
 
     /// What was last shown.

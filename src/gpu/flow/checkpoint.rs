@@ -1,9 +1,7 @@
 //! A flow's state kept aside, so that it can go on from there again with the same bits.
 
-use super::{
-    super::{copies::Copies, timing::Recorder},
-    FlowSolver,
-};
+use super::FlowSolver;
+use crate::gpu::{copies::Copies, timing::Recorder};
 
 /// A flow's state between two steps.
 pub struct FlowCheckpoint {

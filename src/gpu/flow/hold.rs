@@ -1,34 +1,22 @@
 //! The drop that may hang at a film's bottom: it holds the film fast.
 
-use bytemuck::{Pod, Zeroable};
-
-use super::{
-    super::{Gpu, GpuError, timing::Recorder},
-    FlowGrid,
+use super::{FlowGrid, STEP_FLOW};
+use crate::gpu::{
+    device::{Gpu, GpuError},
+    passes::flow_hold::{FlowHold, HoldUniform},
+    timing::Recorder,
+    uniform_buffer::UniformBuffer,
 };
-
-/// See `shaders/pass/flow_hold.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct HoldUniform {
-    /// Cells along a panel's edge.
-    pub cells: u32,
-    /// Angle from the bottom at which the drop begins, radians.
-    pub rim: f32,
-    /// That within which nothing flows.
-    pub inner: f32,
-    pad: u32,
-}
 
 /// Cells from a drop's rim to where nothing flows, at least: what the flow's differences need.
 const LEAST_CELLS: f64 = 3.0;
 
 /// What holds the film fast.
-pub(super) struct FlowHold {
-    uniform: wgpu::Buffer,
+pub(super) struct HeldDrop {
+    uniform: UniformBuffer<HoldUniform>,
 }
 
-impl FlowHold {
+impl HeldDrop {
     /// A drop of an angular radius in radians.
     pub(super) fn new(gpu: &Gpu, grid: &FlowGrid, radius: f64) -> Self {
         let width = (0.5 * radius).max(LEAST_CELLS * grid.sphere.cell_angle());
@@ -36,7 +24,7 @@ impl FlowHold {
             cells: grid.sphere.n() as u32,
             rim: radius.max(width) as f32,
             inner: (radius - width).max(0.0) as f32,
-            pad: 0,
+            padding: 0,
         };
         Self { uniform: gpu.uniform("hold", &uniform) }
     }
@@ -49,8 +37,8 @@ impl FlowHold {
         zeta: &wgpu::Buffer,
         psi: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
-        let bound = [&self.uniform, &grid.tangents, zeta, psi];
-        grid.run(recorder, ("flow_hold", "flow_hold"), &[], &bound, [1; 3])?;
+        let kernel = FlowHold { hold: &self.uniform, tangents: &grid.tangents, zeta, psi };
+        kernel.flow_hold(recorder, STEP_FLOW, [1; 3])?;
         grid.fill_halo(recorder, psi)
     }
 }

@@ -1,37 +1,28 @@
 //! The rim that a film may end at: beyond it stands the image of its vorticity.
 
-use bytemuck::{Pod, Zeroable};
-
-use super::{
-    super::{Gpu, GpuError, film::rim_numbers, timing::Recorder},
-    FlowGrid, buffer,
+use super::{FlowGrid, STEP_FLOW, buffer};
+use crate::{
+    gpu::{
+        device::{Gpu, GpuError},
+        grid::rim_numbers,
+        passes::flow_image::{FlowImage, ImageUniform},
+        timing::Recorder,
+        uniform_buffer::UniformBuffer,
+    },
+    physics::film::Cap,
 };
-use crate::physics::film::Cap;
-
-/// See `shaders/pass/flow_image.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct ImageUniform {
-    /// Height of the rim.
-    pub rim_z: f32,
-    /// The inversion in it.
-    pub inversion: f32,
-    /// Cells along a panel's edge.
-    pub cells: u32,
-    pad: u32,
-}
 
 /// What makes the image.
-pub(super) struct FlowImage {
+pub(super) struct RimImage {
     pub(super) cap: Cap,
-    uniform: wgpu::Buffer,
+    uniform: UniformBuffer<ImageUniform>,
     with_image: wgpu::Buffer,
 }
 
-impl FlowImage {
+impl RimImage {
     pub(super) fn new(gpu: &Gpu, grid: &FlowGrid, cap: Cap) -> Self {
         let [rim_z, inversion] = rim_numbers(Some(cap));
-        let uniform = ImageUniform { rim_z, inversion, cells: grid.sphere.n() as u32, pad: 0 };
+        let uniform = ImageUniform { rim_z, inversion, cells: grid.sphere.n() as u32, padding: 0 };
         Self {
             cap,
             uniform: gpu.uniform("image", &uniform),
@@ -47,9 +38,10 @@ impl FlowImage {
         zeta: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
         grid.fill_halo(recorder, zeta)?;
-        let bound = [&self.uniform, &grid.tangents, zeta, &self.with_image];
-        grid.run(recorder, ("flow_image", "flow_image"), &[], &bound, grid.groups())?;
-        recorder.encoder().copy_buffer_to_buffer(&self.with_image, 0, zeta, 0, zeta.size());
+        let Self { uniform: mirror, with_image, .. } = self;
+        let kernel = FlowImage { mirror, tangents: &grid.tangents, zeta, with_image };
+        kernel.flow_image(recorder, STEP_FLOW, grid.groups())?;
+        recorder.encoder().copy_buffer_to_buffer(with_image, 0, zeta, 0, zeta.size());
         Ok(())
     }
 }

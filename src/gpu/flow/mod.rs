@@ -6,73 +6,33 @@ mod hold;
 mod image;
 mod multigrid;
 
-use bytemuck::{Pod, Zeroable};
-
 pub use checkpoint::FlowCheckpoint;
-use hold::FlowHold;
-pub use hold::HoldUniform;
-use image::FlowImage;
-pub use image::ImageUniform;
-pub(super) use multigrid::halo_entries;
-pub use multigrid::{CoarseLevel, CoarseUniform, SolveUniform};
+use hold::HeldDrop;
+use image::RimImage;
 use multigrid::{Multigrid, System};
 
-use super::{Gpu, GpuError, pipelines::ComputeKey, timing::Recorder};
+use super::{
+    device::{Gpu, GpuError},
+    grid::halo_entries,
+    passes::{
+        flow_combine::{CombineUniform, FlowCombine},
+        flow_force::FlowForce,
+        flow_halo::{HaloOfPair, HaloOfScalar, HaloOfVelocities},
+        flow_measure::{FlowMeasure, FlowMeasures, FlowUniform},
+        flow_trace::{TraceTracer, TraceVorticity},
+        flow_velocity::FlowVelocity,
+    },
+    timing::Recorder,
+    uniform_buffer::UniformBuffer,
+};
 use crate::physics::{
     film::Cap,
     flow::{FlowForces, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES},
     sphere::CubedSphere,
 };
 
-/// One step: see `shaders/flow/step.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct FlowUniform {
-    /// Gravity over the radius, 1/s².
-    pub gravity: [f32; 3],
-    /// Length of the step, seconds.
-    pub dt_s: f32,
-    /// Drag that is the same everywhere, 1/s.
-    pub drag: f32,
-    /// Drag of air over the root of the speed, times the thickness, nm/√s.
-    pub air_drag: f32,
-    /// Slowest speed that it is reckoned with, rad/s.
-    pub min_air_speed: f32,
-    /// Angle of a cell, radians.
-    pub cell_angle: f32,
-    /// Cells along a panel's edge.
-    pub cells: u32,
-    pad: [u32; 3],
-}
-
-/// What was measured of the whole film at the start of the last step: see `shaders/flow/step.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct FlowMeasures {
-    /// Mean vorticity, which the step took away, 1/s.
-    pub zeta_mean: f32,
-    /// Mean of the first guess of the stream function.
-    pub guess_mean: f32,
-    /// Fastest flow, rad/s.
-    pub max_speed: f32,
-    /// Values of vorticity, stream function and ln h that could not be used since the film was seeded: not finite, or beyond 1e6.
-    /// Zeros stood in for them.
-    pub unusable: u32,
-}
-
-/// See `shaders/pass/flow_combine.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct CombineUniform {
-    /// Factor of the first field.
-    pub first: f32,
-    /// Factor of the second field.
-    pub second: f32,
-    /// Factor of the third field.
-    pub third: f32,
-    /// Factor of the mean of the guess.
-    pub mean: f32,
-}
+/// Name of the passes that step a flow.
+const STEP_FLOW: &str = "step_flow";
 
 /// Multigrid cycles of a step: only as many as its error needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,29 +63,8 @@ impl FlowGrid {
         [cells.div_ceil(64), cells, 6]
     }
 
-    /// Records a pass: an entry point of a file, its own constants, and its bindings in order.
-    fn run(
-        &self,
-        recorder: &mut Recorder<'_>,
-        (pass, entry): (&'static str, &'static str),
-        constants: &[(&'static str, u32)],
-        buffers: &[&wgpu::Buffer],
-        groups: [u32; 3],
-    ) -> Result<(), GpuError> {
-        let gpu = recorder.gpu;
-        let pipeline = gpu.pipelines.compute(gpu, &ComputeKey { pass, entry, constants: constants.to_vec() })?;
-        let resources: Vec<_> = buffers.iter().map(|buffer| buffer.as_entire_binding()).collect();
-        let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &resources);
-        recorder.dispatch("step_flow", &pipeline, &bindings, groups);
-        Ok(())
-    }
-
     fn fill_halo(&self, recorder: &mut Recorder<'_>, field: &wgpu::Buffer) -> Result<(), GpuError> {
-        self.run(recorder, ("flow_halo", "halo_of_scalar"), &[], &[&self.halo, field], [1; 3])
-    }
-
-    fn fill_halo_of_pair(&self, recorder: &mut Recorder<'_>, pair: &wgpu::Buffer) -> Result<(), GpuError> {
-        self.run(recorder, ("flow_halo", "halo_of_pair"), &[], &[&self.halo, pair], [1; 3])
+        HaloOfScalar { entries: &self.halo, scalar: field }.halo_of_scalar(recorder, STEP_FLOW, [1; 3])
     }
 }
 
@@ -135,9 +74,9 @@ pub struct FlowSolver {
     grid: FlowGrid,
     multigrid: Multigrid,
     /// What stands for the film beyond a rim, if it has one.
-    image: Option<FlowImage>,
+    image: Option<RimImage>,
     /// What holds the film at its bottom, if anything does.
-    drop: Option<FlowHold>,
+    drop: Option<HeldDrop>,
     zeta: wgpu::Buffer,
     log_thickness: wgpu::Buffer,
     forcing: wgpu::Buffer,
@@ -211,13 +150,13 @@ impl FlowSolver {
     /// From the next seed on the film ends at the rim of a cap, across which nothing flows; or nowhere.
     pub fn end_at(&mut self, gpu: &Gpu, cap: Option<Cap>) {
         if self.image.as_ref().map(|image| image.cap) != cap {
-            self.image = cap.map(|cap| FlowImage::new(gpu, &self.grid, cap));
+            self.image = cap.map(|cap| RimImage::new(gpu, &self.grid, cap));
         }
     }
 
     /// From the next step on a drop of an angular radius in radians hangs at the bottom, through which nothing flows; or none.
     pub fn hold(&mut self, gpu: &Gpu, radius: Option<f64>) {
-        self.drop = radius.map(|radius| FlowHold::new(gpu, &self.grid, radius));
+        self.drop = radius.map(|radius| HeldDrop::new(gpu, &self.grid, radius));
     }
 
     /// Makes vorticity beyond the rim, if there is one, the image of that within.
@@ -337,36 +276,10 @@ impl FlowSolver {
         recorder: &mut Recorder<'_>,
         dt_s: f64,
         forces: &FlowForces,
-        uniform: &wgpu::Buffer,
+        uniform: &UniformBuffer<FlowUniform>,
     ) -> Result<(), GpuError> {
-        let Self { grid, measures, .. } = self;
-        let measured = [
-            uniform,
-            &grid.tangents,
-            &self.zeta,
-            &self.psi,
-            &self.psi_before,
-            &self.log_thickness,
-            &self.velocity,
-            measures,
-        ];
-        grid.run(recorder, ("flow_measure", "flow_measure"), &[], &measured, [1; 3])?;
-        let forced = [
-            uniform,
-            &grid.tangents,
-            measures,
-            &self.zeta,
-            &self.log_thickness,
-            &self.velocity_ahead,
-            &self.forcing,
-            &self.pushed,
-            &self.decay,
-        ];
-        grid.run(recorder, ("flow_force", "flow_force"), &[], &forced, grid.groups())?;
-        grid.fill_halo_of_pair(recorder, &self.pushed)?;
-        let [first, second] = &self.stages;
-        let traced = [uniform, &grid.tangents, &self.velocity_ahead, &self.pushed, &self.decay, first, second];
-        grid.run(recorder, ("flow_trace", "trace_vorticity"), &[], &traced, grid.groups())?;
+        let Self { grid, stages: [first, second], .. } = self;
+        self.push(recorder, uniform)?;
         match forces.viscous_stage(dt_s) {
             None => self.combine(recorder, &[(1.0, first), (1.0, second)], 0.0, &self.moved)?,
             Some(stage) => self.viscous(recorder, stage)?,
@@ -378,12 +291,51 @@ impl FlowSolver {
         self.drop.as_ref().map_or(Ok(()), |drop| drop.stop(recorder, grid, &self.moved, &self.psi_next))
     }
 
+    /// From ζ, ψ and ψ before to what the two viscous stages take.
+    fn push(&self, recorder: &mut Recorder<'_>, flow: &UniformBuffer<FlowUniform>) -> Result<(), GpuError> {
+        let Self { grid, zeta, log_thickness, measures, pushed, decay, velocity_ahead, .. } = self;
+        let (tangents, [first_stage, second_stage]) = (&grid.tangents, &self.stages);
+        let measure = FlowMeasure {
+            flow,
+            tangents,
+            zeta,
+            psi: &self.psi,
+            psi_before: &self.psi_before,
+            log_thickness,
+            velocity: &self.velocity,
+            measures,
+        };
+        measure.flow_measure(recorder, STEP_FLOW, [1; 3])?;
+        let force = FlowForce {
+            flow,
+            tangents,
+            measures,
+            zeta,
+            log_thickness,
+            velocity: velocity_ahead,
+            forcing: &self.forcing,
+            pushed,
+            decay,
+        };
+        force.flow_force(recorder, STEP_FLOW, grid.groups())?;
+        HaloOfPair { entries: &grid.halo, pair: pushed }.halo_of_pair(recorder, STEP_FLOW, [1; 3])?;
+        let trace =
+            TraceVorticity { flow, tangents, velocity: velocity_ahead, pushed, decay, first_stage, second_stage };
+        trace.trace_vorticity(recorder, STEP_FLOW, grid.groups())
+    }
+
     /// Carries ln h along the velocity for `dt_s` seconds on the flow's own grid. For a film whose thickness lives here too.
     pub fn carry_log_thickness(&mut self, recorder: &mut Recorder<'_>, dt_s: f64) -> Result<(), GpuError> {
         let uniform = self.uniform(recorder.gpu, dt_s, &FlowForces::default());
         self.grid.fill_halo(recorder, &self.log_thickness)?;
-        let traced = [&uniform, &self.grid.tangents, &self.velocity, &self.log_thickness, &self.moved];
-        self.grid.run(recorder, ("flow_trace", "trace_tracer"), &[], &traced, self.grid.groups())?;
+        let kernel = TraceTracer {
+            flow: &uniform,
+            tangents: &self.grid.tangents,
+            velocity: &self.velocity,
+            field: &self.log_thickness,
+            moved: &self.moved,
+        };
+        kernel.trace_tracer(recorder, STEP_FLOW, self.grid.groups())?;
         std::mem::swap(&mut self.log_thickness, &mut self.moved);
         Ok(())
     }
@@ -408,14 +360,16 @@ impl FlowSolver {
     fn find_velocity(
         &self,
         recorder: &mut Recorder<'_>,
-        uniform: &wgpu::Buffer,
+        uniform: &UniformBuffer<FlowUniform>,
         psi: &wgpu::Buffer,
         before: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
         let Self { grid, velocity, velocity_ahead, .. } = self;
-        let found = [uniform, &grid.tangents, psi, before, velocity, velocity_ahead];
-        grid.run(recorder, ("flow_velocity", "flow_velocity"), &[], &found, grid.groups())?;
-        grid.run(recorder, ("flow_halo", "halo_of_velocities"), &[], &[&grid.halo, velocity, velocity_ahead], [1; 3])
+        let tangents = &grid.tangents;
+        let find = FlowVelocity { flow: uniform, tangents, psi, psi_before: before, velocity, velocity_ahead };
+        find.flow_velocity(recorder, STEP_FLOW, grid.groups())?;
+        let fill = HaloOfVelocities { entries: &grid.halo, velocity, velocity_ahead };
+        fill.halo_of_velocities(recorder, STEP_FLOW, [1; 3])
     }
 
     /// A sum of up to three fields with factors, and so many times the mean of the guess, halos included.
@@ -429,13 +383,18 @@ impl FlowSolver {
         // Where there are fewer, the first stands for the rest, times nothing.
         let [first, second, third] = [0, 1, 2].map(|k| terms.get(k).copied().unwrap_or((0.0, terms[0].1)));
         let factors = CombineUniform { first: first.0 as f32, second: second.0 as f32, third: third.0 as f32, mean };
-        let uniform = recorder.gpu.uniform("combine", &factors);
-        let groups = [(self.grid.sphere.padded_len() as u32).div_ceil(64), 1, 1];
-        let bound = [&uniform, &self.measures, first.1, second.1, third.1, to];
-        self.grid.run(recorder, ("flow_combine", "flow_combine"), &[], &bound, groups)
+        let kernel = FlowCombine {
+            combine: &recorder.gpu.uniform("combine", &factors),
+            measures: &self.measures,
+            first: first.1,
+            second: second.1,
+            third: third.1,
+            combined: to,
+        };
+        kernel.flow_combine(recorder, STEP_FLOW, [(self.grid.sphere.padded_len() as u32).div_ceil(64), 1, 1])
     }
 
-    fn uniform(&self, gpu: &Gpu, dt_s: f64, forces: &FlowForces) -> wgpu::Buffer {
+    fn uniform(&self, gpu: &Gpu, dt_s: f64, forces: &FlowForces) -> UniformBuffer<FlowUniform> {
         let uniform = FlowUniform {
             gravity: forces.gravity.as_vec3().to_array(),
             dt_s: dt_s as f32,
@@ -444,7 +403,7 @@ impl FlowSolver {
             min_air_speed: MIN_AIR_SPEED as f32,
             cell_angle: self.grid.sphere.cell_angle() as f32,
             cells: self.grid.sphere.n() as u32,
-            pad: [0; 3],
+            padding: [0; 3],
         };
         gpu.uniform("flow step", &uniform)
     }

@@ -2,76 +2,27 @@
 //!
 //! The finest grid is swept by one dispatch a sweep; all coarser ones together are a single workgroup's work.
 
-use bytemuck::{Pod, Zeroable};
+use bytemuck::Zeroable;
 
-use super::{FlowGrid, buffer};
+use super::{FlowGrid, STEP_FLOW, buffer};
 use crate::{
-    gpu::{Gpu, GpuError, timing::Recorder},
+    gpu::{
+        device::{Gpu, GpuError},
+        grid::halo_entries,
+        passes::{
+            flow_coarse::{CoarseLevel, CoarseUniform, FlowCoarse, MAX_LEVELS},
+            flow_correct::FlowCorrect,
+            flow_residual::{FlowResidual, SolveUniform},
+            flow_sweep::FlowSweep,
+        },
+        timing::Recorder,
+        uniform_buffer::UniformBuffer,
+    },
     physics::{
-        flow::{MAX_COARSEST_SWEEPS, Order, SWEEPS, Shift, coarser, coarsest_weights, is_coarsest, sweep_weights},
-        sphere::{CubedSphere, HaloEntry, HaloTable},
+        flow::{Order, SWEEPS, Shift, coarser, coarsest_weights, is_coarsest, sweep_weights},
+        sphere::CubedSphere,
     },
 };
-
-/// Grids that there is room for: enough for 8 · 2¹¹ cells an edge.
-const MAX_LEVELS: usize = 12;
-
-/// See `shaders/flow/solve.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct SolveUniform {
-    /// Weights of the sweeps after a correction.
-    pub weights: [f32; SWEEPS],
-    /// k.
-    pub shift: f32,
-    /// f over the source that it is read from.
-    pub gain: f32,
-    /// Angle of a cell, radians.
-    pub cell_angle: f32,
-    /// Cells along a panel's edge.
-    pub cells: u32,
-    /// The same of the next grid.
-    pub coarse_cells: u32,
-    /// Where the corrections of the next grid start.
-    pub coarse_field: u32,
-    pad: [u32; 3],
-}
-
-/// A grid: see `shaders/pass/flow_coarse.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-pub struct CoarseLevel {
-    /// Weights of the sweeps after a correction.
-    pub weights: [f32; SWEEPS],
-    /// Angle of a cell, radians.
-    pub cell_angle: f32,
-    /// Cells along a panel's edge.
-    pub cells: u32,
-    /// Where its values start.
-    pub field: u32,
-    /// Where its tangents start.
-    pub tangent: u32,
-    /// Where its halo entries start.
-    pub halo: u32,
-}
-
-/// All grids: see `shaders/pass/flow_coarse.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct CoarseUniform {
-    /// How many.
-    pub levels: u32,
-    /// Values of all of them.
-    pub values: u32,
-    /// k.
-    pub shift: f32,
-    /// Sweeps on the coarsest.
-    pub sweeps: u32,
-    /// The finest first.
-    pub level: [CoarseLevel; MAX_LEVELS],
-    /// Weights of the sweeps on the coarsest.
-    pub coarsest: [f32; MAX_COARSEST_SWEEPS],
-}
 
 /// A linear system: `(Δ − k) ψ = gain · source`.
 #[derive(Clone, Copy)]
@@ -135,25 +86,44 @@ impl Multigrid {
         psi: &wgpu::Buffer,
         count: usize,
     ) -> Result<(), GpuError> {
-        let solve = recorder.gpu.uniform("solve", &self.solve_uniform(grid.sphere, system));
-        let coarse = recorder.gpu.uniform("coarse grids", &self.coarse_uniform(system.shift));
+        let solve = &recorder.gpu.uniform("solve", &self.solve_uniform(grid.sphere, system));
+        let coarse = &recorder.gpu.uniform("coarse grids", &self.coarse_uniform(system.shift));
         for _ in 0..count {
-            let residual = [&solve, &grid.tangents, system.source, psi, &self.f];
-            grid.run(recorder, ("flow_residual", "flow_residual"), &[], &residual, grid.groups())?;
-            let coarse = [&coarse, &self.tangents, &self.halo, &self.f, &self.e];
-            grid.run(recorder, ("flow_coarse", "flow_coarse"), &[], &coarse, [1; 3])?;
-            let correct = [&solve, &self.e, psi, &self.scratch];
-            grid.run(recorder, ("flow_correct", "flow_correct"), &[], &correct, grid.groups())?;
-            grid.fill_halo(recorder, &self.scratch)?;
+            self.correct(recorder, grid, system, psi, (solve, coarse))?;
             // An odd number of sweeps, so that the last is into ψ.
             for sweep in 0..SWEEPS {
                 let [from, to] = if sweep % 2 == 0 { [&self.scratch, psi] } else { [psi, &self.scratch] };
-                let buffers = [&solve, &grid.tangents, system.source, from, to];
-                grid.run(recorder, ("flow_sweep", "flow_sweep"), &[("SWEEP", sweep as u32)], &buffers, grid.groups())?;
+                let kernel = FlowSweep {
+                    SWEEP: sweep as u32,
+                    solve,
+                    tangents: &grid.tangents,
+                    source: system.source,
+                    psi: from,
+                    psi_after: to,
+                };
+                kernel.flow_sweep(recorder, STEP_FLOW, grid.groups())?;
                 grid.fill_halo(recorder, to)?;
             }
         }
         Ok(())
+    }
+
+    /// Corrects ψ by what the coarse grids find, into `scratch`.
+    fn correct(
+        &self,
+        recorder: &mut Recorder<'_>,
+        grid: &FlowGrid,
+        system: &System<'_>,
+        psi: &wgpu::Buffer,
+        (solve, coarse): (&UniformBuffer<SolveUniform>, &UniformBuffer<CoarseUniform>),
+    ) -> Result<(), GpuError> {
+        let Self { tangents, halo, f, e, scratch, .. } = self;
+        let residual = FlowResidual { solve, tangents: &grid.tangents, source: system.source, psi, left: f };
+        residual.flow_residual(recorder, STEP_FLOW, grid.groups())?;
+        FlowCoarse { coarse, tangents, entries: halo, f, e }.flow_coarse(recorder, STEP_FLOW, [1; 3])?;
+        let correct = FlowCorrect { solve, correction: e, psi, psi_after: scratch };
+        correct.flow_correct(recorder, STEP_FLOW, grid.groups())?;
+        grid.fill_halo(recorder, scratch)
     }
 
     fn solve_uniform(&self, sphere: CubedSphere, system: &System<'_>) -> SolveUniform {
@@ -165,7 +135,7 @@ impl Multigrid {
             cells: sphere.n() as u32,
             coarse_cells: self.levels[1].cells,
             coarse_field: self.levels[1].field,
-            pad: [0; 3],
+            padding: [0; 3],
         }
     }
 
@@ -189,10 +159,4 @@ impl Multigrid {
         }
         uniform
     }
-}
-
-/// The halo of a grid: all edges, then all corners.
-pub fn halo_entries(grid: CubedSphere) -> Vec<HaloEntry> {
-    let table = HaloTable::new(grid);
-    [table.edges, table.corners].concat()
 }

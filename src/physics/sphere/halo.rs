@@ -8,14 +8,14 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{CubedSphere, HALO, PanelPoint, cubic_weights};
 
-/// One halo cell: `value[target] = Σ weights[k] · value[source[k]]`, all in padded indices.
+/// One halo cell: `value[cell] = Σ weights[k] · value[sources[k]]`, all in padded indices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct HaloEntry {
     /// The halo cell.
-    pub target: u32,
+    pub cell: u32,
     /// Four cells in a row on the neighbour panel.
-    pub source: [u32; 4],
+    pub sources: [u32; 4],
     /// Lagrange weights. Their sum is exactly 1, so that constants stay constant in any precision.
     pub weights: [f32; 4],
 }
@@ -63,13 +63,13 @@ fn entry(grid: CubedSphere, panel: usize, i: isize, j: isize, reach: isize) -> H
     let (along, across) = if along_x { (place.x, place.y) } else { (place.y, place.x) };
     let row = across.round() as isize;
     let first = (along.floor() as isize - 1).clamp(-reach, grid.n() as isize + reach - 4);
-    let source = [0, 1, 2, 3].map(|step| {
+    let sources = [0, 1, 2, 3].map(|step| {
         let (i, j) = if along_x { (first + step, row) } else { (row, first + step) };
         grid.padded_index(place.panel, i, j) as u32
     });
     HaloEntry {
-        target: grid.padded_index(panel, i, j) as u32,
-        source,
+        cell: grid.padded_index(panel, i, j) as u32,
+        sources,
         weights: unit_sum(cubic_weights(along - (first + 1) as f64)),
     }
 }
@@ -106,8 +106,8 @@ mod tests {
                 .collect();
             assert_eq!((table.edges.len(), table.corners.len()), (6 * 4 * HALO * n, 6 * 4 * HALO * HALO));
             for pass in [&table.edges, &table.corners] {
-                assert!(pass.iter().all(|entry| entry.source.iter().all(|source| ready.contains(source))));
-                ready.extend(pass.iter().map(|entry| entry.target));
+                assert!(pass.iter().all(|entry| entry.sources.iter().all(|source| ready.contains(source))));
+                ready.extend(pass.iter().map(|entry| entry.cell));
             }
             assert_eq!(ready.len(), grid.padded_len());
         }
@@ -117,13 +117,13 @@ mod tests {
     fn inner_rings_come_first_and_their_corners_need_two_of_them() {
         for n in [8, 15, 40] {
             let table = HaloTable::new(CubedSphere::new(n).unwrap());
-            let outer: HashSet<u32> = table.edges[48 * n..].iter().map(|entry| entry.target).collect();
+            let outer: HashSet<u32> = table.edges[48 * n..].iter().map(|entry| entry.cell).collect();
             let corners = &table.corners[..24];
-            assert!(corners.iter().all(|entry| entry.source.iter().all(|source| !outer.contains(source))));
+            assert!(corners.iter().all(|entry| entry.sources.iter().all(|source| !outer.contains(source))));
             let width = n + 2 * HALO;
             let inner = |k: usize| k == HALO - 1 || k == HALO + n;
             assert!(corners.iter().all(|entry| {
-                let place = entry.target as usize % (width * width);
+                let place = entry.cell as usize % (width * width);
                 inner(place % width) && inner(place / width)
             }));
         }

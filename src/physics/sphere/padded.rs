@@ -103,8 +103,8 @@ impl<T: FieldValue> PaddedField<T> {
     /// Gives each halo cell of one pass its value.
     fn fill(&mut self, pass: &[HaloEntry]) {
         for entry in pass {
-            let source = entry.source.map(|index| self.values[index as usize]);
-            self.values[entry.target as usize] = weighted(entry.weights.map(f64::from).into_iter().zip(source));
+            let source = entry.sources.map(|index| self.values[index as usize]);
+            self.values[entry.cell as usize] = weighted(entry.weights.map(f64::from).into_iter().zip(source));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Functions in each language as one that the adapter runs, and the texture that they sample.
 
 use glam::{DVec3, Vec3};
-use soapfilm::gpu::{Gpu, bake_table::table_sampler, readback::Readback};
+use soapfilm::gpu::{Gpu, passes::bake_table::table_sampler, readback::Readback};
 
 use super::{Desk, TABLE, films, glslang};
 
@@ -221,11 +221,11 @@ pub fn sample(gpu: &Gpu, shader: &str, layers: &[Vec<Vec3>; 3], layer: usize) ->
     );
     let sampler = table_sampler(gpu);
     let resources = [
-        wgpu::BindingResource::TextureView(&views[0]),
-        wgpu::BindingResource::TextureView(&views[1]),
-        wgpu::BindingResource::Sampler(&sampler),
-        films.as_entire_binding(),
-        colours.as_entire_binding(),
+        (0, wgpu::BindingResource::TextureView(&views[0])),
+        (1, wgpu::BindingResource::TextureView(&views[1])),
+        (2, wgpu::BindingResource::Sampler(&sampler)),
+        (3, films.as_entire_binding()),
+        (4, colours.as_entire_binding()),
     ];
     let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &resources);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -1,0 +1,103 @@
+//! What can be bound to a kernel: each kind of resource, with the type of what lies in it.
+
+use std::marker::PhantomData;
+
+use wgpu::{BindingResource, Buffer, TextureView, TextureViewDimension as Dimension};
+
+use super::{
+    super::uniform_buffer::UniformBuffer,
+    layout::{Contents, Layout, ShaderType},
+};
+
+/// What a kernel declares of one of its bindings.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SlotKind {
+    /// A uniform buffer.
+    Uniform(Layout),
+    /// A storage buffer that is read.
+    Read(Layout),
+    /// A storage buffer that is read and written.
+    ReadWrite(Layout),
+    /// A texture of floats that is sampled or loaded from.
+    Texture(Dimension),
+    /// A texture array that is written, and its format.
+    Written(wgpu::TextureFormat),
+    /// A sampler.
+    Sampler,
+}
+
+/// A kind of binding.
+pub trait Slot {
+    /// What is bound there.
+    type Resource<'a>: Copy;
+    /// What a shader must declare.
+    fn kind() -> SlotKind;
+    /// The resource as wgpu binds it.
+    fn bound(resource: Self::Resource<'_>) -> BindingResource<'_>;
+}
+
+/// A uniform buffer that holds a `T`.
+pub struct Uniform<T>(PhantomData<T>);
+/// A storage buffer that is read: a `T`, or a list where `T` is a slice.
+pub struct Read<T: ?Sized>(PhantomData<T>);
+/// A storage buffer that is read and written.
+pub struct ReadWrite<T: ?Sized>(PhantomData<T>);
+/// A texture.
+pub struct Texture2d;
+/// An array of textures.
+pub struct Texture2dArray;
+/// A cube map.
+pub struct TextureCube;
+/// An array of textures that is written.
+pub struct Written2dArray<F>(PhantomData<F>);
+/// A sampler.
+pub struct Sampler;
+
+/// A format of textures that are written.
+pub trait WrittenFormat {
+    /// The format.
+    const FORMAT: wgpu::TextureFormat;
+}
+
+/// Four half floats a texel.
+pub struct Rgba16Float;
+/// One float a texel.
+pub struct R32Float;
+
+impl WrittenFormat for Rgba16Float {
+    const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+}
+
+impl WrittenFormat for R32Float {
+    const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+}
+
+/// Makes a type a kind of binding: what is bound, what a shader must declare, and how wgpu takes it.
+macro_rules! slot {
+    ($({ $($parameter:tt)* })? $slot:ty = $resource:ty, $kind:expr, $bound:expr) => {
+        impl $(<$($parameter)*>)? Slot for $slot {
+            type Resource<'a> = &'a $resource;
+
+            fn kind() -> SlotKind {
+                $kind
+            }
+
+            fn bound(resource: Self::Resource<'_>) -> BindingResource<'_> {
+                $bound(resource)
+            }
+        }
+    };
+}
+
+slot!({ T: ShaderType + 'static } Uniform<T> = UniformBuffer<T>, SlotKind::Uniform(T::layout()), whole);
+slot!({ T: Contents + ?Sized } Read<T> = Buffer, SlotKind::Read(T::layout()), whole);
+slot!({ T: Contents + ?Sized } ReadWrite<T> = Buffer, SlotKind::ReadWrite(T::layout()), whole);
+slot!(Texture2d = TextureView, SlotKind::Texture(Dimension::D2), BindingResource::TextureView);
+slot!(Texture2dArray = TextureView, SlotKind::Texture(Dimension::D2Array), BindingResource::TextureView);
+slot!(TextureCube = TextureView, SlotKind::Texture(Dimension::Cube), BindingResource::TextureView);
+slot!({ F: WrittenFormat } Written2dArray<F> = TextureView, SlotKind::Written(F::FORMAT), BindingResource::TextureView);
+slot!(Sampler = wgpu::Sampler, SlotKind::Sampler, BindingResource::Sampler);
+
+fn whole(buffer: &Buffer) -> BindingResource<'_> {
+    buffer.as_entire_binding()
+}

@@ -1,0 +1,60 @@
+//! What stands behind the bubbles.
+
+use crate::gpu::kernel::{Matrix, Sampler, TextureCube, Uniform, kernels, shader_struct};
+
+shader_struct! {
+    /// The camera: see `shaders/camera/view.wgsl`.
+    pub struct ViewUniform {
+        /// Line of sight.
+        pub forward: [f32; 3],
+        /// Height of a pixel on the plane one metre before the eye.
+        pub pixel_height: f32,
+        /// Right of the picture.
+        pub right: [f32; 3],
+        /// Picture width in pixels.
+        pub width: f32,
+        /// Top of the picture.
+        pub up: [f32; 3],
+        /// Picture height in pixels.
+        pub height: f32,
+    }
+}
+
+shader_struct! {
+    /// The light: see `shaders/light/environment.wgsl`.
+    pub struct LightUniform {
+        /// Factor on the environment's radiance.
+        pub gain: [f32; 3],
+        /// Angle between texels of its finest level.
+        pub texel_angle: f32,
+        /// Radiance of the backdrop where it is a colour.
+        pub backdrop: [f32; 3],
+        /// 1 where the backdrop is the environment.
+        pub backdrop_is_environment: f32,
+        /// Factor that makes daylight's white (1, 1, 1), exposed as the linear picture is.
+        pub scale: [f32; 3],
+        /// Cosine of the environment's turn.
+        pub turn_cos: f32,
+        /// Direction that a polariser lets pass.
+        pub polariser: [f32; 3],
+        /// Sine of the environment's turn.
+        pub turn_sin: f32,
+        /// From light to what is seen of it, exposed as the linear picture is.
+        pub seen: Matrix,
+    }
+}
+
+kernels! {
+    pass backdrop;
+
+    /// The environment or a colour, at each pixel.
+    struct Backdrop {
+        override ON_BATH: bool;
+        override FULL_PRECISION: bool;
+        @0 view: Uniform<ViewUniform>;
+        @1 light: Uniform<LightUniform>;
+        @2 environment: TextureCube;
+        @3 environment_sampler: Sampler;
+    }
+    draw cover as backdrop;
+}

@@ -1,0 +1,156 @@
+//! Bakes the lookup table (√cosθ × path in the film → what is seen of light that one wall reflects) from all wavelengths.
+
+use crate::{
+    gpu::{
+        bands::{BandSample, spectrum_samples},
+        device::{Gpu, GpuError},
+        kernel::{Read, Rgba16Float, Uniform, Written2dArray, WrittenFormat, kernels, overrides, shader_struct},
+        timing::Recorder,
+        uniform_buffer::UniformBuffer,
+    },
+    plan::{OpticsKey, TableKey},
+};
+
+/// Rows of one dispatch, so that none runs long.
+const ROWS_A_DISPATCH: usize = 512;
+
+shader_struct! {
+    /// What a table spans: see `shaders/optics/table.wgsl`.
+    #[derive(PartialEq)]
+    pub struct TableAxes {
+        /// Columns and rows.
+        pub size: [f32; 2],
+        /// Thickness at the last row for normal incidence, in nm.
+        pub max_thickness_nm: f32,
+        /// Index of the film at the sodium line.
+        pub index: f32,
+    }
+}
+
+impl TableAxes {
+    /// The axes of a table.
+    #[must_use]
+    pub fn of(key: &TableKey) -> Self {
+        Self {
+            size: [key.columns as f32, key.rows as f32],
+            max_thickness_nm: key.max_thickness_nm as f32,
+            index: key.optics.film.reference_index() as f32,
+        }
+    }
+}
+
+shader_struct! {
+    /// What one dispatch reads besides the spectra.
+    pub struct BakeUniform {
+        /// The table's axes.
+        pub axes: TableAxes,
+        /// First row to bake.
+        pub first_row: u32,
+        pad: [u32; 3],
+    }
+}
+
+overrides! {
+    /// Constants of all kernels that write or read a table, or would if the quality had one.
+    pub struct TableOverrides {
+        /// Whether the table keeps primaries apart.
+        override COLOURED: bool;
+        /// Whether it keeps polarisations apart.
+        override POLARISED: bool;
+    }
+}
+
+kernels! {
+    pass bake_table;
+
+    /// Some rows of a table.
+    struct BakeTable {
+        overrides table_kind: TableOverrides;
+        @0 bake: Uniform<BakeUniform>;
+        @1 samples: Read<[BandSample]>;
+        // Filterable and storable on every adapter.
+        @2 table: Written2dArray<Rgba16Float>;
+    }
+    compute bake_table;
+}
+
+/// A table on the device: a layer for each primary and polarisation that it keeps apart.
+pub struct Table {
+    /// What it spans, as a uniform.
+    pub axes: UniformBuffer<TableAxes>,
+    /// View of all layers.
+    pub view: wgpu::TextureView,
+    samples: wgpu::Buffer,
+}
+
+impl Table {
+    /// An empty table and the spectra that it will be baked from.
+    #[must_use]
+    pub fn new(gpu: &Gpu, key: &TableKey) -> Self {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("film table"),
+            size: wgpu::Extent3d {
+                width: key.columns,
+                height: key.rows,
+                depth_or_array_layers: gpu.array_layers(key.layers()),
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: Rgba16Float::FORMAT,
+            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        let axes = gpu.uniform("table axes", &TableAxes::of(key));
+        Self { axes, view, samples: gpu.storage("spectra", &spectrum_samples(&key.optics)) }
+    }
+
+    /// A whole table.
+    pub fn baked(gpu: &Gpu, key: &TableKey) -> Result<Self, GpuError> {
+        let table = Self::new(gpu, key);
+        let mut recorder = Recorder::new(gpu);
+        for first in (0..key.rows).step_by(ROWS_A_DISPATCH) {
+            table.bake(&mut recorder, key, first..(first + ROWS_A_DISPATCH as u32).min(key.rows))?;
+        }
+        recorder.submit(&Default::default());
+        Ok(table)
+    }
+
+    /// The smallest table, for the binding of a shader that reads none.
+    #[must_use]
+    pub fn unread(gpu: &Gpu, optics: &OpticsKey) -> Self {
+        Self::new(gpu, &TableKey { columns: 1, rows: 1, ..TableKey::full(optics.clone(), TableKey::MIN_RANGE_NM) })
+    }
+
+    /// Records the bake of some rows.
+    pub fn bake(
+        &self,
+        recorder: &mut Recorder<'_>,
+        key: &TableKey,
+        rows: std::ops::Range<u32>,
+    ) -> Result<(), GpuError> {
+        let uniform = BakeUniform { axes: TableAxes::of(key), first_row: rows.start, pad: [0; 3] };
+        let kernel = BakeTable {
+            table_kind: TableOverrides { COLOURED: key.coloured, POLARISED: key.polarised },
+            bake: &recorder.gpu.uniform("bake", &uniform),
+            samples: &self.samples,
+            table: &self.view,
+        };
+        kernel.bake_table(recorder, "bake_table", [key.columns.div_ceil(64), rows.len() as u32, 1])
+    }
+}
+
+/// Filters a table: linear, and no wrapping at its ends.
+#[must_use]
+pub fn table_sampler(gpu: &Gpu) -> wgpu::Sampler {
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("film table"),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        ..Default::default()
+    })
+}

@@ -1,0 +1,136 @@
+//! A bubble, ring by ring.
+
+use super::{
+    backdrop::{LightUniform, ViewUniform},
+    bake_table::{TableAxes, TableOverrides},
+    open_hole::RimValue,
+};
+use crate::{
+    gpu::{
+        bands::{BandOverrides, BandSample, MOST_BANDS},
+        control::BalanceBlock,
+        kernel::{Matrix, Read, Sampler, Texture2dArray, TextureCube, Uniform, kernels, overrides, shader_struct},
+        rings::SIDES,
+    },
+    physics::{film::HOLE_MERIDIANS, transport::Scheme},
+};
+
+shader_struct! {
+    /// One ring of a bubble: see `shaders/pass/bubble.wgsl`.
+    pub struct BubbleUniform {
+        /// From the eye to the centre: the difference of two places in f64, so that a scene looks the same wherever it stands.
+        pub to_centre_m: [f32; 3],
+        /// Radius.
+        pub radius_m: f32,
+        /// Inner edge of the ring: cos and sin of the angle to the direction of the centre.
+        pub inner: [f32; 2],
+        /// Outer edge.
+        pub outer: [f32; 2],
+        /// Thickness of a uniform film, in nm.
+        pub thickness_nm: f32,
+        /// Cells along a panel's edge.
+        pub cells: u32,
+        /// Cells along a panel's edge of its tracer.
+        pub tracer_cells: u32,
+        /// What has evaporated, in nm.
+        pub thinned_nm: f32,
+        /// Takes directions of the world to the film.
+        pub to_film: Matrix,
+        /// Takes the unit sphere to the bubble's wall, over the radius.
+        pub stretch: Matrix,
+        /// The inverse.
+        pub unstretch: Matrix,
+        /// Thickness at which evaporation ends, in nm.
+        pub black_nm: f32,
+        /// What the film's skins add to its thickness, in nm.
+        pub extra_nm: f32,
+        /// Thickness of both skins, in nm; above 0.
+        pub skins_nm: f32,
+        /// Cells along a panel's edge of the film's map.
+        pub map_cells: u32,
+        /// Height of the ring that the film ends at, over the radius.
+        pub rim_z: f32,
+        /// Fills 16 bytes.
+        pub padding: [f32; 3],
+    }
+}
+
+overrides! {
+    /// What tells one ring from another. A film in a scene is moved as a flow map where it is looked up through one, and always limited.
+    pub struct RingOverrides {
+        const SIDES: u32 = SIDES;
+        const HOLE_MERIDIANS: u32 = HOLE_MERIDIANS as u32;
+        const TAPS: u32 = Scheme::Map.taps();
+        const LIMITER: bool = true;
+        /// Whether the film has one thickness everywhere.
+        override UNIFORM_FILM: bool;
+        /// Whether the film is looked up through its flow map.
+        override MAGNIFIED: bool;
+        /// Samples along each side of a pixel.
+        override SAMPLES: u32 in [1, 4];
+        /// Whether the bubble's outline crosses the ring.
+        override OUTLINE: bool;
+        /// Whether the film is finer than pixels, and what it reflects is filtered.
+        override FILTERED: bool;
+        /// Whether the bubble is an ellipsoid.
+        override STRETCHED: bool;
+        /// Whether the bubble bursts.
+        override BURST: bool;
+        /// Whether the linear picture is made in full precision.
+        override FULL_PRECISION: bool;
+        /// Whether the bubble sits on a bath.
+        override ON_BATH: bool;
+        /// Whether the film ends at a ring.
+        override ON_RING: bool;
+        /// Inner reflections whose films are looked up.
+        override INNER: u32 in [3, 7, 11];
+    }
+}
+
+kernels! {
+    pass bubble;
+
+    /// What is seen of the film.
+    struct Shade {
+        overrides shape: RingOverrides;
+        overrides table_kind: TableOverrides;
+        overrides summed: BandOverrides;
+        @0 view: Uniform<ViewUniform>;
+        @1 light: Uniform<LightUniform>;
+        @2 environment: TextureCube;
+        @3 environment_sampler: Sampler;
+        @4 bubble: Uniform<BubbleUniform>;
+        @5 axes: Uniform<TableAxes>;
+        @6 table: Texture2dArray;
+        @7 table_sampler: Sampler;
+        @8 film: Texture2dArray;
+        @9 bands: Uniform<[BandSample; MOST_BANDS]>;
+        @10 film_balance: Uniform<BalanceBlock>;
+        @11 film_map: Read<[[f32; 4]]>;
+        @12 film_tracer: Read<[f32]>;
+        @13 hole_middle: Read<[f32; 4]>;
+        @14 hole_rim: Read<[RimValue]>;
+    }
+    draw ring, everywhere as shade;
+
+    /// A mirror in the bubble's place, which reads no film: the yardstick for what a frame costs.
+    struct ShadeMirror {
+        overrides shape: RingOverrides;
+        overrides table_kind: TableOverrides;
+        overrides summed: BandOverrides;
+        @0 view: Uniform<ViewUniform>;
+        @1 light: Uniform<LightUniform>;
+        @2 environment: TextureCube;
+        @3 environment_sampler: Sampler;
+        @4 bubble: Uniform<BubbleUniform>;
+    }
+    draw ring, everywhere as shade_mirror;
+}
+
+impl<'a> ShadeMirror<'a> {
+    /// The mirror that stands where a bubble would.
+    pub fn in_place_of(bubble: &Shade<'a>) -> Self {
+        let Shade { shape, table_kind, summed, view, light, environment, environment_sampler, bubble, .. } = *bubble;
+        Self { shape, table_kind, summed, view, light, environment, environment_sampler, bubble }
+    }
+}

@@ -1,0 +1,134 @@
+//! Lets film leave at its rim: drainage, and thin patches in place of thicker film.
+
+use bytemuck::Zeroable;
+use glam::DVec3;
+
+use crate::{
+    gpu::{
+        control::{Control, ControlBlock},
+        device::GpuError,
+        grid::{Grid, rim_numbers},
+        kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
+        timing::Recorder,
+    },
+    plan::MAX_RIM_PATCHES,
+};
+
+shader_struct! {
+    /// See `shaders/pass/drain.wgsl`.
+    pub struct PatchValue {
+        /// Middle.
+        pub middle: [f32; 3],
+        /// Thickness over that of the film around.
+        pub thickness: f32,
+        /// Ticks since it left.
+        pub age: u32,
+        pad: [u32; 3],
+    }
+}
+
+shader_struct! {
+    /// See `shaders/pass/drain.wgsl`.
+    pub struct DrainUniform {
+        /// Gravity over the radius, 1/s².
+        pub gravity: [f32; 3],
+        /// Times it and the cube of a thickness in nm, the flux of drainage in a tick, nm rad.
+        pub flux: f32,
+        /// Cells along a panel's edge.
+        pub cells: u32,
+        /// What the tracer departs from less what has evaporated, nm.
+        pub thinned_level_nm: f32,
+        /// Thickness of black film, which does not drain, nm.
+        pub black_nm: f32,
+        /// Cosine of the angle from the lowest point within which what drains is in the drop.
+        pub drop_cos: f32,
+        /// Height of the rim.
+        pub rim_z: f32,
+        /// The inversion in it.
+        pub inversion: f32,
+        /// Radius of a patch, radians.
+        pub patch_radius: f32,
+        /// Patches in use.
+        pub patches_count: u32,
+        /// Patches; those in use come first.
+        pub patches: [PatchValue; MAX_RIM_PATCHES],
+    }
+}
+
+kernels! {
+    pass drain;
+
+    /// What drains along gravity, and what patches leave.
+    struct DrainFilm {
+        const TAPS: u32 = 4;
+        const LIMITER: bool = true;
+        @0 drain: Uniform<DrainUniform>;
+        @1 tangents: Read<[f32]>;
+        @2 control: ReadWrite<ControlBlock>;
+        @3 tracer: Read<[f32]>;
+        @4 drained: ReadWrite<[f32]>;
+    }
+    compute drain_film;
+}
+
+/// How film leaves at its rim, now.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DrainLaw {
+    /// Gravity over the radius, 1/s².
+    pub gravity: DVec3,
+    /// Times it and the cube of a thickness in nm, the flux of drainage in a tick, nm rad.
+    pub flux: f64,
+    /// What has evaporated, nm.
+    pub thinned_nm: f64,
+    /// Thickness of black film, nm.
+    pub black_nm: f64,
+    /// Angle from the lowest point within which what drains is in the drop, radians; 0 where film drains over a rim.
+    pub drop_rad: f64,
+    /// Radius of a patch, radians.
+    pub patch_radius: f64,
+    /// Patches of the last ticks: middle, thickness over that around, and ticks since they left.
+    pub patches: Vec<(DVec3, f64, u32)>,
+}
+
+impl DrainLaw {
+    fn uniform(&self, grid: &Grid, level_nm: f32) -> DrainUniform {
+        let [rim_z, inversion] = rim_numbers(grid.cap);
+        let mut uniform = DrainUniform {
+            gravity: self.gravity.as_vec3().to_array(),
+            flux: self.flux as f32,
+            cells: grid.cells,
+            thinned_level_nm: (f64::from(level_nm) - self.thinned_nm) as f32,
+            black_nm: self.black_nm as f32,
+            drop_cos: if self.drop_rad > 0.0 { self.drop_rad.cos() as f32 } else { 2.0 },
+            rim_z,
+            inversion,
+            patch_radius: self.patch_radius as f32,
+            patches_count: self.patches.len().min(MAX_RIM_PATCHES) as u32,
+            patches: [PatchValue::zeroed(); MAX_RIM_PATCHES],
+        };
+        for (slot, (middle, thickness, age)) in uniform.patches.iter_mut().zip(&self.patches) {
+            let (middle, thickness) = (middle.as_vec3().to_array(), *thickness as f32);
+            *slot = PatchValue { middle, thickness, age: *age, ..PatchValue::zeroed() };
+        }
+        uniform
+    }
+
+    /// If a remap is due, lets film leave the tracer, which departs from a level in nm, into another buffer, for the ticks since the last one.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        grid: &Grid,
+        level_nm: f32,
+        control: &Control,
+        [tracer, drained]: [&wgpu::Buffer; 2],
+    ) -> Result<(), GpuError> {
+        let kernel = DrainFilm {
+            drain: &recorder.gpu.uniform("drain", &self.uniform(grid, level_nm)),
+            tangents: &grid.tangents,
+            control: &control.block,
+            tracer,
+            drained,
+        };
+        kernel.drain_film(recorder, "step_field", control.tracer_groups())
+    }
+}

@@ -1,0 +1,63 @@
+//! One multigrid cycle on all grids below the finest, by one workgroup.
+
+use crate::{
+    gpu::kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
+    physics::{
+        flow::{MAX_COARSEST_SWEEPS, SWEEPS},
+        sphere::HaloEntry,
+    },
+};
+
+/// Grids that there is room for: enough for 8 · 2¹¹ cells an edge.
+pub const MAX_LEVELS: usize = 12;
+
+shader_struct! {
+    /// A grid: see `shaders/pass/flow_coarse.wgsl`.
+    #[derive(Default)]
+    pub struct CoarseLevel {
+        /// Weights of the sweeps after a correction.
+        pub weights: [f32; SWEEPS],
+        /// Angle of a cell, radians.
+        pub cell_angle: f32,
+        /// Cells along a panel's edge.
+        pub cells: u32,
+        /// Where its values start.
+        pub field: u32,
+        /// Where its tangents start.
+        pub tangent: u32,
+        /// Where its halo entries start.
+        pub halo: u32,
+    }
+}
+
+shader_struct! {
+    /// All grids: see `shaders/pass/flow_coarse.wgsl`.
+    pub struct CoarseUniform {
+        /// How many.
+        pub levels: u32,
+        /// Values of all of them.
+        pub values: u32,
+        /// k.
+        pub shift: f32,
+        /// Sweeps on the coarsest.
+        pub sweeps: u32,
+        /// The finest first.
+        pub level: [CoarseLevel; MAX_LEVELS],
+        /// Weights of the sweeps on the coarsest.
+        pub coarsest: [f32; MAX_COARSEST_SWEEPS],
+    }
+}
+
+kernels! {
+    pass flow_coarse;
+
+    /// Corrections of all coarse grids.
+    struct FlowCoarse {
+        @0 coarse: Uniform<CoarseUniform>;
+        @1 tangents: Read<[f32]>;
+        @2 entries: Read<[HaloEntry]>;
+        @3 f: ReadWrite<[f32]>;
+        @4 e: ReadWrite<[f32]>;
+    }
+    compute flow_coarse;
+}

@@ -1,0 +1,33 @@
+//! Sums fields of the flow.
+
+use super::flow_measure::FlowMeasures;
+use crate::gpu::kernel::{Read, ReadWrite, Uniform, kernels, shader_struct};
+
+shader_struct! {
+    /// Factors of a sum: see `shaders/pass/flow_combine.wgsl`.
+    pub struct CombineUniform {
+        /// Factor of the first field.
+        pub first: f32,
+        /// Factor of the second field.
+        pub second: f32,
+        /// Factor of the third field.
+        pub third: f32,
+        /// Factor of the mean of the guess.
+        pub mean: f32,
+    }
+}
+
+kernels! {
+    pass flow_combine;
+
+    /// A sum of three fields with factors, and so many times the mean of the guess, halos included.
+    struct FlowCombine {
+        @0 combine: Uniform<CombineUniform>;
+        @1 measures: Read<FlowMeasures>;
+        @2 first: Read<[f32]>;
+        @3 second: Read<[f32]>;
+        @4 third: Read<[f32]>;
+        @5 combined: ReadWrite<[f32]>;
+    }
+    compute flow_combine;
+}
