@@ -7,28 +7,10 @@ use std::path::Path;
 use glam::{DMat3, Vec3};
 use rayon::prelude::*;
 
-use super::chromaticities::{BT709, RgbSpace};
+use super::chromaticities::BT709;
 use super::panic_guard::catch_panic;
 use super::{InputError, exr, radiance, text};
 use crate::physics::environment::Equirect;
-
-/// The widest panorama that is read, pixels: finer than the largest cube map shows.
-pub const MAX_ENVIRONMENT_WIDTH: usize = 8192;
-
-/// The highest panorama that is read, pixels.
-pub const MAX_ENVIRONMENT_HEIGHT: usize = MAX_ENVIRONMENT_WIDTH / 2;
-
-/// A picture as its file has it.
-#[derive(Debug)]
-pub(super) struct DecodedPicture {
-    pub width: usize,
-    pub height: usize,
-    /// Linear RGB, row by row from the top left.
-    pub pixels: Vec<[f32; 3]>,
-    pub space: RgbSpace,
-    /// What a user should know of how it was read, a sentence each that goes on from the file's name.
-    pub notes: Vec<String>,
-}
 
 /// Reads an equirectangular panorama from an OpenEXR or Radiance .hdr file, told apart by content, not by name.
 ///
@@ -59,20 +41,6 @@ pub fn read_environment(path: &Path, notes: &mut Vec<String>) -> Result<Equirect
     }
     notes.extend(picture.notes.into_iter().map(|note| format!("{} {note}", path.display())));
     Ok(panorama)
-}
-
-/// Checks the size that a file's header claims, before memory is set aside for it.
-pub(super) fn check_size(path: &Path, width: usize, height: usize) -> Result<(), InputError> {
-    let path = || path.to_owned();
-    if width < 2 || height < 1 {
-        Err(InputError::TooSmall { path: path(), width, height })
-    } else if Some(width) != height.checked_mul(2) {
-        Err(InputError::NotTwoToOne { path: path(), width, height })
-    } else if width > MAX_ENVIRONMENT_WIDTH {
-        Err(InputError::TooLarge { path: path(), width, height })
-    } else {
-        Ok(())
-    }
 }
 
 enum Format {

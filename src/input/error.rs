@@ -1,11 +1,53 @@
-//! What can be wrong with a file that is to be read.
+//! What can be wrong with a file or a scene that is to be read.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::environment::{MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_WIDTH};
+use crate::{
+    physics::{colour::UnknownIlluminant, optics::FilmIndexError, spectra::SpectrumError},
+    scene::{Fault, SceneError},
+};
+
+/// The widest panorama that is read, pixels: finer than the largest cube map shows.
+pub const MAX_ENVIRONMENT_WIDTH: usize = 8192;
+
+/// The highest panorama that is read, pixels.
+pub const MAX_ENVIRONMENT_HEIGHT: usize = MAX_ENVIRONMENT_WIDTH / 2;
+
+/// Why a scene cannot be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// Neither a file nor a preset.
+    #[error("no scene file or preset is named `{name}`; {hint}presets: {presets}")]
+    NoSuchScene {
+        /// The name given.
+        name: String,
+        /// The preset whose name is the nearest, as a question, if one is near.
+        hint: String,
+        /// The presets there are.
+        presets: String,
+    },
+    /// The file's text is not a scene, or names what cannot be used.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A key names what cannot be used.
+    #[error(transparent)]
+    Key(#[from] Fault),
+    /// A file cannot be read.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// No such light.
+    #[error(transparent)]
+    Illuminant(#[from] UnknownIlluminant),
+    /// No such film.
+    #[error(transparent)]
+    Film(#[from] FilmIndexError),
+    /// A file of a spectrum or an index with a mistake in it.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+}
 
 /// A file could not be used; the message names it and says what to do.
 #[derive(Debug, Error)]

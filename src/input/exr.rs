@@ -16,7 +16,7 @@ use half::f16;
 
 use super::InputError;
 use super::chromaticities::{BT709, RgbSpace};
-use super::environment::DecodedPicture;
+use super::picture::DecodedPicture;
 use layers::Layer;
 use window::Placement;
 

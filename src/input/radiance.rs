@@ -13,7 +13,7 @@ use image::error::ImageError;
 
 use super::InputError;
 use super::chromaticities::{BT709, CIE_XYZ, RgbSpace};
-use super::environment::{DecodedPicture, check_size};
+use super::picture::{DecodedPicture, check_size};
 
 /// The longest line of a header that is read, bytes.
 const MAX_LINE_BYTES: u64 = 1 << 16;

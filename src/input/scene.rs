@@ -5,13 +5,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{InputError, load_environment, load_illuminant, read_table_text, read_text};
+use super::{LoadError, load_environment, load_illuminant, read_table_text, read_text};
 use crate::{
-    physics::{
-        colour::UnknownIlluminant,
-        optics::{FilmIndex, FilmIndexError},
-        spectra::SpectrumError,
-    },
+    physics::optics::FilmIndex,
     plan::{Resources, Shot, Want, want},
     scene::{
         Fault, FilmIndexName, Scene, SceneError, SceneSource, Setting, is_table, nearest, preset_names, preset_toml,
@@ -44,39 +40,6 @@ impl LoadedScene {
     pub fn want(&self, shot: &Shot) -> Result<Want, SceneError> {
         want(&self.scene, &self.resources, shot).map_err(|fault| self.source.locate(fault))
     }
-}
-
-/// Why a scene cannot be loaded.
-#[derive(Debug, thiserror::Error)]
-pub enum LoadError {
-    /// Neither a file nor a preset.
-    #[error("no scene file or preset is named `{name}`; {hint}presets: {presets}")]
-    NoSuchScene {
-        /// The name given.
-        name: String,
-        /// The preset whose name is the nearest, as a question, if one is near.
-        hint: String,
-        /// The presets there are.
-        presets: String,
-    },
-    /// The file's text is not a scene, or names what cannot be used.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// A key names what cannot be used.
-    #[error(transparent)]
-    Key(#[from] Fault),
-    /// A file cannot be read.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// No such light.
-    #[error(transparent)]
-    Illuminant(#[from] UnknownIlluminant),
-    /// No such film.
-    #[error(transparent)]
-    Film(#[from] FilmIndexError),
-    /// A file of a spectrum or an index with a mistake in it.
-    #[error(transparent)]
-    Spectrum(#[from] SpectrumError),
 }
 
 /// Loads a preset by name or a scene file by path, with its environment and light.

@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use super::{
     Moment,
-    films::{evaporation, fold_seed, initial_film, thinning},
     keys::{BLACK_FILM_NM, HoleKey, evaporated_nm},
+    laws::{evaporation, fold_seed, initial_film, thinning},
     thinning::{Thinning, thins_at_tick},
 };
 use crate::{

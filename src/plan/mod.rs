@@ -10,6 +10,7 @@ mod detail;
 mod fields;
 mod films;
 pub mod keys;
+mod laws;
 mod lives;
 mod thinning;
 mod want;

@@ -7,8 +7,9 @@ use glam::{DMat3, DVec2, DVec3};
 use super::{
     BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, LightKey, Lighting, Moment,
     OpticsKey, Pace, TableKey, TonemapKey, Want, exposed_ev,
-    films::{cap, centre_path, evaporation, film, film_turn, fold_seed, has_field, shape},
+    films::{cap, centre_path, film, film_turn, has_field, shape},
     keys::evaporated_nm,
+    laws::{evaporation, fold_seed},
     lives::{life, since},
     range_nm,
 };

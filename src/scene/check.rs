@@ -1,6 +1,6 @@
 //! Checks of single values, and the path of the key that fails one.
 
-use super::error::shorten;
+use super::words::shorten;
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
 

@@ -1,17 +1,33 @@
 //! From TOML text to a scene, keeping track of where each key stands.
 
-use super::check::{BACKSLASHES, Fault, KeyPath, Step};
-use super::error::{Located, Problem, shorten};
-use super::{Bubble, Change, Event, Light, LightPatch, Scene, SceneSource, VERSION, View};
+use super::check::{Fault, KeyPath, Step};
+use super::error::{Located, Problem, SceneError};
+use super::syntax::{every_key, shorten_line};
+use super::{Scene, SceneSource, VERSION};
 use serde::Deserialize;
 use toml::de::{DeTable, DeValue, Deserializer, Error};
 use toml::{Spanned, Table, Value};
 
-/// Characters that messages show of what stands in a text.
-const LONGEST_QUOTE: usize = 60;
+impl SceneSource {
+    /// Reads the scene.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scene::from_toml`]; a setting at fault is named in place of a line.
+    pub fn read(&self) -> Result<Scene, SceneError> {
+        read(self).map_err(|located| self.place(located))
+    }
+
+    /// What is wrong with a value, with the line that its key stands on, or the setting that it comes from. Where the text leaves the key
+    /// out, it is the line of the innermost table on the way there, or the first line.
+    #[must_use]
+    pub fn locate(&self, fault: Fault) -> SceneError {
+        self.place(locate(self, fault))
+    }
+}
 
 /// Reads and checks a scene.
-pub(super) fn read(source: &SceneSource) -> Result<Scene, Located> {
+fn read(source: &SceneSource) -> Result<Scene, Located> {
     let document = source.parse()?;
     check_version(document.get_ref(), source.all())?;
     check_keys(document.get_ref())?;
@@ -21,31 +37,10 @@ pub(super) fn read(source: &SceneSource) -> Result<Scene, Located> {
 }
 
 /// Where the key of a fault stands in a source.
-pub(super) fn locate(source: &SceneSource, fault: Fault) -> Located {
+fn locate(source: &SceneSource, fault: Fault) -> Located {
     let document = source.parse().ok();
     let offset = document.and_then(|document| offset_of(document.get_ref(), fault.path.steps()));
     Located { offset: offset.unwrap_or(0), problem: fault.into() }
-}
-
-/// What is wrong with the TOML at the end of a text, from a byte on, which the error's place counts from.
-pub(super) fn parse_error(text: &str, from: usize, error: &Error) -> Located {
-    let span = error.span().unwrap_or_default();
-    let (start, end) = (from + span.start, from + span.end);
-    let found = text.get(start..end).and_then(|found| found.lines().next()).filter(|found| !found.is_empty());
-    let found = found.map_or(String::new(), |found| format!(": `{}`", shorten(found, LONGEST_QUOTE)));
-    let advice = if breaks_in_escape(text, start) { format!("; {BACKSLASHES}") } else { String::new() };
-    let message = shorten_line(error.message());
-    Located { offset: start, problem: Problem::Syntax(format!("{message}{found}{advice}")) }
-}
-
-/// Whether a backslash stands shortly before a byte, or at it, between double quotes.
-fn breaks_in_escape(text: &str, offset: usize) -> bool {
-    /// Bytes of the longest escape, `\U0001F600`, and of the quote after it.
-    const REACH: usize = 12;
-    let before = &text.as_bytes()[..text.len().min(offset + 1)];
-    let line = before.iter().rposition(|byte| *byte == b'\n').map_or(before, |end| &before[end + 1..]);
-    let backslash = line.iter().rposition(|byte| *byte == b'\\').filter(|at| line.len() - at <= REACH);
-    backslash.is_some_and(|at| line[..at].iter().filter(|byte| **byte == b'"').count() % 2 == 1)
 }
 
 /// Comes before all other checks: a later version may have other keys.
@@ -58,23 +53,6 @@ fn check_version(document: &DeTable, text: &str) -> Result<(), Located> {
         return Ok(());
     }
     Err(Located { offset: version.span().start, problem: Problem::UnknownVersion(shorten_line(found)) })
-}
-
-/// Every key a scene can have, as the TOML of a scene where nothing is absent. A key forgotten here fails the round trip of random scenes.
-pub(super) fn every_key() -> Table {
-    let scene = Scene {
-        bubbles: vec![Bubble::default()],
-        light: Light {
-            constant: Some([0.0; 3]),
-            patches: vec![LightPatch { radiance: Some([0.0; 3]), ..LightPatch::default() }],
-            ..Light::default()
-        },
-        view: View { polariser_deg: Some(0.0), ..View::default() },
-        events: Change::every_key().map(|change| Event { tick: 0, change }).into(),
-        ..Scene::default()
-    };
-    // Structs with named fields always make a table.
-    Table::try_from(scene).expect("plain data is always TOML")
 }
 
 /// Refuses the first key of the text that no scene has, and lists and tables taken for one another.
@@ -164,12 +142,6 @@ fn plain_words(message: &str) -> String {
         ("type: map", "type: table"),
     ];
     WORDS.iter().fold(shorten_line(message), |message, (rust, plain)| message.replace(rust, plain))
-}
-
-/// A text in one line that is not too long for a message.
-fn shorten_line(text: &str) -> String {
-    const LONGEST: usize = 300;
-    shorten(&text.split_whitespace().collect::<Vec<_>>().join(" "), LONGEST).into_owned()
 }
 
 /// Where a key stands, or the innermost table on the way to it if the text leaves it out.

@@ -2,7 +2,7 @@
 
 use super::VERSION;
 use super::check::{Fault, KeyPath};
-use std::borrow::Cow;
+use super::words::{nearest, shorten};
 
 /// Why a scene cannot be used. The message is one line: where, what, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -69,17 +69,6 @@ impl From<Fault> for Problem {
 /// Characters of a reason that messages show. The longest of the program's own words have half as many; the rest is what a file holds.
 const LONGEST_REASON: usize = 600;
 
-/// A text of so many characters at most, for messages: a longer one loses its middle.
-#[must_use]
-pub fn shorten(text: &str, max: usize) -> Cow<'_, str> {
-    let count = text.chars().count();
-    if count <= max {
-        return text.into();
-    }
-    let (tail, head) = (max / 2, max - max / 2 - 1);
-    text.chars().take(head).chain(['…']).chain(text.chars().skip(count - tail)).collect()
-}
-
 /// A problem and the byte of a source's text where it stands.
 #[derive(Debug)]
 pub(super) struct Located {
@@ -104,15 +93,4 @@ fn hint<'a>(key: &str, known: impl Iterator<Item = &'a String>) -> String {
         Some(nearest) => format!("did you mean `{nearest}`?"),
         None => format!("known here: {}", known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")),
     }
-}
-
-/// The known name that a mistyped one is likely meant to be, if there is one.
-#[must_use]
-pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
-    const NEAR: f64 = 0.75;
-    const LONGEST: usize = 100;
-    let name = shorten(name, LONGEST);
-    let similarities = known.iter().map(|known| (strsim::jaro_winkler(&name, known), *known));
-    let (similarity, nearest) = similarities.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
-    (similarity >= NEAR).then_some(nearest)
 }

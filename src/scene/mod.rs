@@ -17,19 +17,22 @@ mod motion;
 mod preset;
 mod setting;
 mod source;
+mod syntax;
 #[cfg(test)]
 mod tests;
+mod words;
 
 pub use bubble::{Boundary, Bubble, Detail, Film, FilmIndexName, FilmStateName};
 pub use camera::Camera;
 pub use check::Fault;
-pub use error::{Problem, SceneError, nearest, shorten};
+pub use error::{Problem, SceneError};
 pub use event::{Blow, Change, Drag, Event, MotionChange, Prick, Stir};
 pub use light::{Backdrop, Environment, Light, LightPatch, MAX_PATCHES, Quality, View};
 pub use motion::{Flow, Motion, TransportScheme};
 pub use preset::{preset, preset_names, preset_sentence, preset_toml};
 pub use setting::Setting;
 pub use source::SceneSource;
+pub use words::{nearest, shorten};
 
 use check::Checked;
 use serde::{Deserialize, Serialize};

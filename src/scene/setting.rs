@@ -1,8 +1,9 @@
 //! Settings: keys of a scene that are given beside its text, as `--set view.exposure_ev=2` on the command line.
 
 use super::check::KeyPath;
-use super::document::{every_key, parse_error};
-use super::error::{Located, shorten};
+use super::error::Located;
+use super::syntax::{every_key, parse_error};
+use super::words::shorten;
 use std::{borrow::Cow, ops::Range, str::FromStr};
 use toml::de::{DeArray, DeTable, DeValue, Error};
 use toml::{Spanned, Table, Value};

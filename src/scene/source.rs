@@ -1,9 +1,8 @@
 //! A scene's text and what was set over it, kept so that messages can say where a key stands.
 
-use super::check::Fault;
-use super::document::{self, parse_error};
 use super::error::{Located, SceneError};
-use super::{Scene, Setting, setting};
+use super::syntax::parse_error;
+use super::{Setting, setting};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeTable;
@@ -35,22 +34,6 @@ impl SceneSource {
         source
     }
 
-    /// Reads the scene.
-    ///
-    /// # Errors
-    ///
-    /// As [`Scene::from_toml`]; a setting at fault is named in place of a line.
-    pub fn read(&self) -> Result<Scene, SceneError> {
-        document::read(self).map_err(|located| self.place(located))
-    }
-
-    /// What is wrong with a value, with the line that its key stands on, or the setting that it comes from. Where the text leaves the key
-    /// out, it is the line of the innermost table on the way there, or the first line.
-    #[must_use]
-    pub fn locate(&self, fault: Fault) -> SceneError {
-        self.place(document::locate(self, fault))
-    }
-
     /// The text's tables and values with the settings in their places, each with the bytes where it stands.
     pub(super) fn parse(&self) -> Result<Spanned<DeTable<'_>>, Located> {
         let text = &self.all[..self.text_bytes];
@@ -66,7 +49,8 @@ impl SceneSource {
         &self.all
     }
 
-    fn place(&self, Located { offset, problem }: Located) -> SceneError {
+    /// A problem with the line, or the setting, that it stands on.
+    pub(super) fn place(&self, Located { offset, problem }: Located) -> SceneError {
         match self.settings.iter().find(|range| offset >= range.start && offset <= range.end) {
             Some(range) => SceneError::InSetting { setting: setting::shown(&self.all[range.clone()]), problem },
             None => {

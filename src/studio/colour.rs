@@ -2,14 +2,11 @@
 
 use glam::{DMat3, DVec3};
 
-use super::Error;
+use super::{Error, MAX_THICKNESS_NM};
 use crate::physics::{
     colour::{BT709, BT2020, Display, FilmOptics, Gamut, Illuminant, Walls, daylight_scale},
     optics::FilmMaterial,
 };
-
-/// The thickest film that has a colour here, nm.
-pub const MAX_THICKNESS_NM: f64 = 30_000.0;
 
 /// The colour that a film reflects of white light.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -17,7 +17,7 @@ mod picture;
 #[cfg(test)]
 mod tests;
 
-pub use colour::{Colour, MAX_THICKNESS_NM, colour};
+pub use colour::{Colour, colour};
 pub use error::Error;
 pub use film::FilmCell;
 pub use picture::{Picture, Radiance};
@@ -33,6 +33,9 @@ use crate::{
 
 /// Ticks that one picture may need: a day at 60 a second takes hours, more is a slip of the pen.
 pub const MAX_TICKS: u64 = 10_000_000;
+
+/// The thickest film that has a colour here, nm.
+pub const MAX_THICKNESS_NM: f64 = 30_000.0;
 
 /// A graphics adapter, and what it has made so far: the next picture of the same scene reuses tables and films.
 ///

@@ -6,8 +6,7 @@ use glam::DVec3;
 
 use super::{
     Extent, Run,
-    interaction::{Played, largest},
-    stability::departures,
+    played::{Played, departures, largest},
 };
 use crate::{
     gpu::GpuError,

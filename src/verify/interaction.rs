@@ -2,117 +2,19 @@
 
 use glam::DVec3;
 
-use super::{Extent, Run, random::Random};
+use super::{
+    Extent, Run,
+    played::{Played, departures, key, largest},
+    random::Random,
+};
 use crate::{
-    gpu::{
-        Gpu, GpuError,
-        film::{Field, MovingFilm, rules},
-        flow::FlowSolver,
-        readback::Readback,
-        transport_case::values,
-    },
+    gpu::GpuError,
     physics::{
         film::{Push, gained},
         flow::fit_oscillation,
-        sphere::CubedSphere,
     },
-    plan::{FieldKey, FilmKey, Moment, film_key},
     scene::{Blow, Change, Drag, Event, FilmStateName, MotionChange, Scene, Stir},
 };
-
-/// The first film of a scene, played on the device tick by tick as pictures have it.
-pub struct Played<'a> {
-    gpu: &'a Gpu,
-    scene: &'a Scene,
-    film: MovingFilm,
-    tick: u64,
-}
-
-impl<'a> Played<'a> {
-    /// The film as it begins. Fails if it is uniform.
-    pub fn new(gpu: &'a Gpu, scene: &'a Scene) -> Result<Self, GpuError> {
-        let key = key(scene, 0)?;
-        let sphere = CubedSphere::new(key.cells as usize).map_err(|error| GpuError::Refused(error.to_string()))?;
-        let mut field = Field::new(gpu, sphere, rules(&key))?;
-        field.seed(gpu, key.initial.profile());
-        Ok(Self { gpu, scene, film: MovingFilm::new(field), tick: 0 })
-    }
-
-    /// Takes the steps that end until a tick.
-    pub fn play_to(&mut self, tick: u64) -> Result<(), GpuError> {
-        /// Steps in one submission, so that none runs long.
-        const STEPS: usize = 8;
-        let key = key(self.scene, tick)?;
-        let gpu = self.gpu;
-        self.film.play(gpu, &key, self.tick, STEPS, |recorder| {
-            recorder.submit(&Default::default());
-            gpu.wait()
-        })?;
-        self.tick = key.state_tick();
-        Ok(())
-    }
-
-    /// The flow, once it has moved.
-    pub fn flow(&self) -> Result<&FlowSolver, GpuError> {
-        self.film.flow().ok_or_else(|| GpuError::Refused("this film has not moved by itself".to_owned()))
-    }
-
-    /// Vorticity in 1/s, in the order of the flow's grid.
-    pub fn zeta(&self) -> Result<Vec<f64>, GpuError> {
-        let flow = self.flow()?;
-        let bytes = Readback::of_buffer(self.gpu, flow.zeta(), flow.zeta().size()).wait(self.gpu)?;
-        let padded: Vec<f32> = bytemuck::pod_collect_to_vec(&bytes);
-        Ok(flow.inner(&padded).into_iter().map(f64::from).collect())
-    }
-
-    /// Speed in rad/s at each cell of the flow's grid, and the velocity.
-    pub fn velocity(&self) -> Result<Vec<DVec3>, GpuError> {
-        let flow = self.flow()?;
-        let bytes = Readback::of_buffer(self.gpu, flow.velocity(), flow.velocity().size()).wait(self.gpu)?;
-        let padded: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
-        let parts: [Vec<f32>; 3] = [0, 1, 2].map(|k| flow.inner(&padded.iter().map(|v| v[k]).collect::<Vec<_>>()));
-        let [x, y, z] = parts;
-        Ok((0..x.len()).map(|cell| DVec3::new(x[cell].into(), y[cell].into(), z[cell].into())).collect())
-    }
-
-    /// Thickness in nm, in the order of the film's grid.
-    pub fn thickness(&mut self) -> Result<Vec<f64>, GpuError> {
-        values(self.gpu, &mut self.film.field)
-    }
-
-    /// Grid of the thickness.
-    pub fn sphere(&self) -> CubedSphere {
-        self.film.field.sphere()
-    }
-
-    /// Since when the film rests, if it does, s.
-    pub fn rests_since_s(&self) -> Option<f64> {
-        self.film.rest().map(|rest| rest.since_tick as f64 * self.scene.motion.tick_s)
-    }
-
-    /// Kinetic energy of the flow over that of a unit of mass a steradian: ½ ∫ u², rad²/s².
-    pub fn energy(&self) -> Result<f64, GpuError> {
-        let (areas, velocity) = (self.flow()?.sphere().areas(), self.velocity()?);
-        Ok(areas.iter().zip(velocity).map(|(area, u)| 0.5 * area * u.length_squared()).sum())
-    }
-
-    /// The fastest flow, rad/s.
-    pub fn fastest(&self) -> Result<f64, GpuError> {
-        Ok(largest(self.velocity()?.iter().map(|u| u.length())))
-    }
-}
-
-fn key(scene: &Scene, tick: u64) -> Result<FieldKey, GpuError> {
-    match film_key(scene, 0, Moment::tick(tick)) {
-        Some(FilmKey::Field(key)) => Ok(key),
-        _ => Err(GpuError::Refused("a film of one thickness does not move".to_owned())),
-    }
-}
-
-/// The largest of some numbers; no number if one is none.
-pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |most: f64, value| if value.is_nan() { f64::NAN } else { most.max(value) })
-}
 
 /// What pushes do, and what films do after them.
 pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
@@ -258,7 +160,7 @@ fn anything(run: &mut Run<'_>, name: &str, events: u64, reach_m: f64) -> Result<
     }
     played.play_to(events + (peace_s / scene.motion.tick_s) as u64)?;
     let (last, after) = (played.fastest()?, played.thickness()?);
-    let (excess, drift) = super::stability::departures(played.sphere(), &before, &after);
+    let (excess, drift) = departures(played.sphere(), &before, &after);
     let name = format!("{events} random interactions{name}");
     let unfinished = after.iter().filter(|value| !value.is_finite()).count();
     run.at_most(format!("{name}: values not finite"), unfinished as f64, 0.0);

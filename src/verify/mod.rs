@@ -8,6 +8,7 @@ pub mod interaction;
 mod optics;
 mod phenomena;
 mod picture;
+mod played;
 mod random;
 pub mod reference;
 mod rims;

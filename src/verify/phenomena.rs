@@ -6,7 +6,8 @@ use glam::DVec3;
 use super::{
     Run,
     free_film::{FreeFilm, RULES, field},
-    interaction::{self, Played},
+    interaction,
+    played::Played,
     random::Random,
 };
 use crate::{

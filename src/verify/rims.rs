@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{
     Run,
     free_film::{FreeFilm, RULES, field},
-    interaction::largest,
+    played::largest,
 };
 use crate::{
     gpu::{

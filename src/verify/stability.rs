@@ -6,6 +6,7 @@ use glam::DVec3;
 use super::{
     Run,
     free_film::{FreeFilm, RULES, field},
+    played::departures,
 };
 use crate::{
     gpu::{
@@ -245,34 +246,4 @@ fn kept(run: &mut Run<'_>, name: &str, sphere: CubedSphere, [before, after]: [&[
     let (excess, drift) = departures(sphere, before, after);
     run.at_most(format!("{name}: beyond the range, part of it"), excess, 1e-6);
     run.at_most(format!("{name}: drift of mass"), drift, 1e-7);
-}
-
-/// How far values left the range of those before, as a part of it (or of their size, if they had none), and the change of their mass over
-/// the mass of their absolute values.
-pub(super) fn departures(sphere: CubedSphere, before: &[f64], after: &[f64]) -> (f64, f64) {
-    let low = before.iter().copied().fold(f64::MAX, f64::min);
-    let high = before.iter().copied().fold(f64::MIN, f64::max);
-    let size = low.abs().max(high.abs());
-    let width = if high > low { high - low } else { size.max(f64::MIN_POSITIVE) };
-    let beyond = after.iter().fold(0.0, |worst: f64, value| worst.max(low - value).max(value - high));
-    let areas = sphere.areas();
-    let mass = |of: &dyn Fn(usize) -> f64| areas.iter().enumerate().map(|(cell, area)| area * of(cell)).sum::<f64>();
-    let scale = mass(&|cell| before[cell].abs()).max(f64::MIN_POSITIVE);
-    (beyond / width, (mass(&|cell| after[cell] - before[cell]) / scale).abs())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn departures_are_found() {
-        let sphere = CubedSphere::new(8).unwrap_or_else(|_| unreachable!());
-        let before: Vec<f64> = (0..sphere.cells()).map(|cell| f64::from(u8::from(cell % 2 == 0))).collect();
-        assert_eq!(departures(sphere, &before, &before), (0.0, 0.0));
-        let mut after = before.clone();
-        after[7] = 1.5;
-        let (excess, drift) = departures(sphere, &before, &after);
-        assert!(excess == 0.5 && drift > 1e-4, "{excess} {drift}");
-    }
 }

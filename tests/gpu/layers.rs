@@ -1,4 +1,6 @@
-//! `use` goes only downwards: the table in `src/lib.rs`, held to.
+//! `use` goes only downwards: the table in `src/lib.rs`, held to; and never in circles.
+
+mod circles;
 
 use std::path::Path;
 

@@ -6,7 +6,6 @@ mod support;
 mod backends;
 mod boundaries;
 mod bursting;
-mod circles;
 mod extremes;
 mod far;
 mod flow;

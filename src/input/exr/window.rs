@@ -6,7 +6,7 @@ use ::exr::meta::header::Header;
 use ::exr::prelude::Vec2;
 
 use crate::input::InputError;
-use crate::input::environment::check_size;
+use crate::input::picture::check_size;
 
 /// The place of a part's stored pixels, its data window, in the picture, its display window.
 ///

@@ -2,8 +2,6 @@
 
 use glam::DVec3;
 
-use super::shape::LegMotion;
-
 /// Time constant τ of the critically damped motion `c″ = (target − c)/τ² − 2c′/τ`, s: a hand's. The centre comes within 4 % in 5 τ, and a jump
 /// of the target by d accelerates it by up to d/τ², which for a radius of 5 cm is half of gravity.
 pub const SETTLING_S: f64 = 0.1;
@@ -20,6 +18,15 @@ struct Leg {
     from_s: f64,
     target_m: DVec3,
     start: State,
+}
+
+/// How a centre moves on a leg: with `(start + slope s) e^(−s)` m/s, s the time since `from_s` over `settling_s`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct LegMotion {
+    pub from_s: f64,
+    pub start: DVec3,
+    pub slope: DVec3,
+    pub settling_s: f64,
 }
 
 /// Where a centre is and how fast it moves.

@@ -20,7 +20,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::CentrePath;
+use super::centre::{CentrePath, LegMotion};
 use crate::physics::film::properties::{AIR_DENSITY, AIR_VISCOSITY, DENSITY, SURFACE_TENSION};
 
 /// The degree of the mode.
@@ -148,15 +148,6 @@ impl Oscillator {
         let value = q0 + q1 * s + q2 * (s * s);
         Shape { shape: value * decay, rate: (q1 + q2 * (2.0 * s) + value * -2.0) * (decay / settling_s) }
     }
-}
-
-/// How a centre moves on a leg: with `(start + slope s) e^(−s)` m/s, s the time since `from_s` over `settling_s`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct LegMotion {
-    pub from_s: f64,
-    pub start: DVec3,
-    pub slope: DVec3,
-    pub settling_s: f64,
 }
 
 impl Shape {

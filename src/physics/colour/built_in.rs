@@ -1,8 +1,16 @@
 //! The built-in illuminants: one table, which names, parsing, the light panel, the help and the tests follow. A new illuminant is a row here, its
 //! data, and its name in the scene's README, which a test compares with the table.
 
-use super::{Illuminant, Line};
 use crate::physics::spectra::Spectrum;
+
+/// All of a lamp's light at one wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Where it is, 360 to 780 nm.
+    pub wavelength_nm: f64,
+    /// Its power, in the unit of the continuous spectrum times one nanometre.
+    pub power: f64,
+}
 
 /// An illuminant that has a name.
 #[derive(Clone, Copy, Debug)]
@@ -65,8 +73,9 @@ impl BuiltIn {
         BUILT_IN.iter().map(|light| light.name).collect::<Vec<_>>().join(", ")
     }
 
-    pub(super) fn illuminant(&self) -> Illuminant {
-        let (spectrum, lines) = match self.power {
+    /// The continuous spectrum, and the lines beside it.
+    pub(super) fn light(&self) -> (Spectrum, Vec<Line>) {
+        match self.power {
             // The text is part of the program, and a test parses every built-in.
             Power::Table(text) => (
                 Spectrum::from_csv(self.name, text, &mut Vec::new()).expect("built-in illuminants are valid"),
@@ -74,21 +83,20 @@ impl BuiltIn {
             ),
             Power::Equal => (Spectrum::constant(1.0), Vec::new()),
             Power::Lines(lines) => (Spectrum::constant(0.0), lines.to_vec()),
-        };
-        Illuminant { name: self.name.into(), spectrum, lines }
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::colour::ColourWeights;
+    use crate::physics::colour::{ColourWeights, Illuminant};
 
     #[test]
     fn every_illuminant_is_seen_and_has_a_name_of_its_own() {
         for light in BUILT_IN {
             assert_eq!(BuiltIn::named(&light.name.to_lowercase()).map(|found| found.name), Some(light.name));
-            let illuminant = light.illuminant();
+            let illuminant = Illuminant::from(light);
             if let Power::Table(_) = light.power {
                 assert!(Illuminant::new(light.name, illuminant.spectrum().clone()).is_ok(), "{}", light.name);
             }

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use super::{BUILT_IN, BuiltIn, Observer};
+use super::{BUILT_IN, BuiltIn, Line, Observer};
 use crate::physics::spectra::{FIRST_NM, SAMPLES, Spectrum, SpectrumError, wavelength_nm};
 
 /// Second radiation constant hc/k, nm K (CODATA 2018).
@@ -28,22 +28,13 @@ pub enum UnknownIlluminant {
     Temperature(f64),
 }
 
-/// All of a lamp's light at one wavelength.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line {
-    /// Where it is, 360 to 780 nm.
-    pub wavelength_nm: f64,
-    /// Its power, in the unit of the continuous spectrum times one nanometre.
-    pub power: f64,
-}
-
 /// A light source: its name and relative spectral power, continuous and in lines. The unit of power is free, as every integral divides it
 /// out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Illuminant {
-    pub(super) name: String,
-    pub(super) spectrum: Spectrum,
-    pub(super) lines: Vec<Line>,
+    name: String,
+    spectrum: Spectrum,
+    lines: Vec<Line>,
 }
 
 impl Illuminant {
@@ -111,10 +102,17 @@ impl Illuminant {
     }
 }
 
+impl From<&BuiltIn> for Illuminant {
+    fn from(built_in: &BuiltIn) -> Self {
+        let (spectrum, lines) = built_in.light();
+        Self { name: built_in.name.into(), spectrum, lines }
+    }
+}
+
 impl Default for Illuminant {
     /// D65, the white of the RGB spaces in use here.
     fn default() -> Self {
-        BUILT_IN[0].illuminant()
+        Self::from(&BUILT_IN[0])
     }
 }
 
@@ -128,7 +126,7 @@ impl FromStr for Illuminant {
             return Self::black_body(temperature);
         }
         let known = BuiltIn::named(name.trim()).ok_or_else(|| UnknownIlluminant::Name(name.into()))?;
-        Ok(known.illuminant())
+        Ok(known.into())
     }
 }
 

@@ -1,0 +1,55 @@
+//! What a scene's TOML may hold, and what is wrong where it is none.
+
+use super::check::BACKSLASHES;
+use super::error::{Located, Problem};
+use super::words::shorten;
+use super::{Bubble, Change, Event, Light, LightPatch, Scene, View};
+use toml::Table;
+use toml::de::Error;
+
+/// Characters that messages show of what stands in a text.
+const LONGEST_QUOTE: usize = 60;
+
+/// Every key a scene can have, as the TOML of a scene where nothing is absent. A key forgotten here fails the round trip of random scenes.
+pub(super) fn every_key() -> Table {
+    let scene = Scene {
+        bubbles: vec![Bubble::default()],
+        light: Light {
+            constant: Some([0.0; 3]),
+            patches: vec![LightPatch { radiance: Some([0.0; 3]), ..LightPatch::default() }],
+            ..Light::default()
+        },
+        view: View { polariser_deg: Some(0.0), ..View::default() },
+        events: Change::every_key().map(|change| Event { tick: 0, change }).into(),
+        ..Scene::default()
+    };
+    // Structs with named fields always make a table.
+    Table::try_from(scene).expect("plain data is always TOML")
+}
+
+/// What is wrong with the TOML at the end of a text, from a byte on, which the error's place counts from.
+pub(super) fn parse_error(text: &str, from: usize, error: &Error) -> Located {
+    let span = error.span().unwrap_or_default();
+    let (start, end) = (from + span.start, from + span.end);
+    let found = text.get(start..end).and_then(|found| found.lines().next()).filter(|found| !found.is_empty());
+    let found = found.map_or(String::new(), |found| format!(": `{}`", shorten(found, LONGEST_QUOTE)));
+    let advice = if breaks_in_escape(text, start) { format!("; {BACKSLASHES}") } else { String::new() };
+    let message = shorten_line(error.message());
+    Located { offset: start, problem: Problem::Syntax(format!("{message}{found}{advice}")) }
+}
+
+/// Whether a backslash stands shortly before a byte, or at it, between double quotes.
+fn breaks_in_escape(text: &str, offset: usize) -> bool {
+    /// Bytes of the longest escape, `\U0001F600`, and of the quote after it.
+    const REACH: usize = 12;
+    let before = &text.as_bytes()[..text.len().min(offset + 1)];
+    let line = before.iter().rposition(|byte| *byte == b'\n').map_or(before, |end| &before[end + 1..]);
+    let backslash = line.iter().rposition(|byte| *byte == b'\\').filter(|at| line.len() - at <= REACH);
+    backslash.is_some_and(|at| line[..at].iter().filter(|byte| **byte == b'"').count() % 2 == 1)
+}
+
+/// A text in one line that is not too long for a message.
+pub(super) fn shorten_line(text: &str) -> String {
+    const LONGEST: usize = 300;
+    shorten(&text.split_whitespace().collect::<Vec<_>>().join(" "), LONGEST).into_owned()
+}
