@@ -14,7 +14,7 @@
 //!
 //! # Layers
 //!
-//! `use` goes only downwards in this table; a test holds the crate to it.
+//! `use` goes only downwards in this table, and nowhere in circles; a test holds the crate to it.
 //!
 //! | module | question it answers | knows nothing of |
 //! |---|---|---|
@@ -22,7 +22,7 @@
 //! | [`studio`] | the library's front door: a picture, a film or a colour in a few lines | the command line, windows |
 //! | [`output`], [`input`] | files: pictures, tables and reports out; environments and spectra in | windows, GPUs |
 //! | [`verify`] | whether it is right: measurements against references | windows, files |
-//! | [`gpu`] | HOW: one module for each pass, named like its shader, and the executor that walks a plan | windows, files |
+//! | [`gpu`] | HOW: one module for each pass, named like its shader, what composes them, and the executor that walks a plan | windows, files |
 //! | [`plan`] | WHEN: a pure function from what is wanted and what is there to the passes in between | wgpu, windows, files |
 //! | [`scene`] | WHAT is shown: plain data, TOML, presets, events | everything else |
 //! | [`physics`] | what is TRUE: f64 on the CPU | wgpu, scene files |

@@ -8,7 +8,7 @@ pub mod interaction;
 mod optics;
 mod phenomena;
 mod picture;
-mod played;
+pub mod played;
 mod random;
 pub mod reference;
 mod rims;

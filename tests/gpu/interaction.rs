@@ -9,10 +9,7 @@ use soapfilm::{
         sphere::{CubedSphere, PaddedField},
     },
     scene::{Backdrop, Blow, Change, Drag, Event, FilmStateName, Quality, Scene, Stir},
-    verify::{
-        interaction::{Played, weightless},
-        reference,
-    },
+    verify::{interaction::weightless, played::Played, reference},
 };
 
 use crate::support::{gpu, load, mean_and_max, radiance, renderer, still};

@@ -47,7 +47,7 @@ fn setting(section: &str, key: &str, value: &str) -> String {
 
 #[test]
 fn documented_keys_are_the_coded_keys() {
-    let every_key = document::every_key();
+    let every_key = syntax::every_key();
     let rows = documented();
     let kinds = Change::every_key().map(|change| toml::Table::try_from(change).unwrap()["kind"].to_string());
     let kinds = kinds.map(|kind| format!("kind = {kind}"));
