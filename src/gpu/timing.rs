@@ -10,6 +10,13 @@ use super::{
 /// Passes that one query set can time; a submission takes as many sets as it needs.
 const PASSES_PER_SET: usize = 64;
 
+/// Name of the passes that move a film.
+pub const STEP_FIELD: &str = "step_field";
+/// Name of the passes that move a film's flow.
+pub const STEP_FLOW: &str = "step_flow";
+/// Name of the passes that make a film ready to be drawn.
+pub const SHOW_FIELD: &str = "show_field";
+
 /// GPU time of one pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTime {

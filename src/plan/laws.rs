@@ -70,9 +70,7 @@ pub(super) fn flows(scene: &Scene, radius_m: f64) -> Vec<FlowSegment> {
             Flow::Free => FlowLaw::Free(free_flow(&motion, radius_m)),
             _ if strength == 0.0 => FlowLaw::Rest,
             Flow::Rest => FlowLaw::Rest,
-            Flow::Sloshing => FlowLaw::Sloshing { strength, seed },
-            Flow::Draught => FlowLaw::Draught { strength, seed },
-            Flow::Stirred => FlowLaw::Stirred { strength, seed },
+            flow => FlowLaw::Prescribed { flow, strength, seed },
         };
         if flows.last().is_none_or(|last| last.law != law) {
             flows.push(FlowSegment { from_tick, law });

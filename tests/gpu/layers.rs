@@ -7,7 +7,7 @@ use std::path::Path;
 /// What each layer may use of the crate.
 const LAYERS: &[(&str, &[&str])] = &[
     ("physics", &[]),
-    ("scene", &[]),
+    ("scene", &["physics"]),
     ("plan", &["scene", "physics"]),
     ("gpu", &["plan", "scene", "physics"]),
     ("verify", &["gpu", "plan", "scene", "physics"]),

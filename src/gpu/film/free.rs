@@ -14,7 +14,7 @@ use crate::{
             flow_thickness::{FlowThickness, ThicknessUniform},
             trace_step::Step,
         },
-        timing::Recorder,
+        timing::{Recorder, STEP_FLOW},
         uniform_buffer::UniformBuffer,
     },
     physics::{
@@ -22,9 +22,6 @@ use crate::{
         flow::{FOLLOWED_TURN, FlowForces, MIN_AIR_SPEED},
     },
 };
-
-/// Name of the passes that move the film's flow.
-const STEP_FLOW: &str = "step_flow";
 
 /// What a free film is subject to during a step.
 pub struct Surroundings<'a> {

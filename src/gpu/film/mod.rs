@@ -41,18 +41,13 @@ use super::{
     },
     readback::Readback,
     shown_film::FilmTexture,
-    timing::{Groups, Recorder},
+    timing::{Groups, Recorder, STEP_FIELD},
 };
 use crate::physics::{
     film::Cap,
     sphere::{CubedSphere, GridError},
     transport::Scheme,
 };
-
-/// Name of the passes that move a film.
-const STEP: &str = "step_field";
-/// Name of the passes that make a film ready to be drawn.
-const SHOW: &str = "show_field";
 
 /// How a film is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -263,7 +258,7 @@ impl Field {
         if !self.rules.scheme.keeps_map() {
             return self.advance_and_remap(recorder, step);
         }
-        self.compose(recorder, STEP, step, self.map_so_far(), 1)?;
+        self.compose(recorder, STEP_FIELD, step, self.map_so_far(), 1)?;
         self.map.swap(0, 1);
         self.map_is_identity = false;
         self.ticks_since_decision += ticks;
@@ -303,16 +298,16 @@ impl Field {
     fn advance_and_remap(&mut self, recorder: &mut Recorder<'_>, step: &Step) -> Result<(), GpuError> {
         let grid = &self.film;
         let (all, everywhere) = (grid.padded_groups().into(), self.all_cells());
-        self.compose(recorder, STEP, step, None, 0)?;
+        self.compose(recorder, STEP_FIELD, step, None, 0)?;
         let back = Some(&self.map[0]);
-        self.sample(recorder, STEP, grid, back, [&self.tracer, &self.sampled], everywhere)?;
+        self.sample(recorder, STEP_FIELD, grid, back, [&self.tracer, &self.sampled], everywhere)?;
         if let Some(corrected) = &self.corrected {
-            self.compose(recorder, STEP, &step.reversed(), None, 1)?;
+            self.compose(recorder, STEP_FIELD, &step.reversed(), None, 1)?;
             let forth = Some(&self.map[1]);
-            self.sample(recorder, STEP, grid, forth, [&self.sampled, &self.shown], everywhere)?;
+            self.sample(recorder, STEP_FIELD, grid, forth, [&self.sampled, &self.shown], everywhere)?;
             let kernel = CorrectError { tracer: &self.tracer, returned: &self.shown, corrected };
-            kernel.correct_error(recorder, STEP, grid.padded_groups())?;
-            self.sample(recorder, STEP, grid, back, [corrected, &self.sampled], everywhere)?;
+            kernel.correct_error(recorder, STEP_FIELD, grid.padded_groups())?;
+            self.sample(recorder, STEP_FIELD, grid, back, [corrected, &self.sampled], everywhere)?;
         }
         self.settle(recorder, [[parts(grid), 1, 1].into(), [1; 3].into(), all])
     }

@@ -1,6 +1,6 @@
 //! Remaps: what is done to a film for good when its map is looked through, and what may only be done then.
 
-use super::{Field, STEP};
+use super::Field;
 use crate::gpu::{
     control::Control,
     device::{Gpu, GpuError},
@@ -13,7 +13,7 @@ use crate::gpu::{
         reset_map::ResetMap,
         settle_tracer::SettleTracer,
     },
-    timing::{Groups, Recorder},
+    timing::{Groups, Recorder, STEP_FIELD},
 };
 
 impl Field {
@@ -54,11 +54,11 @@ impl Field {
     pub(super) fn remap_if_due(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
         let (ticks, rule) = (std::mem::take(&mut self.ticks_since_decision), self.remap_rule());
         let grids = (self.map_grid(), self.tracer_grid());
-        decide_remap(recorder, STEP, grids, &self.map[0], &self.control, (ticks, rule))?;
+        decide_remap(recorder, STEP_FIELD, grids, &self.map[0], &self.control, (ticks, rule))?;
         let due = &self.control;
         let tracers = [&self.tracer, &self.sampled];
         let groups = [due.tracer_groups(), due.quad_groups()];
-        self.sample(recorder, STEP, self.tracer_grid(), self.kept_map(), tracers, groups)?;
+        self.sample(recorder, STEP_FIELD, self.tracer_grid(), self.kept_map(), tracers, groups)?;
         if let Some(diffusion) = &self.diffusion {
             diffusion.record(recorder, self.tracer_grid(), &self.control, &self.sampled, &self.tracer)?;
         }
@@ -74,7 +74,7 @@ impl Field {
             return Ok(());
         }
         let kernel = ResetMap { tangents: &self.map_grid().tangents, map: &self.map[0] };
-        kernel.reset_map(recorder, STEP, due.map_groups())
+        kernel.reset_map(recorder, STEP_FIELD, due.map_groups())
     }
 
     /// Workgroups, if a remap is due, of the sum over the tracer, of its end, and of a pass over the tracer.
@@ -110,7 +110,7 @@ impl Field {
         }
         let Self { sampled, tracer, control, .. } = self;
         let kernel = SettleTracer { balance: &control.tracer_balance, sampled, tracer };
-        kernel.settle_tracer(recorder, STEP, groups[2])
+        kernel.settle_tracer(recorder, STEP_FIELD, groups[2])
     }
 
     /// Sums what a field on the tracer's grid has too much, and does with it what is said.
@@ -123,6 +123,6 @@ impl Field {
     ) -> Result<(), GpuError> {
         let Control { partial_sums, tracer_balance: balance, block: control, .. } = &self.control;
         let sum = Sum { grid: self.tracer_grid(), field, partial_sums, balance, control };
-        conserve(recorder, STEP, self.target(1), &sum, [sum_groups, one_group], excess)
+        conserve(recorder, STEP_FIELD, self.target(1), &sum, [sum_groups, one_group], excess)
     }
 }

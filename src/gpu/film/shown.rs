@@ -1,6 +1,6 @@
 //! A film is made ready for pictures.
 
-use super::{Field, SHOW};
+use super::Field;
 use crate::gpu::{
     device::GpuError,
     passes::{
@@ -11,7 +11,7 @@ use crate::gpu::{
         trace_step::Step,
     },
     shown_film::Shown,
-    timing::Recorder,
+    timing::{Recorder, SHOW_FIELD},
 };
 
 impl Field {
@@ -19,16 +19,16 @@ impl Field {
     pub fn show(&mut self, recorder: &mut Recorder<'_>, ahead: Option<&Step>) -> Result<(), GpuError> {
         self.shown_map = usize::from(ahead.is_some());
         if let Some(step) = ahead {
-            self.compose(recorder, SHOW, step, self.map_so_far(), 1)?;
+            self.compose(recorder, SHOW_FIELD, step, self.map_so_far(), 1)?;
         }
         let map = ahead.map_or(self.map_so_far(), |_| Some(&self.map[1]));
         if map.is_none() && self.rules.scheme.keeps_map() {
             // Pictures look through it wherever it leads.
             let grid = self.map_grid();
             let kernel = ResetMap { tangents: &grid.tangents, map: &self.map[0] };
-            kernel.reset_map(recorder, SHOW, grid.padded_groups())?;
+            kernel.reset_map(recorder, SHOW_FIELD, grid.padded_groups())?;
         }
-        self.sample(recorder, SHOW, &self.film, map, [&self.tracer, &self.shown], self.all_cells())?;
+        self.sample(recorder, SHOW_FIELD, &self.film, map, [&self.tracer, &self.shown], self.all_cells())?;
         let sum = Sum {
             grid: &self.film,
             field: &self.shown,
@@ -38,10 +38,10 @@ impl Field {
         };
         if self.rules.conserved {
             let groups = [[parts(&self.film), 1, 1].into(), [1; 3].into()];
-            conserve(recorder, SHOW, self.target(0), &sum, groups, Excess::Balanced)?;
+            conserve(recorder, SHOW_FIELD, self.target(0), &sum, groups, Excess::Balanced)?;
         }
         let kernel = ShowFilm { balance: &self.control.shown_balance, sampled: &self.shown, film: &self.texture.view };
-        kernel.show_film(recorder, SHOW, self.film.padded_groups())
+        kernel.show_film(recorder, SHOW_FIELD, self.film.padded_groups())
     }
 
     /// What was last shown.

@@ -1,10 +1,10 @@
 //! The drop that may hang at a film's bottom: it holds the film fast.
 
-use super::{FlowGrid, STEP_FLOW};
+use super::FlowGrid;
 use crate::gpu::{
     device::{Gpu, GpuError},
     passes::flow_hold::{FlowHold, HoldUniform},
-    timing::Recorder,
+    timing::{Recorder, STEP_FLOW},
     uniform_buffer::UniformBuffer,
 };
 

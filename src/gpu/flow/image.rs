@@ -1,12 +1,12 @@
 //! The rim that a film may end at: beyond it stands the image of its vorticity.
 
-use super::{FlowGrid, STEP_FLOW, buffer};
+use super::{FlowGrid, buffer};
 use crate::{
     gpu::{
         device::{Gpu, GpuError},
         grid::rim_numbers,
         passes::flow_image::{FlowImage, ImageUniform},
-        timing::Recorder,
+        timing::{Recorder, STEP_FLOW},
         uniform_buffer::UniformBuffer,
     },
     physics::film::Cap,

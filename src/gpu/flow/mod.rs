@@ -22,7 +22,7 @@ use super::{
         flow_trace::{TraceTracer, TraceVorticity},
         flow_velocity::FlowVelocity,
     },
-    timing::Recorder,
+    timing::{Recorder, STEP_FLOW},
     uniform_buffer::UniformBuffer,
 };
 use crate::physics::{
@@ -30,9 +30,6 @@ use crate::physics::{
     flow::{FlowForces, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES},
     sphere::CubedSphere,
 };
-
-/// Name of the passes that step a flow.
-const STEP_FLOW: &str = "step_flow";
 
 /// Multigrid cycles of a step: only as many as its error needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@
 
 use bytemuck::Zeroable;
 
-use super::{FlowGrid, STEP_FLOW, buffer};
+use super::{FlowGrid, buffer};
 use crate::{
     gpu::{
         device::{Gpu, GpuError},
@@ -15,7 +15,7 @@ use crate::{
             flow_residual::{FlowResidual, SolveUniform},
             flow_sweep::FlowSweep,
         },
-        timing::Recorder,
+        timing::{Recorder, STEP_FLOW},
         uniform_buffer::UniformBuffer,
     },
     physics::{

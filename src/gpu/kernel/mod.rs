@@ -17,7 +17,7 @@
 //!     compute diffuse_stage;                       // entry points that take these bindings, each a method
 //! }
 //!
-//! DiffuseStage { HAS_MAP: true, …, tangents: &grid.tangents }.diffuse_stage(recorder, "step_field", groups)?;
+//! DiffuseStage { HAS_MAP: true, …, tangents: &grid.tangents }.diffuse_stage(recorder, STEP_FIELD, groups)?;
 //! ```
 //!
 //! A kernel that draws names its vertex shaders, each a method, and its fragment shader: `draw cover as tonemapped;`.

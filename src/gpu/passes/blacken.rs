@@ -6,7 +6,7 @@ use crate::gpu::{
     device::{Gpu, GpuError},
     grid::Grid,
     kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
-    timing::Recorder,
+    timing::{Recorder, STEP_FIELD},
     uniform_buffer::UniformBuffer,
 };
 
@@ -82,9 +82,6 @@ pub struct BlackeningLaw {
     pub rate: f64,
 }
 
-/// Name of the step that it is part of.
-const STEP: &str = "step_field";
-
 /// The collapse of a film, done at remaps.
 pub struct BlackFilm {
     /// The law in force.
@@ -130,7 +127,7 @@ impl BlackFilm {
         tracer: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
         let blacken = &self.uniform(recorder, grid);
-        StopEvaporation { blacken, result: tracer }.stop_evaporation(recorder, STEP, control.tracer_groups())
+        StopEvaporation { blacken, result: tracer }.stop_evaporation(recorder, STEP_FIELD, control.tracer_groups())
     }
 
     /// If a remap is due, lets the tracer collapse for the ticks since the last one, into another buffer.
@@ -145,12 +142,13 @@ impl BlackFilm {
         let (blacken, block) = (&self.uniform(recorder, grid), &control.block);
         let Self { shed, means, .. } = self;
         let (all, one) = (control.tracer_groups(), control.one_group());
-        MeanAlong { blacken, tracer, result: shed }.mean_along_rows(recorder, STEP, all)?;
-        MeanAlong { blacken, tracer: shed, result: means }.mean_along_columns(recorder, STEP, all)?;
+        MeanAlong { blacken, tracer, result: shed }.mean_along_rows(recorder, STEP_FIELD, all)?;
+        MeanAlong { blacken, tracer: shed, result: means }.mean_along_columns(recorder, STEP_FIELD, all)?;
         halo_of_thickness(recorder, grid, means, one)?;
-        Shed { blacken, control: block, tracer, result: shed, means }.shed(recorder, STEP, all)?;
+        Shed { blacken, control: block, tracer, result: shed, means }.shed(recorder, STEP_FIELD, all)?;
         halo_of_thickness(recorder, grid, shed, one)?;
-        Gather { blacken, control: block, tracer, result: to, shed_around: shed, means }.gather(recorder, STEP, all)?;
+        Gather { blacken, control: block, tracer, result: to, shed_around: shed, means }
+            .gather(recorder, STEP_FIELD, all)?;
         halo_of_thickness(recorder, grid, to, one)
     }
 }

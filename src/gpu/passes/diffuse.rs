@@ -6,7 +6,7 @@ use crate::gpu::{
     device::{Gpu, GpuError},
     grid::Grid,
     kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
-    timing::Recorder,
+    timing::{Recorder, STEP_FIELD},
 };
 
 shader_struct! {
@@ -118,7 +118,7 @@ impl Diffusion {
                     stage_earlier: fields[k.saturating_sub(2)],
                     stage: fields[k],
                 };
-                kernel.diffuse_stage(recorder, "step_field", control.tracer_groups())?;
+                kernel.diffuse_stage(recorder, STEP_FIELD, control.tracer_groups())?;
             }
             halo_of_thickness(recorder, grid, field, control.one_group())?;
         }

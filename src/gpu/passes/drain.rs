@@ -9,7 +9,7 @@ use crate::{
         device::GpuError,
         grid::{Grid, rim_numbers},
         kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
-        timing::Recorder,
+        timing::{Recorder, STEP_FIELD},
     },
     plan::MAX_RIM_PATCHES,
 };
@@ -129,6 +129,6 @@ impl DrainLaw {
             tracer,
             drained,
         };
-        kernel.drain_film(recorder, "step_field", control.tracer_groups())
+        kernel.drain_film(recorder, STEP_FIELD, control.tracer_groups())
     }
 }

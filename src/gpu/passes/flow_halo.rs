@@ -5,7 +5,7 @@ use crate::{
         device::GpuError,
         grid::Grid,
         kernel::{Read, ReadWrite, kernels, shader_view},
-        timing::{Groups, Recorder},
+        timing::{Groups, Recorder, STEP_FIELD},
     },
     physics::sphere::HaloEntry,
 };
@@ -15,14 +15,14 @@ shader_view! { HaloEntry { cell, sources, weights } }
 kernels! {
     pass flow_halo;
 
-    /// Of numbers.
+    /// Of a field of numbers: any, or a thickness, none of which leaves the range of those that it is interpolated from.
     struct HaloOfScalar {
         @0 entries: Read<[HaloEntry]>;
         @1 scalar: ReadWrite<[f32]>;
     }
     compute halo_of_scalar, halo_of_thickness;
 
-    /// Of pairs of numbers.
+    /// Of a field of pairs of numbers.
     struct HaloOfPair {
         @0 entries: Read<[HaloEntry]>;
         @1 pair: ReadWrite<[[f32; 2]]>;
@@ -38,16 +38,13 @@ kernels! {
     compute halo_of_velocities;
 }
 
-/// Records the one workgroup that fills the halo of a film's thickness. No value leaves the range of those that it is interpolated from.
+/// Records the one workgroup that fills the halo of a film's thickness.
 pub fn halo_of_thickness(
     recorder: &mut Recorder<'_>,
     grid: &Grid,
     thickness: &wgpu::Buffer,
     one_group: Groups<'_>,
 ) -> Result<(), GpuError> {
-    HaloOfScalar { entries: grid.halo(recorder.gpu), scalar: thickness }.halo_of_thickness(
-        recorder,
-        "step_field",
-        one_group,
-    )
+    HaloOfScalar { entries: grid.halo(recorder.gpu), scalar: thickness }
+        .halo_of_thickness(recorder, STEP_FIELD, one_group)
 }
