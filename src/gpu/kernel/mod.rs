@@ -29,7 +29,7 @@ mod slots;
 pub use layout::{Contents, Layout, Matrix, Scalar, ScalarKind, ShaderType};
 pub(crate) use layout::{add_member, shader_struct, shader_view};
 pub use overrides::{Choice, Constants, Override, OverrideValues, Overrides};
-pub(crate) use overrides::{override_values, overrides};
+pub(crate) use overrides::{choices, override_values, overrides};
 pub use slots::{
     R32Float, Read, ReadWrite, Rgba16Float, Sampler, Slot, SlotKind, Texture2d, Texture2dArray, TextureCube, Uniform,
     Written2dArray, WrittenFormat,

@@ -48,6 +48,33 @@ pub trait Overrides {
     fn add_declared(declared: &mut Vec<OverrideValues>);
 }
 
+/// Declares an enum whose variants are the values of an overridable constant.
+macro_rules! choices {
+    (
+        $(#[$attribute:meta])*
+        pub enum $name:ident {
+            $($(#[$doc:meta])* $variant:ident = $value:literal),* $(,)?
+        }
+    ) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(u32)]
+        pub enum $name {
+            $($(#[$doc])* $variant = $value),*
+        }
+
+        impl $crate::gpu::kernel::Override for $name {
+            fn value(self) -> u32 {
+                self as u32
+            }
+        }
+
+        impl $crate::gpu::kernel::Choice for $name {
+            const ALL: &'static [Self] = &[$(Self::$variant),*];
+        }
+    };
+}
+
 /// The values that stand for all that a constant can take: those of its type, or a list.
 macro_rules! override_values {
     ($kind:ident) => {
@@ -96,7 +123,7 @@ macro_rules! overrides {
     };
 }
 
-pub(crate) use {override_values, overrides};
+pub(crate) use {choices, override_values, overrides};
 
 impl OverrideValues {
     /// A constant that takes values of a type.

@@ -5,33 +5,24 @@ use crate::{
         control::ControlBlock,
         device::GpuError,
         grid::{Grid, rim_numbers},
-        kernel::{Choice, Override, Read, ReadWrite, Uniform, kernels, shader_struct},
+        kernel::{Read, ReadWrite, Uniform, choices, kernels, shader_struct},
         timing::{Groups, Recorder},
     },
     physics::{film::Cap, transport::Scheme},
 };
 
-/// What a map's fourth number means: see `GATHERED` in `shaders/pass/sample_tracer.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[repr(u32)]
-pub enum Gathered {
-    /// Nothing: the tracer is a ratio, or the flow does not diverge.
-    #[default]
-    Nothing = 0,
-    /// The logarithm of the area ratio: the tracer is a density in a wind that diverges.
-    LogArea = 1,
-    /// An amount to be added.
-    Amount = 2,
-}
-
-impl Override for Gathered {
-    fn value(self) -> u32 {
-        self as u32
+choices! {
+    /// What a map's fourth number means: see `GATHERED` in `shaders/pass/sample_tracer.wgsl`.
+    #[derive(Default)]
+    pub enum Gathered {
+        /// Nothing: the tracer is a ratio, or the flow does not diverge.
+        #[default]
+        Nothing = 0,
+        /// The logarithm of the area ratio: the tracer is a density in a wind that diverges.
+        LogArea = 1,
+        /// An amount to be added.
+        Amount = 2,
     }
-}
-
-impl Choice for Gathered {
-    const ALL: &'static [Self] = &[Self::Nothing, Self::LogArea, Self::Amount];
 }
 
 shader_struct! {

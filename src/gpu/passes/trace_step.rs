@@ -7,7 +7,7 @@ use crate::{
     gpu::{
         device::GpuError,
         grid::Grid,
-        kernel::{Choice, Matrix, Override, Read, ReadWrite, Uniform, kernels, shader_struct, shader_view},
+        kernel::{Matrix, Read, ReadWrite, Uniform, choices, kernels, shader_struct, shader_view},
         timing::Recorder,
     },
     physics::{
@@ -19,28 +19,18 @@ use crate::{
 /// Traces that one step of a test wind can be made of.
 pub const MAX_TRACES: usize = 16;
 
-/// Velocity field that a pipeline is specialised for: see `FLOW` in `shaders/film/wind.wgsl`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u32)]
-pub enum FlowKind {
-    /// Waves and vortices.
-    Prescribed = 0,
-    /// A solid turn.
-    SolidBody = 1,
-    /// The non-divergent deformation wind.
-    NonDivergent = 2,
-    /// The divergent deformation wind.
-    Divergent = 3,
-}
-
-impl Override for FlowKind {
-    fn value(self) -> u32 {
-        self as u32
+choices! {
+    /// Velocity field that a pipeline is specialised for: see `FLOW` in `shaders/film/wind.wgsl`.
+    pub enum FlowKind {
+        /// Waves and vortices.
+        Prescribed = 0,
+        /// A solid turn.
+        SolidBody = 1,
+        /// The non-divergent deformation wind.
+        NonDivergent = 2,
+        /// The divergent deformation wind.
+        Divergent = 3,
     }
-}
-
-impl Choice for FlowKind {
-    const ALL: &'static [Self] = &[Self::Prescribed, Self::SolidBody, Self::NonDivergent, Self::Divergent];
 }
 
 shader_view! { FrozenWave { k, phase, amplitude, padding } }

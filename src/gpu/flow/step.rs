@@ -1,0 +1,191 @@
+//! A step of the flow: the passes in order.
+
+use super::{FlowSolver, multigrid::System};
+use crate::{
+    gpu::{
+        device::{Gpu, GpuError},
+        passes::{
+            flow_combine::{CombineUniform, FlowCombine},
+            flow_force::FlowForce,
+            flow_halo::{HaloOfPair, HaloOfVelocities},
+            flow_measure::{FlowMeasure, FlowUniform},
+            flow_trace::{TraceTracer, TraceVorticity},
+            flow_velocity::FlowVelocity,
+        },
+        timing::{Recorder, STEP_FLOW},
+        uniform_buffer::UniformBuffer,
+    },
+    physics::flow::{FlowForces, MIN_AIR_SPEED},
+};
+
+impl FlowSolver {
+    /// Takes a step, after so many that are tried.
+    pub(super) fn take(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        dt_s: f64,
+        forces: &FlowForces,
+        trials: usize,
+    ) -> Result<(), GpuError> {
+        if !(dt_s.is_finite() && dt_s > 0.0) {
+            return Ok(());
+        }
+        let uniform = self.uniform(recorder.gpu, dt_s, forces);
+        self.grid.fill_halo(recorder, &self.log_thickness)?;
+        let is_first = !std::mem::replace(&mut self.has_history, true);
+        if is_first {
+            recorder.encoder().copy_buffer_to_buffer(&self.psi, 0, &self.psi_before, 0, self.psi.size());
+            self.find_velocity(recorder, &uniform, &self.psi, &self.psi_before)?;
+        }
+        // Without a trial the first step would be of first order, and all that follow inherit its error.
+        for _ in 0..trials + usize::from(is_first) {
+            self.advance(recorder, dt_s, forces, &uniform)?;
+            // The ψ a step before from which a straight line leads to where the trial did.
+            self.combine(recorder, &[(2.0, &self.psi), (-1.0, &self.psi_next)], 0.0, &self.psi_before)?;
+            self.find_velocity(recorder, &uniform, &self.psi, &self.psi_before)?;
+        }
+        self.advance(recorder, dt_s, forces, &uniform)?;
+        std::mem::swap(&mut self.zeta, &mut self.moved);
+        std::mem::swap(&mut self.psi_before, &mut self.psi);
+        std::mem::swap(&mut self.psi, &mut self.psi_next);
+        self.find_velocity(recorder, &uniform, &self.psi, &self.psi_before)
+    }
+
+    /// From ζ, ψ and ψ before to the next ζ, in `moved`, and ψ, in `psi_next`.
+    fn advance(
+        &self,
+        recorder: &mut Recorder<'_>,
+        dt_s: f64,
+        forces: &FlowForces,
+        uniform: &UniformBuffer<FlowUniform>,
+    ) -> Result<(), GpuError> {
+        let Self { grid, stages: [first, second], .. } = self;
+        self.push(recorder, uniform)?;
+        match forces.viscous_stage(dt_s) {
+            None => self.combine(recorder, &[(1.0, first), (1.0, second)], 0.0, &self.moved)?,
+            Some(stage) => self.viscous(recorder, stage)?,
+        }
+        self.reflect(recorder, &self.moved)?;
+        self.combine(recorder, &[(2.0, &self.psi), (-1.0, &self.psi_before)], -1.0, &self.psi_next)?;
+        let system = System { shift: 0.0, gain: 1.0, source: &self.moved };
+        self.multigrid.cycles(recorder, grid, &system, &self.psi_next, self.cycles.poisson)?;
+        self.drop.as_ref().map_or(Ok(()), |drop| drop.stop(recorder, grid, &self.moved, &self.psi_next))
+    }
+
+    /// From ζ, ψ and ψ before to what the two viscous stages take.
+    fn push(&self, recorder: &mut Recorder<'_>, flow: &UniformBuffer<FlowUniform>) -> Result<(), GpuError> {
+        let Self { grid, zeta, log_thickness, measures, pushed, decay, velocity_ahead, .. } = self;
+        let (tangents, [first_stage, second_stage]) = (&grid.tangents, &self.stages);
+        let measure = FlowMeasure {
+            flow,
+            tangents,
+            zeta,
+            psi: &self.psi,
+            psi_before: &self.psi_before,
+            log_thickness,
+            velocity: &self.velocity,
+            measures,
+        };
+        measure.flow_measure(recorder, STEP_FLOW, [1; 3])?;
+        let force = FlowForce {
+            flow,
+            tangents,
+            measures,
+            zeta,
+            log_thickness,
+            velocity: velocity_ahead,
+            forcing: &self.forcing,
+            pushed,
+            decay,
+        };
+        force.flow_force(recorder, STEP_FLOW, grid.groups())?;
+        HaloOfPair { entries: &grid.halo, pair: pushed }.halo_of_pair(recorder, STEP_FLOW, [1; 3])?;
+        let trace =
+            TraceVorticity { flow, tangents, velocity: velocity_ahead, pushed, decay, first_stage, second_stage };
+        trace.trace_vorticity(recorder, STEP_FLOW, grid.groups())
+    }
+
+    /// Carries ln h along the velocity for `dt_s` seconds on the flow's own grid. For a film whose thickness lives here too.
+    pub fn carry_log_thickness(&mut self, recorder: &mut Recorder<'_>, dt_s: f64) -> Result<(), GpuError> {
+        let uniform = self.uniform(recorder.gpu, dt_s, &FlowForces::default());
+        self.grid.fill_halo(recorder, &self.log_thickness)?;
+        let kernel = TraceTracer {
+            flow: &uniform,
+            tangents: &self.grid.tangents,
+            velocity: &self.velocity,
+            field: &self.log_thickness,
+            moved: &self.moved,
+        };
+        kernel.trace_tracer(recorder, STEP_FLOW, self.grid.groups())?;
+        std::mem::swap(&mut self.log_thickness, &mut self.moved);
+        Ok(())
+    }
+
+    /// Viscosity on what the two implicit stages take, into `moved`: see the twin.
+    fn viscous(&self, recorder: &mut Recorder<'_>, stage: f64) -> Result<(), GpuError> {
+        let Self { grid, stages: [first, second], once, twice, moved, .. } = self;
+        let root = std::f64::consts::SQRT_2;
+        let system = |source| System { shift: (1.0 - 2.0 * stage) / stage, gain: -1.0 / stage, source };
+        for taken in [first, second] {
+            self.reflect(recorder, taken)?;
+            grid.fill_halo(recorder, taken)?;
+        }
+        recorder.encoder().copy_buffer_to_buffer(first, 0, once, 0, first.size());
+        self.multigrid.cycles(recorder, grid, &system(first), once, self.cycles.viscous)?;
+        // What the first stage took away, the second nearly will of its part.
+        self.combine(recorder, &[(root, once), (1.0, second), (1.0 - root, first)], 0.0, moved)?;
+        self.combine(recorder, &[(1.0, once), (1.0, second)], 0.0, twice)?;
+        self.multigrid.cycles(recorder, grid, &system(twice), moved, self.cycles.viscous)
+    }
+
+    pub(super) fn find_velocity(
+        &self,
+        recorder: &mut Recorder<'_>,
+        uniform: &UniformBuffer<FlowUniform>,
+        psi: &wgpu::Buffer,
+        before: &wgpu::Buffer,
+    ) -> Result<(), GpuError> {
+        let Self { grid, velocity, velocity_ahead, .. } = self;
+        let tangents = &grid.tangents;
+        let find = FlowVelocity { flow: uniform, tangents, psi, psi_before: before, velocity, velocity_ahead };
+        find.flow_velocity(recorder, STEP_FLOW, grid.groups())?;
+        let fill = HaloOfVelocities { entries: &grid.halo, velocity, velocity_ahead };
+        fill.halo_of_velocities(recorder, STEP_FLOW, [1; 3])
+    }
+
+    /// A sum of up to three fields with factors, and so many times the mean of the guess, halos included.
+    fn combine(
+        &self,
+        recorder: &mut Recorder<'_>,
+        terms: &[(f64, &wgpu::Buffer)],
+        mean: f32,
+        to: &wgpu::Buffer,
+    ) -> Result<(), GpuError> {
+        // Where there are fewer, the first stands for the rest, times nothing.
+        let [first, second, third] = [0, 1, 2].map(|k| terms.get(k).copied().unwrap_or((0.0, terms[0].1)));
+        let factors = CombineUniform { first: first.0 as f32, second: second.0 as f32, third: third.0 as f32, mean };
+        let kernel = FlowCombine {
+            combine: &recorder.gpu.uniform("combine", &factors),
+            measures: &self.measures,
+            first: first.1,
+            second: second.1,
+            third: third.1,
+            combined: to,
+        };
+        kernel.flow_combine(recorder, STEP_FLOW, [(self.grid.sphere.padded_len() as u32).div_ceil(64), 1, 1])
+    }
+
+    pub(super) fn uniform(&self, gpu: &Gpu, dt_s: f64, forces: &FlowForces) -> UniformBuffer<FlowUniform> {
+        let uniform = FlowUniform {
+            gravity: forces.gravity.as_vec3().to_array(),
+            dt_s: dt_s as f32,
+            drag: forces.drag as f32,
+            air_drag: forces.air_drag as f32,
+            min_air_speed: MIN_AIR_SPEED as f32,
+            cell_angle: self.grid.sphere.cell_angle() as f32,
+            cells: self.grid.sphere.n() as u32,
+            padding: [0; 3],
+        };
+        gpu.uniform("flow step", &uniform)
+    }
+}
