@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, Vec3};
 use half::f16;
 use rayon::prelude::*;
 
-use super::{CubeFace, Equirect, Procedural, Repairs, mip};
+use super::{CubeFace, Equirect, Repairs, mip};
 
 /// One mip level of a [`CubeMap`].
 #[derive(Debug, Clone, PartialEq)]
@@ -45,11 +45,6 @@ impl CubeMap {
     /// The same radiance from every direction.
     pub fn constant(radiance: DVec3) -> Self {
         Self::from_fn(1, 1, |_| radiance)
-    }
-
-    /// A built-in environment.
-    pub fn from_procedural(environment: Procedural) -> Self {
-        Self::from_fn(environment.cube_size(), 2, |direction| environment.radiance(direction))
     }
 
     /// A panorama, with texels about as wide as its pixels; the repairs are the panorama's.

@@ -21,8 +21,8 @@ words! {
 
 /// The maps of all of them, each made when it is first asked for: the room takes seconds.
 static MAPS: [LazyLock<Arc<CubeMap>>; Procedural::ALL.len()] = [
-    LazyLock::new(|| Arc::new(CubeMap::from_procedural(Procedural::Tent))),
-    LazyLock::new(|| Arc::new(CubeMap::from_procedural(Procedural::Windows))),
+    LazyLock::new(|| Procedural::Tent.made()),
+    LazyLock::new(|| Procedural::Windows.made()),
 ];
 
 impl Procedural {
@@ -30,6 +30,10 @@ impl Procedural {
     #[must_use]
     pub fn map(self) -> Arc<CubeMap> {
         Arc::clone(&MAPS[self as usize])
+    }
+
+    fn made(self) -> Arc<CubeMap> {
+        Arc::new(CubeMap::from_fn(self.cube_size(), 2, |direction| self.radiance(direction)))
     }
 
     /// Texels along the edge of a cube map's face that show its finest detail.
