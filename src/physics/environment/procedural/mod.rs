@@ -20,10 +20,8 @@ words! {
 }
 
 /// The maps of all of them, each made when it is first asked for: the room takes seconds.
-static MAPS: [LazyLock<Arc<CubeMap>>; Procedural::ALL.len()] = [
-    LazyLock::new(|| Procedural::Tent.made()),
-    LazyLock::new(|| Procedural::Windows.made()),
-];
+static MAPS: [LazyLock<Arc<CubeMap>>; Procedural::ALL.len()] =
+    [LazyLock::new(|| Procedural::Tent.made()), LazyLock::new(|| Procedural::Windows.made())];
 
 impl Procedural {
     /// Its cube map, made once for all that ask.
