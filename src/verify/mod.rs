@@ -10,6 +10,7 @@ mod phenomena;
 mod picture;
 mod random;
 pub mod reference;
+pub mod reference_film;
 mod rims;
 pub mod sorting;
 mod stability;

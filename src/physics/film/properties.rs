@@ -23,6 +23,8 @@ pub const GRAVITY: f64 = 9.80665;
 pub const VAPOUR_DIFFUSIVITY: f64 = 2.5e-5;
 /// Density of saturated water vapour at 20 °C, kg/m³.
 pub const SATURATED_VAPOUR: f64 = 0.0173;
+/// Thickness of black film in nm, at which evaporation ends: common black films are 10 to 30 nm thick.
+pub const BLACK_FILM_NM: f64 = 10.0;
 /// Thickness below which two surfaces that only attract each other collapse to black film, m (40 to 60 nm).
 pub const BLACK_FILM_ONSET: f64 = 50e-9;
 /// Rate at which film thinner than that collapses, 1/s. In real films black spots spread by suction at their rim, within a fraction of a

@@ -11,20 +11,27 @@
 //! answers for both.
 
 mod cases;
+mod force;
 mod measure;
+mod mirror_vorticity;
 mod multigrid;
 mod operators;
 mod oscillation;
+mod pinned_region;
 mod solver;
+mod trace;
 
 pub use cases::{FlowCase, FlowCaseError, FlowCaseKind, Mode};
+pub use force::{AIR_DRAG, FlowForces, MIN_AIR_SPEED, VISCOUS_STAGE};
 pub use measure::{Invariants, invariants, relative_l2};
+pub use mirror_vorticity::mirrored;
 pub use multigrid::{
     MAX_COARSEST_SWEEPS, Multigrid, SWEEPS, Shift, coarser, coarsest_weights, is_coarsest, sweep_weights,
 };
-pub use operators::{CellMetric, Order, laplacian, turned_gradient};
+pub use operators::{CellMetric, Order, laplacian, laplacian_at, turned_gradient};
 pub use oscillation::{Oscillation, fit_oscillation};
+pub use pinned_region::PinnedRegion;
 pub use solver::{
-    AIR_DRAG, CORRECTED_TURN, FOLLOWED_TURN, FlowForces, FlowSolver, MIN_AIR_SPEED, POISSON_CYCLES, VISCOUS_CYCLES,
-    VISCOUS_STAGE, advected, stable_step_s,
+    CORRECTED_TURN, FOLLOWED_TURN, FlowSolver, POISSON_CYCLES, VISCOUS_CYCLES, stable_step_s,
 };
+pub use trace::{advected, origin};

@@ -1,0 +1,175 @@
+//! The film model on the device against the same model in f64 on the CPU, step by step, on small grids and random fields.
+//!
+//! Both are driven by one key and take the same steps, so what is between them is rounding: f32 has 24 bits, and a value is off by up to
+//! ε = 6e-8 of itself after each operation.
+
+use std::ops::Range;
+
+use glam::DVec3;
+use soapfilm::{
+    gpu::{
+        Gpu,
+        film::{ControlBlock, Field, MovingFilm, rules},
+        readback::Readback,
+        transport_case::values,
+    },
+    physics::{
+        bubble::CentrePath,
+        film::{Cap, FlowLaw, FreeFlow, InitialFilm, Push, Regeneration},
+        flow::FlowForces,
+        sphere::CubedSphere,
+        transport::Scheme,
+    },
+    plan::{FieldKey, FilmEnd, FlowSegment, Moment, PushKey},
+    verify::reference_film::ReferenceFilm,
+};
+
+use crate::support::gpu;
+
+const TICK_S: f64 = 1.0 / 60.0;
+
+/// What a free film of 5 cm is subject to.
+const FREE: FreeFlow = FreeFlow {
+    forces: FlowForces { gravity: DVec3::new(0.0, 0.0, -196.0), drag: 2.0, air_drag: 1e4, viscosity: 0.04 },
+    diffusion: 0.0,
+    drainage: 0.0,
+    draught: 1.0,
+    seed: 4,
+};
+
+/// A freshly blown film of random thickness.
+fn key(cells: u32, seed: u32, law: FlowLaw) -> FieldKey {
+    FieldKey {
+        cells,
+        flow_cells: 64,
+        initial: InitialFilm::Blown { thickness_nm: 700.0, stratification: 0.0, seed },
+        end: None,
+        tick_s: TICK_S,
+        scheme: Scheme::Map,
+        remap_ticks: 10,
+        evaporation: Vec::new(),
+        flows: vec![FlowSegment { from_tick: 0, law }],
+        pushes: Vec::new(),
+        path: CentrePath::default(),
+        moment: Moment::default(),
+    }
+}
+
+fn ending(cap: Option<Cap>, drop_rad: Option<f64>, regeneration: Option<Regeneration>) -> Option<Box<FilmEnd>> {
+    Some(Box::new(FilmEnd { cap, drop_rad, regeneration }))
+}
+
+/// What both films are at the end of a step.
+struct State {
+    thickness_nm: Vec<f64>,
+    zeta: Vec<f64>,
+    remaps: u32,
+    spared_nm: f64,
+    drained_nm: f64,
+}
+
+struct OnDevice<'a> {
+    gpu: &'a Gpu,
+    film: MovingFilm,
+}
+
+impl<'a> OnDevice<'a> {
+    fn new(gpu: &'a Gpu, key: &FieldKey) -> Self {
+        let mut field = Field::new(gpu, CubedSphere::new(key.cells as usize).unwrap(), rules(key)).unwrap();
+        field.seed(gpu, key.initial.profile());
+        Self { gpu, film: MovingFilm::new(field) }
+    }
+
+    fn play(&mut self, key: &FieldKey, step: &Range<u64>) {
+        let gpu = self.gpu;
+        let submit = |recorder: soapfilm::gpu::timing::Recorder<'_>| {
+            recorder.submit(&Default::default());
+            gpu.wait()
+        };
+        self.film.play(gpu, key, step.start, 1, submit).unwrap();
+    }
+
+    fn state(&mut self) -> State {
+        let zeta = self.film.flow().map_or(Vec::new(), |flow| {
+            let bytes = Readback::of_buffer(self.gpu, flow.zeta(), flow.zeta().size()).wait(self.gpu).unwrap();
+            flow.inner(&bytemuck::pod_collect_to_vec(&bytes)).into_iter().map(f64::from).collect()
+        });
+        let control: ControlBlock =
+            bytemuck::pod_read_unaligned(&self.film.field.read_control(self.gpu).wait(self.gpu).unwrap());
+        assert_eq!(control.healed, 0);
+        State {
+            thickness_nm: values(self.gpu, &mut self.film.field).unwrap(),
+            zeta,
+            remaps: control.remaps,
+            spared_nm: control.spared_nm.into(),
+            drained_nm: control.drained_nm.into(),
+        }
+    }
+}
+
+fn state_in_f64(film: &ReferenceFilm, key: &FieldKey) -> State {
+    let model = film.film();
+    State {
+        thickness_nm: film.thickness_nm(key),
+        zeta: model.flow().zeta().cells(),
+        remaps: model.remaps(),
+        spared_nm: model.liquid().spared_nm,
+        drained_nm: model.liquid().drained_nm,
+    }
+}
+
+/// Root mean square of a difference over the root mean square, and its largest value.
+fn apart(found: &[f64], expected: &[f64]) -> [f64; 2] {
+    assert_eq!(found.len(), expected.len());
+    let mean_square = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>() / expected.len() as f64;
+    let difference = || found.iter().zip(expected).map(|(a, b)| a - b);
+    let rms = mean_square(&mut difference()).sqrt();
+    let size = mean_square(&mut expected.iter().copied()).sqrt();
+    [rms / size.max(1e-12), difference().fold(0.0, |most: f64, d| most.max(d.abs()))]
+}
+
+/// What was largest over all steps.
+#[derive(Debug, Default)]
+struct Apart {
+    thickness_rms: f64,
+    thickness_nm: f64,
+    zeta: f64,
+    counted_nm: f64,
+}
+
+/// Plays a history on the device and in f64, and compares the two after each step.
+fn compare(gpu: &Gpu, name: &str, key: &FieldKey, ticks: u64) -> (Apart, State) {
+    let (mut device, mut twin) = (OnDevice::new(gpu, key), ReferenceFilm::new(key).unwrap());
+    let mut most = Apart::default();
+    let steps: Vec<Range<u64>> = key.at(Moment::tick(ticks)).steps_from(0).collect();
+    for step in &steps {
+        let now = key.at(Moment::tick(step.end));
+        device.play(&now, step);
+        twin.play(&now, || ());
+        let (found, expected) = (device.state(), state_in_f64(&twin, &now));
+        assert_eq!(found.remaps, expected.remaps, "{name} at tick {}", step.end);
+        let [rms, max] = apart(&found.thickness_nm, &expected.thickness_nm);
+        most.thickness_rms = most.thickness_rms.max(rms);
+        most.thickness_nm = most.thickness_nm.max(max);
+        if !found.zeta.is_empty() {
+            most.zeta = most.zeta.max(apart(&found.zeta, &expected.zeta)[0]);
+        }
+        for (found, expected) in [(found.spared_nm, expected.spared_nm), (found.drained_nm, expected.drained_nm)] {
+            most.counted_nm = most.counted_nm.max((found - expected).abs());
+        }
+        if std::env::var("FILM_MODEL_TRACE").is_ok() {
+            eprintln!("{name} {step:?} {most:?} remaps {}", found.remaps);
+        }
+    }
+    let end = state_in_f64(&twin, &key.at(Moment::tick(ticks)));
+    eprintln!("measured: {name}, {} steps, {} remaps: {most:?}", steps.len(), end.remaps);
+    (most, end)
+}
+
+#[test]
+fn a_free_film_is_the_f64_one() {
+    let Some(gpu) = gpu() else { return };
+    for (cells, seed) in [(16, 1), (24, 2)] {
+        compare(&gpu, "free", &key(cells, seed, FlowLaw::Free(FREE)), 24);
+    }
+}
