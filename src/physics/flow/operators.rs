@@ -156,7 +156,7 @@ mod tests {
     fn the_metric_measures_cells() {
         let grid = CubedSphere::new(64).unwrap();
         let density = |cell| CellMetric::new(grid, cell).area_density() * grid.cell_angle().powi(2);
-        let worst = grid.areas().iter().enumerate().map(|(cell, area)| (density(cell) / area - 1.0).abs());
+        let worst = grid.areas().into_iter().enumerate().map(|(cell, area)| (density(cell) / area - 1.0).abs());
         assert!(worst.fold(0.0, f64::max) < 2e-4, "midpoint rule, error O(D²)");
     }
 

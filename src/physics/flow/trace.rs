@@ -59,7 +59,8 @@ mod tests {
             let foot = origin(&forth, x, axis.cross(x), 0.7);
             // Bicubic interpolation on cells of 3.75°.
             assert!((foot.dot(axis) - x.dot(axis)).abs() < 1e-5, "{x}");
-            assert!(origin(&back, foot, -axis.cross(foot), 0.7).distance(x) < 1e-4, "{x}");
+            // What three iterates leave of a turn by 0.7 radians.
+            assert!(origin(&back, foot, -axis.cross(foot), 0.7).distance(x) < 1e-3, "{x}");
         }
     }
 }
