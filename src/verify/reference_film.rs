@@ -19,8 +19,15 @@ pub const MAX_CELLS: u32 = 64;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ReferenceFilmError {
     /// A grid that the model has no room for.
-    #[error("the reference moves films of at most {MAX_CELLS} cells along an edge, and this one has {0}: lower film.cells")]
-    TooFine(u32),
+    #[error(
+        "the reference moves films of at most {most} cells along an edge, and this one has {cells}: lower the bubble's film.cells, as with --set bubble.0.film.cells=32"
+    )]
+    TooFine {
+        /// Cells along an edge.
+        cells: u32,
+        /// As many as there may be.
+        most: u32,
+    },
     /// A grid that is too coarse.
     #[error(transparent)]
     Grid(#[from] GridError),
@@ -44,8 +51,9 @@ impl ReferenceFilm {
         if key.scheme != Scheme::Map {
             return Err(ReferenceFilmError::Scheme(key.scheme.name()));
         }
-        if key.cells > MAX_CELLS || key.flow_cells < key.cells {
-            return Err(ReferenceFilmError::TooFine(key.cells));
+        let most = MAX_CELLS.min(key.flow_cells);
+        if key.cells > most {
+            return Err(ReferenceFilmError::TooFine { cells: key.cells, most });
         }
         let remap = RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: key.remap_ticks };
         let rules = FilmRules { cap: key.cap(), drop_rad: key.drop_rad(), remap };
@@ -53,15 +61,15 @@ impl ReferenceFilm {
         Ok(Self { film: Film::new(grid, rules, key.initial.profile()), tick: 0 })
     }
 
-    /// Takes the steps that end until the moment of a key, of which this film's history is the beginning; `progress` hears of each.
-    pub fn play(&mut self, key: &FieldKey, progress: impl Fn()) {
+    /// Takes the steps that end until the moment of a key, of which this film's history is the beginning; `progress` hears of the ticks of each.
+    pub fn play(&mut self, key: &FieldKey, progress: impl Fn(u64)) {
         let steps: Vec<Range<u64>> = key.steps_from(self.tick).collect();
         for step in steps {
             if key.law(step.start) != FlowLaw::Rest {
                 self.film.advance(&key.film_step(&step));
             }
             self.tick = step.end;
-            progress();
+            progress(step.end - step.start);
         }
     }
 

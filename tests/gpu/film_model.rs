@@ -28,9 +28,10 @@ use crate::support::gpu;
 
 const TICK_S: f64 = 1.0 / 60.0;
 
-/// What a free film of 5 cm is subject to.
+/// What a free film of 5 cm is subject to. Gravity is tilted: a film that drains straight down is looked up exactly on lines through cell centres,
+/// where rounding decides which cells are those around that limit the lookup.
 const FREE: FreeFlow = FreeFlow {
-    forces: FlowForces { gravity: DVec3::new(0.0, 0.0, -196.0), drag: 2.0, air_drag: 1e4, viscosity: 0.04 },
+    forces: FlowForces { gravity: DVec3::new(50.0, -30.0, -190.0), drag: 2.0, air_drag: 1e4, viscosity: 0.04 },
     diffusion: 0.0,
     drainage: 0.0,
     draught: 1.0,
@@ -145,7 +146,7 @@ fn compare(gpu: &Gpu, name: &str, key: &FieldKey, ticks: u64) -> (Apart, State) 
     for step in &steps {
         let now = key.at(Moment::tick(step.end));
         device.play(&now, step);
-        twin.play(&now, || ());
+        twin.play(&now, |_| ());
         let (found, expected) = (device.state(), state_in_f64(&twin, &now));
         assert_eq!(found.remaps, expected.remaps, "{name} at tick {}", step.end);
         let [rms, max] = apart(&found.thickness_nm, &expected.thickness_nm);
@@ -191,12 +192,15 @@ fn a_film_that_ends_somewhere_is_the_f64_one() {
     let Some(gpu) = gpu() else { return };
     let ends = [
         ("bath", ending(Some(Cap::HEMISPHERE), None, None)),
-        ("ring", ending(Some(Cap::above(2.0)), None, None)),
         ("drop", ending(None, Some(0.4), None)),
     ];
     for (name, end) in ends {
         hold(&gpu, name, &FieldKey { end, ..key(20, 3, FlowLaw::Free(FREE)) }, 16);
     }
+    // The images in a ring lie exactly on lines through cell centres: no lookup there may be limited, and a smooth film has none that is.
+    let initial = InitialFilm::Rest { thickness_nm: 700.0, stratification: 0.6 };
+    let end = ending(Some(Cap::above(2.0)), None, None);
+    hold(&gpu, "ring", &FieldKey { end, initial, ..key(20, 3, FlowLaw::Free(FREE)) }, 16);
 }
 
 #[test]
