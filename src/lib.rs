@@ -24,7 +24,7 @@
 //! | [`verify`] | whether it is right: measurements against references | windows, files |
 //! | [`gpu`] | HOW: one module for each pass, named like its shader, and the executor that walks a plan | windows, files |
 //! | [`plan`] | WHEN: a pure function from what is wanted and what is there to the passes in between | wgpu, windows, files |
-//! | [`scene`] | WHAT is shown: plain data, TOML, presets, events | everything else |
+//! | [`scene`] | WHAT is shown: plain data, TOML, presets, events | how it is computed or drawn |
 //! | [`physics`] | what is TRUE: f64 on the CPU | wgpu, scene files |
 
 #![warn(missing_docs)]
@@ -47,6 +47,7 @@ pub mod scene;
 pub mod studio;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod verify;
+mod words;
 
 pub use glam;
 pub use gpu::AdapterChoice;
@@ -56,3 +57,4 @@ pub use physics::environment::CubeMap;
 pub use scene::Scene;
 #[cfg(not(target_arch = "wasm32"))]
 pub use studio::{Colour, Error, FilmCell, Picture, Radiance, Studio, colour};
+pub use words::{UnknownWord, Words};

@@ -1,36 +1,24 @@
 //! The history of a scene, as data: what a user changes while time runs becomes an event, so that a saved scene replays it.
 
-use crate::scene::{Change, Event, Flow, MotionChange, Scene};
+use crate::scene::{Change, Event, MotionChange, Scene};
 
 /// Enters a change of motion at a tick. At tick 0 nothing has happened yet: there it changes how the scene begins.
 pub fn record(scene: &mut Scene, tick: u64, change: MotionChange) {
     let after = scene.events.partition_point(|event| event.tick <= tick);
     match scene.events[..after].last_mut() {
-        Some(Event { tick: known, change: Change::Motion(motion) }) if *known == tick => merge(motion, &change),
-        _ if tick == 0 => begin(scene, &change),
-        _ => insert(scene, Event { tick, change: Change::Motion(change) }),
+        Some(Event { tick: known, change: Change::Motion(motion) }) if *known == tick => *motion = motion.then(&change),
+        _ if tick == 0 => scene.motion = change.applied_to(scene.motion.clone()),
+        _ => {
+            insert(scene, Event { tick, change: Change::Motion(change) });
+        }
     }
 }
 
-/// Enters what happens at a tick, after all that has happened until then.
-pub fn insert(scene: &mut Scene, event: Event) {
+/// Enters what happens at a tick, after all that has happened until then; returns its index.
+pub fn insert(scene: &mut Scene, event: Event) -> usize {
     let after = scene.events.partition_point(|known| known.tick <= event.tick);
     scene.events.insert(after, event);
-}
-
-fn merge(known: &mut MotionChange, newer: &MotionChange) {
-    known.flow = newer.flow.or(known.flow);
-    known.strength = newer.strength.or(known.strength);
-    known.seed = newer.seed.or(known.seed);
-    known.spin_deg_s = newer.spin_deg_s.or(known.spin_deg_s);
-    known.evaporation_nm_s = newer.evaporation_nm_s.or(known.evaporation_nm_s);
-    known.gravity_m_s2 = newer.gravity_m_s2.or(known.gravity_m_s2);
-    known.drag_1_s = newer.drag_1_s.or(known.drag_1_s);
-    known.air_drag = newer.air_drag.or(known.air_drag);
-}
-
-fn begin(scene: &mut Scene, change: &MotionChange) {
-    scene.motion = change.applied_to(scene.motion.clone());
+    after
 }
 
 /// What happens at an event, in a line for people.
@@ -46,36 +34,30 @@ pub fn describe(event: &Event, tick_s: f64) -> String {
     format!("{:.2} s: {what}", event.tick as f64 * tick_s)
 }
 
+/// The keys that change, by their names in panels, with their new values.
 fn describe_motion(change: &MotionChange) -> String {
-    let parts = [
-        change.flow.map(|flow| flow_name(flow).to_owned()),
-        change.strength.map(|strength| format!("strength {strength}")),
-        change.seed.map(|seed| format!("seed {seed}")),
-        change.spin_deg_s.map(|[x, y, z]| format!("spin {x}, {y}, {z} °/s")),
-        change.evaporation_nm_s.map(|rate| format!("evaporation {rate} nm/s")),
-        change.gravity_m_s2.map(|[x, y, z]| format!("gravity {x:.1}, {y:.1}, {z:.1} m/s²")),
-        change.drag_1_s.map(|rate| format!("drag {rate} 1/s")),
-        change.air_drag.map(|factor| format!("air drag {factor}")),
-    ];
-    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    let changes = toml::Table::try_from(change).unwrap_or_default();
+    let parts = MotionChange::ALL_KEYS.iter().filter_map(|key| {
+        let value = changes.get(key.name)?;
+        Some(format!("{} {}{}", key.label.to_lowercase(), value_text(value), key.unit))
+    });
+    parts.collect::<Vec<_>>().join(", ")
 }
 
-/// A flow's name, as scene files have it.
-#[must_use]
-pub fn flow_name(flow: Flow) -> &'static str {
-    match flow {
-        Flow::Free => "free",
-        Flow::Rest => "rest",
-        Flow::Sloshing => "sloshing",
-        Flow::Draught => "draught",
-        Flow::Stirred => "stirred",
+/// A value as people write it, numbers to three decimals.
+fn value_text(value: &toml::Value) -> String {
+    match value {
+        toml::Value::String(word) => word.clone(),
+        toml::Value::Float(number) => format!("{}", (number * 1e3).round() / 1e3),
+        toml::Value::Array(items) => items.iter().map(value_text).collect::<Vec<_>>().join(", "),
+        other => other.to_string(),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Motion;
+    use crate::scene::{Flow, Motion};
 
     fn strength(strength: f64) -> MotionChange {
         MotionChange { strength: Some(strength), ..MotionChange::default() }
@@ -120,6 +102,10 @@ mod tests {
     #[test]
     fn events_read_like_sentences() {
         let event = Event { tick: 90, change: Change::Motion(MotionChange { seed: Some(7), ..stir() }) };
-        assert_eq!(describe(&event, 1.0 / 60.0), "1.50 s: stirred, seed 7");
+        assert_eq!(describe(&event, 1.0 / 60.0), "1.50 s: flow stirred, flow seed 7");
+        let gravity_m_s2 = Some([0.0, 1.23456, -9.81]);
+        let tilted =
+            Event { tick: 60, change: Change::Motion(MotionChange { gravity_m_s2, ..MotionChange::default() }) };
+        assert_eq!(describe(&tilted, 1.0 / 60.0), "1.00 s: gravity 0, 1.235, -9.81 m/s²");
     }
 }

@@ -11,6 +11,7 @@
 
 pub mod clock;
 pub mod costs;
+mod edit;
 pub mod files;
 pub mod history;
 pub mod keys;

@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 use super::{
     clock::Clock,
     costs::Costs,
-    history,
+    edit::{Edit, begins_anew},
     keys::Action,
     messages::Messages,
     orbit,
@@ -16,7 +16,7 @@ use super::{
 use crate::{
     input::LoadedScene,
     plan::{Resources, settle_detail},
-    scene::{Bubble, Film, Light, Motion, MotionChange, Scene},
+    scene::{Light, Motion, Scene},
 };
 
 /// What a file is wanted for.
@@ -85,8 +85,8 @@ pub struct Model {
     pub selected: usize,
     /// The last tick that was ever shown of this history: how far its time line reaches.
     pub furthest_tick: u64,
-    /// A change of motion while its slider is being dragged: it counts once it is let go.
-    pub motion_draft: Option<MotionChange>,
+    /// The motion while a slider of it is being dragged: it counts once the slider is let go.
+    pub motion_draft: Option<Motion>,
     /// What the pointer is used for.
     pub tool: Tool,
     /// What the pointer does with it.
@@ -147,6 +147,7 @@ impl Model {
         self.clock.reset();
         self.furthest_tick = 0;
         self.selected = 0;
+        self.motion_draft = None;
         // What the hand held is gone.
         self.hand = Hand::default();
         self.loading = None;
@@ -156,8 +157,9 @@ impl Model {
     pub fn adopt_light(&mut self, light: Light, resources: Resources) {
         // What was turned while the light was loading stays as it is.
         let Light { rotation_deg, intensity, .. } = self.scene.light;
-        self.scene.light = Light { rotation_deg, intensity, ..light };
-        self.resources = resources;
+        if self.edit(Edit::Light(Light { rotation_deg, intensity, ..light })) {
+            self.resources = resources;
+        }
         self.loading = None;
     }
 
@@ -174,63 +176,35 @@ impl Model {
         self.furthest_tick.max(self.clock.tick).max(last_event)
     }
 
-    /// Changes the motion from now on, which is an event in the scene's history.
-    pub fn change_motion(&mut self, change: MotionChange) {
-        let mut changed = self.scene.clone();
-        history::record(&mut changed, self.clock.tick, change);
-        self.take_over(changed);
-    }
-
-    /// Makes a bubble end at what another does, and regenerate as that, and blows it anew; nothing if it does already.
-    pub fn change_end(&mut self, index: usize, ended: &Bubble) {
-        let end = |bubble: &Bubble| (bubble.boundary, bubble.rim_deg, bubble.regeneration, bubble.patch_mm);
-        if self.scene.bubbles.get(index).is_none_or(|bubble| end(bubble) == end(ended)) {
-            return;
+    /// Makes a change of the scene, or says why there can be no such scene; tells whether it was made. The only way to change a scene.
+    pub fn edit(&mut self, edit: Edit) -> bool {
+        let bubbles =
+            matches!(edit, Edit::Bubble(..) | Edit::Bubbles(_) | Edit::Reseed).then(|| self.scene.bubbles.clone());
+        let back = edit.apply(&mut self.scene, self.clock.tick);
+        if let Err(error) = self.scene.validate() {
+            back.apply(&mut self.scene, self.clock.tick);
+            self.messages.problem(error.to_string());
+            return false;
         }
-        let mut changed = self.scene.clone();
-        let bubble = &mut changed.bubbles[index];
-        (bubble.boundary, bubble.rim_deg, bubble.regeneration, bubble.patch_mm) = end(ended);
-        if self.take_over(changed) {
+        if bubbles.is_some_and(|before| begins_anew(&before, &self.scene.bubbles)) {
             self.clock.reset();
-        }
-    }
-
-    /// Takes over an edited scene, or says why there can be no such scene; tells whether it did.
-    fn take_over(&mut self, scene: Scene) -> bool {
-        match scene.validate() {
-            Ok(()) => self.scene = scene,
-            Err(error) => {
-                self.messages.problem(error.to_string());
-                return false;
-            }
         }
         true
     }
 
-    /// Puts another film on a bubble. All films share an index; another beginning of one is another beginning of all.
-    pub fn change_film(&mut self, index: usize, film: Film) {
-        for other in &mut self.scene.bubbles {
-            (other.film.index, other.film.skin_nm) = (film.index.clone(), film.skin_nm);
-        }
-        let Some(bubble) = self.scene.bubbles.get_mut(index) else { return };
-        if bubble.film != film {
-            bubble.film = film;
-            self.clock.reset();
-        }
-    }
-
     /// Blows every film anew, in another breath of air.
     pub fn new_seeds(&mut self) {
-        for bubble in &mut self.scene.bubbles {
-            bubble.film.seed = new_seed();
-        }
-        self.scene.motion.seed = new_seed();
         self.clock.reset();
+        let motion = Motion { seed: new_seed(), ..self.motion() };
+        self.edit(Edit::Motion(motion.into()));
+        self.edit(Edit::Reseed);
     }
 
     /// Lets the pointer, pressed or not, use its tool. Tells whether the camera shall stand.
     pub fn touch(&mut self, pressed: Option<Press>) -> bool {
-        tools::touch(&mut self.hand, self.tool, &mut self.scene, self.clock.tick, pressed);
+        if let Some(change) = tools::touch(&mut self.hand, self.tool, &self.scene, self.clock.tick, pressed) {
+            self.edit(Edit::Happens(change));
+        }
         matches!(self.hand, Hand::Film(_))
     }
 
@@ -240,14 +214,15 @@ impl Model {
         let turn = DMat3::from_axis_angle(camera.forward(), -right_deg.to_radians())
             * DMat3::from_axis_angle(camera.right(), away_deg.to_radians());
         let gravity = turn * DVec3::from(self.motion().gravity_m_s2);
-        let gravity_m_s2 = Some(gravity.to_array().map(|part| (part * 1e3).round() / 1e3));
-        self.change_motion(MotionChange { gravity_m_s2, ..MotionChange::default() });
+        let gravity_m_s2 = gravity.to_array().map(|part| (part * 1e3).round() / 1e3);
+        self.edit(Edit::Motion(Motion { gravity_m_s2, ..self.motion() }.into()));
     }
 
     /// Moves the camera.
     pub fn move_camera(&mut self, gesture: &orbit::Gesture, aspect: f64) {
         if *gesture != orbit::Gesture::default() {
-            self.scene.camera = orbit::moved(&self.scene.camera, &self.scene.bubbles, aspect, gesture);
+            let camera = orbit::moved(&self.scene.camera, &self.scene.bubbles, aspect, gesture);
+            self.edit(Edit::Camera(camera));
         }
     }
 
@@ -299,7 +274,7 @@ pub(super) mod tests {
     use crate::{
         input::load_scene,
         plan::film_grids,
-        scene::{Change, Event, FilmIndexName, Flow},
+        scene::{Change, Event, FilmIndexName, Flow, MotionChange},
     };
 
     /// The preset without an environment to compute.
@@ -312,7 +287,7 @@ pub(super) mod tests {
         let mut model = model();
         model.clock.tick = 120;
         let change = MotionChange { flow: Some(Flow::Stirred), ..MotionChange::default() };
-        model.change_motion(change.clone());
+        model.edit(Edit::Motion(Motion { flow: Flow::Stirred, ..model.motion() }.into()));
         assert_eq!(model.motion().flow, Flow::Stirred);
         assert_eq!(model.scene.events, [Event { tick: 120, change: Change::Motion(change) }]);
     }
@@ -321,14 +296,23 @@ pub(super) mod tests {
     fn another_film_begins_anew_and_an_index_is_everyones() {
         let mut model = Model::new(load_scene("trio").unwrap());
         model.clock.tick = 50;
-        let film = Film { index: FilmIndexName::Constant(1.5), ..model.scene.bubbles[2].film.clone() };
-        model.change_film(2, film);
+        let mut bubble = model.scene.bubbles[2].clone();
+        bubble.film.index = FilmIndexName::Constant(1.5);
+        model.edit(Edit::Bubble(2, bubble.clone().into()));
         assert_eq!(model.clock.tick, 50, "the index shapes no film");
         assert!(model.scene.bubbles.iter().all(|bubble| bubble.film.index == FilmIndexName::Constant(1.5)));
-        let film = Film { thickness_nm: 300.0, ..model.scene.bubbles[2].film.clone() };
-        model.change_film(2, film);
+        bubble.film.thickness_nm = 300.0;
+        model.edit(Edit::Bubble(2, bubble.into()));
         assert_eq!((model.clock.tick, model.scene.bubbles[2].film.thickness_nm), (0, 300.0));
-        model.change_film(99, Film::default());
+    }
+
+    #[test]
+    fn an_edit_that_no_scene_bears_leaves_the_scene_and_says_why() {
+        let mut model = model();
+        let before = model.scene.clone();
+        assert!(!model.edit(Edit::Motion(Motion { strength: 11.0, ..model.motion() }.into())));
+        assert_eq!(model.scene, before);
+        assert!(model.messages.at(0.0).iter().any(|message| message.text.contains("`strength`")));
     }
 
     #[test]

@@ -2,10 +2,9 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::history;
 use crate::{
     plan::{centre_path, film_turn},
-    scene::{Blow, Boundary, Bubble, Change, Drag, Event, Prick, Scene, Stir},
+    scene::{Blow, Boundary, Bubble, Change, Drag, Prick, Scene, Stir},
 };
 
 /// What the pointer is used for.
@@ -105,9 +104,9 @@ impl Aim {
     }
 }
 
-/// Lets the pointer, pressed or not, do what it does with a tool at a tick.
-pub fn touch(hand: &mut Hand, tool: Tool, scene: &mut Scene, tick: u64, pressed: Option<Press>) {
-    let change = match (&mut *hand, pressed) {
+/// Lets the pointer, pressed or not, use a tool at a tick; returns what that does to a film.
+pub fn touch(hand: &mut Hand, tool: Tool, scene: &Scene, tick: u64, pressed: Option<Press>) -> Option<Change> {
+    match (&mut *hand, pressed) {
         (Hand::Free, Some(press)) => {
             let aim = (tool != Tool::Orbit).then(|| aim(scene, tick, press.from)).flatten();
             let prick = aim.as_ref().filter(|_| tool == Tool::Prick).map(prick);
@@ -128,9 +127,6 @@ pub fn touch(hand: &mut Hand, tool: Tool, scene: &mut Scene, tick: u64, pressed:
             None
         }
         (Hand::Camera, Some(_)) => None,
-    };
-    if let Some(change) = change {
-        history::insert(scene, Event { tick, change });
     }
 }
 
@@ -244,16 +240,19 @@ fn hit(from: DVec3, ray: DVec3, radius: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{app::history, scene::Event};
 
     const MIDDLE: DVec2 = DVec2::ZERO;
 
     /// Presses at places, one each `ticks` ticks, and lets go.
     fn gesture(tool: Tool, scene: &mut Scene, places: &[DVec2], ticks: u64) {
         let mut hand = Hand::default();
-        for (k, place) in places.iter().enumerate() {
-            touch(&mut hand, tool, scene, ticks * k as u64, Some(Press { from: places[0], at: *place }));
+        let pressed = places.iter().map(|place| Some(Press { from: places[0], at: *place }));
+        for (k, pressed) in (0..).zip(pressed.chain([None])) {
+            if let Some(change) = touch(&mut hand, tool, scene, ticks * k, pressed) {
+                history::insert(scene, Event { tick: ticks * k, change });
+            }
         }
-        touch(&mut hand, tool, scene, ticks * places.len() as u64, None);
         assert_eq!(hand, Hand::Free);
     }
 
@@ -314,22 +313,22 @@ mod tests {
     #[test]
     fn beside_the_bubbles_and_without_a_tool_the_camera_moves() {
         for (tool, place) in [(Tool::Stir, DVec2::new(0.6, 0.0)), (Tool::Orbit, MIDDLE)] {
-            let (mut hand, mut scene) = (Hand::default(), seen_from_x());
+            let (mut hand, scene) = (Hand::default(), seen_from_x());
             for tick in [0, 60] {
-                touch(&mut hand, tool, &mut scene, tick, Some(Press { from: place, at: MIDDLE }));
+                let press = Some(Press { from: place, at: MIDDLE });
+                assert_eq!(touch(&mut hand, tool, &scene, tick, press), None);
             }
-            assert_eq!((hand, scene.events.len()), (Hand::Camera, 0));
+            assert_eq!(hand, Hand::Camera);
         }
     }
 
     #[test]
     fn while_time_stands_nothing_happens() {
-        let (mut hand, mut scene) = (Hand::default(), seen_from_x());
+        let (mut hand, scene) = (Hand::default(), seen_from_x());
         for k in 0..100 {
             let at = DVec2::new(0.003 * f64::from(k), 0.0);
-            touch(&mut hand, Tool::Stir, &mut scene, 7, Some(Press { from: MIDDLE, at }));
+            assert_eq!(touch(&mut hand, Tool::Stir, &scene, 7, Some(Press { from: MIDDLE, at })), None);
         }
-        assert_eq!(scene.events, []);
     }
 
     #[test]

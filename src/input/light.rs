@@ -25,12 +25,13 @@ pub fn load_environment(
     notes: &mut Vec<String>,
 ) -> Result<(Arc<CubeMap>, Vec<Lamp>), LoadError> {
     let map = match &light.environment {
-        _ if light.constant.is_some() => CubeMap::constant(DVec3::ONE),
-        Environment::Tent => CubeMap::from_procedural(Procedural::Tent),
-        Environment::Windows => CubeMap::from_procedural(Procedural::Windows),
+        _ if light.constant.is_some() => Arc::new(CubeMap::constant(DVec3::ONE)),
+        Environment::Tent => Procedural::Tent.map(),
+        Environment::Windows => Procedural::Windows.map(),
         Environment::File(path) => {
             let picture = read_environment(&folder.join(path), notes);
-            CubeMap::from_equirect(&picture.map_err(|error| Fault::unusable("environment", error).inside("light"))?)
+            let picture = picture.map_err(|error| Fault::unusable("environment", error).inside("light"))?;
+            Arc::new(CubeMap::from_equirect(&picture))
         }
     };
     without_patches(light, map, folder, notes)
@@ -39,12 +40,12 @@ pub fn load_environment(
 /// An environment without the light of its patches, and the lamps that these are.
 pub(super) fn without_patches(
     light: &Light,
-    map: CubeMap,
+    map: Arc<CubeMap>,
     folder: &Path,
     notes: &mut Vec<String>,
 ) -> Result<(Arc<CubeMap>, Vec<Lamp>), LoadError> {
     if light.patches.is_empty() {
-        return Ok((Arc::new(map), Vec::new()));
+        return Ok((map, Vec::new()));
     }
     let patches: Vec<Patch> = light.patches.iter().map(patch).collect();
     let size = map.size().max(MIN_PATCHED_SIZE);

@@ -47,7 +47,7 @@ impl LoadedScene {
     pub fn with_environment(mut self, environment: CubeMap) -> Result<Self, LoadError> {
         self.scene.light.constant = None;
         let light = &self.scene.light;
-        let (environment, lamps) = without_patches(light, environment, &self.folder, &mut self.notes)?;
+        let (environment, lamps) = without_patches(light, environment.into(), &self.folder, &mut self.notes)?;
         self.resources.environment = environment;
         self.resources.lamps = lamps;
         Ok(self)

@@ -16,9 +16,8 @@ use crate::{
             properties::{DENSITY, VISCOSITY, air_drag, evaporation_rate},
         },
         flow::{AIR_DRAG, FlowForces},
-        transport::Scheme,
     },
-    scene::{Blow, Boundary, Bubble, Change, FilmStateName, Flow, Motion, Scene, Stir, TransportScheme},
+    scene::{Blow, Bubble, Change, FilmStateName, Flow, Motion, Scene, Stir},
 };
 
 /// How far all films have turned as a whole at a time in ticks.
@@ -52,16 +51,6 @@ impl Turns {
     }
 }
 
-fn scheme(motion: &Motion) -> Scheme {
-    match motion.scheme {
-        TransportScheme::Bilinear => Scheme::Bilinear,
-        TransportScheme::Bicubic => Scheme::Bicubic,
-        TransportScheme::Bfecc => Scheme::Bfecc,
-        TransportScheme::Map => Scheme::Map,
-        TransportScheme::MapAccurate => Scheme::MapAccurate,
-    }
-}
-
 /// What the film of a bubble of a scene is at a moment; nothing if there is no such bubble then.
 #[must_use]
 pub fn film_key(scene: &Scene, index: usize, moment: Moment) -> Option<FilmKey> {
@@ -90,20 +79,12 @@ pub(super) fn has_field(bubble: &Bubble) -> bool {
 
 /// Where the film of a bubble ends, if anything lies beyond.
 pub(super) fn cap(bubble: &Bubble) -> Option<Cap> {
-    match bubble.boundary {
-        Boundary::Free | Boundary::Drop => None,
-        Boundary::Bath => Some(Cap::HEMISPHERE),
-        Boundary::Ring => Some(Cap::above(bubble.rim_deg.to_radians())),
-    }
+    bubble.boundary.cap(bubble.rim_deg)
 }
 
 /// What the film of a bubble that was blown after so many others ends at, unless it is free.
 fn film_end(bubble: &Bubble, generation: u32) -> Option<FilmEnd> {
-    let rim_deg = match bubble.boundary {
-        Boundary::Free => return None,
-        Boundary::Bath => 90.0,
-        Boundary::Ring | Boundary::Drop => bubble.rim_deg,
-    };
+    let rim_deg = bubble.boundary.rim_deg(bubble.rim_deg)?;
     let regeneration = || Regeneration {
         rim: rim_deg.to_radians(),
         radius: bubble.patch_mm / bubble.radius_mm,
@@ -112,7 +93,7 @@ fn film_end(bubble: &Bubble, generation: u32) -> Option<FilmEnd> {
     };
     Some(FilmEnd {
         cap: cap(bubble),
-        drop_rad: (bubble.boundary == Boundary::Drop).then(|| (180.0 - rim_deg).to_radians()),
+        drop_rad: bubble.boundary.drop_rad(bubble.rim_deg),
         regeneration: (bubble.regeneration > 0.0).then(regeneration),
     })
 }
@@ -132,7 +113,7 @@ pub(super) fn film(scene: &Scene, index: usize, bubble: &Bubble, life: &Life) ->
         initial,
         end: film_end(bubble, life.generation).map(Box::new),
         tick_s: scene.motion.tick_s,
-        scheme: scheme(&scene.motion),
+        scheme: scene.motion.scheme,
         remap_ticks: scene.motion.remap_ticks,
         evaporation: Vec::new(),
         flows: flows.map(|(from_tick, law)| FlowSegment { from_tick, law }).collect(),
@@ -281,9 +262,7 @@ fn flows(scene: &Scene, radius_m: f64) -> Vec<FlowSegment> {
             Flow::Free => FlowLaw::Free(free_flow(&motion, radius_m)),
             _ if strength == 0.0 => FlowLaw::Rest,
             Flow::Rest => FlowLaw::Rest,
-            Flow::Sloshing => FlowLaw::Sloshing { strength, seed },
-            Flow::Draught => FlowLaw::Draught { strength, seed },
-            Flow::Stirred => FlowLaw::Stirred { strength, seed },
+            flow => FlowLaw::Prescribed { flow, strength, seed },
         };
         if flows.last().is_none_or(|last| last.law != law) {
             flows.push(FlowSegment { from_tick, law });

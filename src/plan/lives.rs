@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     physics::film::{Random, burst_s, properties::BLACK_FILM_ONSET},
-    scene::{Bubble, Change, Scene},
+    scene::{Bubble, Change, Motion, Scene},
 };
 
 /// A bubble at a moment.
@@ -30,20 +30,20 @@ pub struct Life {
 
 /// The life of a bubble that a moment falls into; nothing between two lives.
 pub fn life(scene: &Scene, index: usize, moment: Moment) -> Option<Life> {
-    let (ends, motion) = (Ends::new(scene, index)?, &scene.motion);
+    let (ends, tick_s) = (Ends::new(scene, index)?, scene.motion.tick_s);
     let (mut born, mut generation) = (0, 0);
     loop {
         let alive = |moment, hole| Life { born, generation, moment, hole };
         let Some((tick, at)) = ends.of_life(born, generation).filter(|(tick, _)| *tick <= moment.tick) else {
             return Some(alive(Moment { tick: moment.tick - born, ..moment }, None));
         };
-        let slowdown = motion.burst_slowdown;
+        let Motion { burst_slowdown: slowdown, renew_s, .. } = ends.motion_at(tick);
         let lasts_s = ends.burst_s(born, generation, tick);
-        let seconds = ((moment.tick - tick) as f64 + moment.fraction) * motion.tick_s / slowdown;
+        let seconds = ((moment.tick - tick) as f64 + moment.fraction) * tick_s / slowdown;
         if seconds < lasts_s {
             return Some(alive(Moment::tick(tick - born), Some(HoleKey { at, seconds })));
         }
-        let next = tick.saturating_add(((lasts_s * slowdown + motion.renew_s) / motion.tick_s).ceil().max(1.0) as u64);
+        let next = tick.saturating_add(((lasts_s * slowdown + renew_s) / tick_s).ceil().max(1.0) as u64);
         if moment.tick < next {
             return None;
         }
@@ -58,6 +58,8 @@ struct Ends<'s> {
     bubble: &'s Bubble,
     /// Ticks at which the bubble is pricked, in order, and the directions in its film.
     pricks: Vec<(u64, DVec3)>,
+    /// What moves it, from which tick on.
+    motions: Vec<(u64, Motion)>,
     /// What its film thins by.
     laws: Vec<(u64, Thinning)>,
     /// What evaporates from it, nm/s.
@@ -74,7 +76,15 @@ impl<'s> Ends<'s> {
             _ => None,
         });
         let (laws, rates) = (thinning(scene, radius_m), evaporation(scene, radius_m));
-        Some(Self { scene, index, bubble, pricks: pricks.collect(), laws, rates })
+        let motions = scene.motions().collect();
+        Some(Self { scene, index, bubble, pricks: pricks.collect(), motions, laws, rates })
+    }
+
+    /// The motion that is in force at a tick.
+    fn motion_at(&self, tick: u64) -> &Motion {
+        let begun = self.motions.partition_point(|(from, _)| *from <= tick);
+        // The first one holds from tick 0 on.
+        &self.motions[begun.saturating_sub(1)].1
     }
 
     /// When a life ends, and where the hole opens if something pricks the film; else it is where the film is thinnest.
@@ -93,7 +103,8 @@ impl<'s> Ends<'s> {
         let laws = since(born, until(before, &self.laws));
         let top_nm = initial_film(self.bubble, generation).sorted_top_nm();
         let black_at = born as f64 + thins_at_tick(laws, tick_s, top_nm, 1e9 * BLACK_FILM_ONSET)?;
-        let lasts_s = -self.scene.motion.black_film_life_s * chance(self.bubble, self.index, generation).ln();
+        let life_s = self.motion_at(black_at as u64).black_film_life_s;
+        let lasts_s = -life_s * chance(self.bubble, self.index, generation).ln();
         let ticks = black_at + lasts_s / tick_s;
         // A bubble is seen before it bursts, and times beyond all clocks are never.
         (ticks < 1e15).then(|| (ticks.ceil() as u64).max(born + 1))
@@ -131,7 +142,7 @@ mod tests {
     use super::*;
     use crate::{
         physics::film::properties::{DENSITY, GRAVITY, VISCOSITY},
-        scene::{Event, Film, FilmStateName, Flow, Motion, Prick},
+        scene::{Event, Film, FilmStateName, Flow, Prick},
     };
 
     /// When the first bubble of a scene ends, and where, had it been blown at tick 0 after so many others.

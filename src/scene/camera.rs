@@ -1,30 +1,16 @@
 //! The camera: an orbit around a target.
 
-use super::check::{self, Checked};
+use super::section::section;
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
-/// A camera on an orbit around its target, +z up: `[camera]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Camera {
-    /// The point in the middle of the picture, m; each coordinate -1000 ..= 1000. Default: the origin.
-    pub target_m: [f64; 3],
-    /// Where the eye stands around the vertical, degrees from +x towards +y; any finite number. Default: 20.
-    pub azimuth_deg: f64,
-    /// How high the eye stands, degrees above the horizon; -90 ..= 90. Default: 8.
-    pub elevation_deg: f64,
-    /// From the target to the eye, m; 0 ..= 1000, and 0 is the target itself. Default: 0.24, where the default bubble fills 80 % of
-    /// the picture's height.
-    pub distance_m: f64,
-    /// Full vertical field of view, degrees; 1 ..= 170. Default: 30.
-    pub fov_y_deg: f64,
-}
-
-impl Default for Camera {
-    fn default() -> Self {
-        Self { target_m: [0.0; 3], azimuth_deg: 20.0, elevation_deg: 8.0, distance_m: 0.24, fov_y_deg: 30.0 }
-    }
+section! {
+    /// A camera on an orbit around its target, +z up: `[camera]`.
+    pub struct Camera, CameraKeys:
+    target_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "Target", " m", "the point in the middle of the picture, m";
+    azimuth_deg: f64 = 20.0, [finite], "Azimuth", "°", "around the vertical, from +x towards +y";
+    elevation_deg: f64 = 8.0, [-90.0 ..= 90.0], "Elevation", "°", "above the horizon";
+    distance_m: f64 = 0.24, [0.0 ..= 1000.0], "Distance", " m", "from the target to the eye, m; 0 is the target itself";
+    fov_y_deg: f64 = 30.0, [1.0 ..= 170.0], "Field of view", "°", "full vertical field of view";
 }
 
 impl Camera {
@@ -49,14 +35,6 @@ impl Camera {
     /// Unit vector upwards in the picture.
     pub fn up(&self) -> DVec3 {
         self.right().cross(self.forward())
-    }
-
-    pub(super) fn check(&self) -> Checked {
-        check::all_in_range("target_m", self.target_m, check::POSITION_M)?;
-        check::finite("azimuth_deg", self.azimuth_deg)?;
-        check::in_range("elevation_deg", self.elevation_deg, -90.0..=90.0)?;
-        check::in_range("distance_m", self.distance_m, 0.0..=1000.0)?;
-        check::in_range("fov_y_deg", self.fov_y_deg, 1.0..=170.0)
     }
 }
 

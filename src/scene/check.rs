@@ -4,12 +4,6 @@ use super::error::shorten;
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
 
-/// Range of each coordinate of a position, m: what f32 resolves to a tenth of a millimetre.
-pub(super) const POSITION_M: RangeInclusive<f64> = -1000.0..=1000.0;
-
-/// Range of each component of a radiance: what a half float holds.
-pub(super) const RADIANCE: RangeInclusive<f64> = 0.0..=65504.0;
-
 /// The outcome of a check.
 pub(super) type Checked = Result<(), Fault>;
 

@@ -1,10 +1,15 @@
 //! What happens while time runs: the kinds of `[[event]]`.
 //!
-//! Another kind takes a struct of its keys, a variant of [`Change`], of `Kind` and of the match below it, the keys in `Entry` that no other
-//! kind has, an item of [`Change::every_key`], and its table on the format's page.
+//! Another kind takes a section of its keys, a variant of [`Change`], of `Kind` and of the match below it, the keys in `Entry` that no other
+//! kind has, an item of [`Change::every_key`], and its heading on the format's page.
 
-use super::check::{self, Checked, Fault};
-use super::{Flow, Motion};
+use super::{
+    Flow, MotionChange,
+    check::{Checked, Fault},
+    motion::with_changing_keys,
+    section::section,
+};
+use crate::words::words;
 use serde::{Deserialize, Serialize};
 
 /// Something that happens at a tick: one `[[event]]`.
@@ -25,7 +30,7 @@ impl Event {
             Change::Motion(change) => change.check(),
             Change::Stir(stir) => stir.check(),
             Change::Blow(blow) => blow.check(),
-            Change::Drag(drag) => drag.check(),
+            Change::Drag(drag) => drag.check_ranges(),
             Change::Prick(prick) => prick.check(),
         }?;
         match self.change.bubble() {
@@ -68,18 +73,8 @@ impl Change {
 
     /// One of each kind, with no key left out.
     pub(super) fn every_key() -> [Self; 5] {
-        let motion = MotionChange {
-            flow: Some(Flow::Rest),
-            strength: Some(1.0),
-            seed: Some(1),
-            spin_deg_s: Some([0.0; 3]),
-            evaporation_nm_s: Some(0.0),
-            gravity_m_s2: Some([0.0; 3]),
-            drag_1_s: Some(0.0),
-            air_drag: Some(0.0),
-        };
         [
-            Self::Motion(motion),
+            Self::Motion(MotionChange::of_every_key()),
             Self::Stir(Stir::default()),
             Self::Blow(Blow::default()),
             Self::Drag(Drag::default()),
@@ -88,203 +83,113 @@ impl Change {
     }
 }
 
-/// Keys of `[motion]` that take a new value at an event; those absent stay as they are.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct MotionChange {
-    /// New [`Motion::flow`].
-    pub flow: Option<Flow>,
-    /// New [`Motion::strength`]; 0 ..= 10.
-    pub strength: Option<f64>,
-    /// New [`Motion::seed`].
-    pub seed: Option<u64>,
-    /// New [`Motion::spin_deg_s`]; -3600 ..= 3600.
-    pub spin_deg_s: Option<[f64; 3]>,
-    /// New [`Motion::evaporation_nm_s`]; 0 ..= 1000.
-    pub evaporation_nm_s: Option<f64>,
-    /// New [`Motion::gravity_m_s2`]; -1000 ..= 1000.
-    pub gravity_m_s2: Option<[f64; 3]>,
-    /// New [`Motion::drag_1_s`]; 0 ..= 1000.
-    pub drag_1_s: Option<f64>,
-    /// New [`Motion::air_drag`]; 0 ..= 10.
-    pub air_drag: Option<f64>,
-}
-
-impl MotionChange {
-    /// A motion with these changes.
-    #[must_use]
-    pub fn applied_to(&self, motion: Motion) -> Motion {
-        Motion {
-            flow: self.flow.unwrap_or(motion.flow),
-            strength: self.strength.unwrap_or(motion.strength),
-            seed: self.seed.unwrap_or(motion.seed),
-            spin_deg_s: self.spin_deg_s.unwrap_or(motion.spin_deg_s),
-            evaporation_nm_s: self.evaporation_nm_s.unwrap_or(motion.evaporation_nm_s),
-            gravity_m_s2: self.gravity_m_s2.unwrap_or(motion.gravity_m_s2),
-            drag_1_s: self.drag_1_s.unwrap_or(motion.drag_1_s),
-            air_drag: self.air_drag.unwrap_or(motion.air_drag),
-            ..motion
-        }
-    }
-
-    fn check(&self) -> Checked {
-        if *self == Self::default() {
-            return Err(Fault::new("kind", "is \"motion\" but nothing changes; set `flow` or another key of [motion]"));
-        }
-        // What is not changed takes a value that is in range.
-        self.applied_to(Motion::default()).check()
-    }
-}
-
-/// Something wet that moves over a free film for a while and takes along what it meets: around a point, the film's velocity is drawn
-/// towards a given one. Directions turn with the film.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Stir {
-    /// Index of the bubble. Default: 0.
-    pub bubble: usize,
-    /// Direction of the point from the bubble's centre; each component -1 ..= 1, its length is of no account. Default: +x.
-    pub at: [f64; 3],
-    /// The velocity that the film is given there, m/s; -10 ..= 10. What of it is not along the film is of no account.
-    /// Default: [0, 0.2, 0].
-    pub velocity_m_s: [f64; 3],
-    /// Angle from the point to where the film is pushed half as much; 3 ..= 90. Default: 15.
-    pub radius_deg: f64,
-    /// For how many ticks; 1 ..= 100000. Default: 12.
-    pub ticks: u64,
-}
-
-impl Default for Stir {
-    fn default() -> Self {
-        Self { bubble: 0, at: [1.0, 0.0, 0.0], velocity_m_s: [0.0, 0.2, 0.0], radius_deg: 15.0, ticks: 12 }
-    }
+section! {
+    /// Something wet that moves over a free film for a while and takes along what it meets: around a point, the film's velocity is drawn
+    /// towards a given one. Directions turn with the film.
+    pub struct Stir, StirKeys:
+    bubble: usize = 0, [whole], "Bubble", "", "index of the bubble, in the order of the file";
+    at: [f64; 3] = [1.0, 0.0, 0.0], [-1.0 ..= 1.0], "At", "", "direction of the point";
+    velocity_m_s: [f64; 3] = [0.0, 0.2, 0.0], [-10.0 ..= 10.0], "Velocity", " m/s", "the velocity that the film is drawn to, m/s; only what is along the film counts";
+    radius_deg: f64 = 15.0, [3.0 ..= 90.0], "Radius", "°", "angle from the point to where the pull is half as strong";
+    ticks: u64 = 12, [1 ..= 100000], "Duration", " ticks", "how long it lasts; in the middle, a film at rest then has four fifths of the velocity";
 }
 
 impl Stir {
     fn check(&self) -> Checked {
-        direction("at", self.at)?;
-        check::all_in_range("velocity_m_s", self.velocity_m_s, -10.0..=10.0)?;
-        check::in_range("radius_deg", self.radius_deg, RADIUS_DEG)?;
-        check::in_range("ticks", self.ticks, TICKS)
-    }
-}
-
-/// A jet of air that meets a free film at a point for a while. Only what blows along the film moves it, for it is incompressible: a jet
-/// straight at it moves nothing, an oblique one a pair of vortices. Directions turn with the film.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Blow {
-    /// Index of the bubble. Default: 0.
-    pub bubble: usize,
-    /// Direction of the point from the bubble's centre; each component -1 ..= 1, its length is of no account. Default: +x.
-    pub at: [f64; 3],
-    /// Where the air goes: each component -1 ..= 1, its length is of no account. Default: [-1, 1, 0], obliquely.
-    pub toward: [f64; 3],
-    /// Speed of the air, m/s; 0 ..= 30. Default: 1.
-    pub speed_m_s: f64,
-    /// Angle from the point to where the jet is half as strong; 3 ..= 90. Default: 15.
-    pub radius_deg: f64,
-    /// For how many ticks; 1 ..= 100000. Default: 12.
-    pub ticks: u64,
-}
-
-impl Default for Blow {
-    fn default() -> Self {
-        Self { bubble: 0, at: [1.0, 0.0, 0.0], toward: [-1.0, 1.0, 0.0], speed_m_s: 1.0, radius_deg: 15.0, ticks: 12 }
-    }
-}
-
-impl Blow {
-    fn check(&self) -> Checked {
-        direction("at", self.at)?;
-        direction("toward", self.toward)?;
-        check::in_range("speed_m_s", self.speed_m_s, 0.0..=30.0)?;
-        check::in_range("radius_deg", self.radius_deg, RADIUS_DEG)?;
-        check::in_range("ticks", self.ticks, TICKS)
-    }
-}
-
-/// The bubble's centre goes to another place, as quickly as it can without passing it; a free film feels the acceleration.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Drag {
-    /// Index of the bubble. Default: 0.
-    pub bubble: usize,
-    /// Where the centre goes, m; each coordinate -1000 ..= 1000. Default: the origin.
-    pub to_m: [f64; 3],
-}
-
-impl Drag {
-    fn check(&self) -> Checked {
-        check::all_in_range("to_m", self.to_m, check::POSITION_M)
-    }
-}
-
-/// Something sharp and dry touches the film, and the bubble bursts from there.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Prick {
-    /// Index of the bubble. Default: 0.
-    pub bubble: usize,
-    /// Direction of the point from the bubble's centre; each component -1 ..= 1, its length is of no account. Default: +x.
-    pub at: [f64; 3],
-}
-
-impl Default for Prick {
-    fn default() -> Self {
-        Self { bubble: 0, at: [1.0, 0.0, 0.0] }
-    }
-}
-
-impl Prick {
-    fn check(&self) -> Checked {
+        self.check_ranges()?;
         direction("at", self.at)
     }
 }
 
-/// Range of a push's radius: what the coarsest flow resolves, and half of the sphere.
-const RADIUS_DEG: std::ops::RangeInclusive<f64> = 3.0..=90.0;
-/// Range of a push's duration.
-const TICKS: std::ops::RangeInclusive<u64> = 1..=100_000;
+section! {
+    /// A jet of air that meets a free film at a point for a while. Only what blows along the film moves it, for it is incompressible: a jet
+    /// straight at it moves nothing, an oblique one a pair of vortices. Directions turn with the film.
+    pub struct Blow, BlowKeys:
+    bubble: usize = 0, [whole], "Bubble", "", "index of the bubble, in the order of the file";
+    at: [f64; 3] = [1.0, 0.0, 0.0], [-1.0 ..= 1.0], "At", "", "direction of the point";
+    toward: [f64; 3] = [-1.0, 1.0, 0.0], [-1.0 ..= 1.0], "Toward", "", "where the air goes";
+    speed_m_s: f64 = 1.0, [0.0 ..= 30.0], "Speed", " m/s", "speed of the air, m/s";
+    radius_deg: f64 = 15.0, [3.0 ..= 90.0], "Radius", "°", "angle from the point to where the jet is half as strong";
+    ticks: u64 = 12, [1 ..= 100000], "Duration", " ticks", "how long it lasts";
+}
+
+impl Blow {
+    fn check(&self) -> Checked {
+        self.check_ranges()?;
+        direction("at", self.at)?;
+        direction("toward", self.toward)
+    }
+}
+
+section! {
+    /// The bubble's centre goes to another place, as quickly as it can without passing it; a free film feels the acceleration.
+    pub struct Drag, DragKeys:
+    bubble: usize = 0, [whole], "Bubble", "", "index of the bubble, in the order of the file";
+    to_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "To", " m", "where the centre goes, m";
+}
+
+section! {
+    /// Something sharp and dry touches the film, and the bubble bursts from there.
+    pub struct Prick, PrickKeys:
+    bubble: usize = 0, [whole], "Bubble", "", "index of the bubble, in the order of the file";
+    at: [f64; 3] = [1.0, 0.0, 0.0], [-1.0 ..= 1.0], "At", "", "direction of the point";
+}
+
+impl Prick {
+    fn check(&self) -> Checked {
+        self.check_ranges()?;
+        direction("at", self.at)
+    }
+}
 
 /// A vector whose direction alone counts.
 fn direction(key: &str, vector: [f64; 3]) -> Checked {
     const SHORTEST: f64 = 1e-3;
-    check::all_in_range(key, vector, -1.0..=1.0)?;
     if vector.iter().all(|component| component.abs() < SHORTEST) {
         return Err(Fault::new(key, format!("has no direction; make one of its numbers at least {SHORTEST}")));
     }
     Ok(())
 }
 
-/// An `[[event]]` as it stands in a file: flat, with the keys of every kind, because serde's tagged enums lose the line of an error.
-/// Which kind has which keys is checked before, where the lines are known.
-#[derive(Deserialize)]
-struct Entry {
-    #[serde(default)]
-    tick: u64,
-    kind: Kind,
-    flow: Option<Flow>,
-    strength: Option<f64>,
-    seed: Option<u64>,
-    spin_deg_s: Option<[f64; 3]>,
-    evaporation_nm_s: Option<f64>,
-    gravity_m_s2: Option<[f64; 3]>,
-    drag_1_s: Option<f64>,
-    air_drag: Option<f64>,
-    bubble: Option<usize>,
-    at: Option<[f64; 3]>,
-    velocity_m_s: Option<[f64; 3]>,
-    toward: Option<[f64; 3]>,
-    speed_m_s: Option<f64>,
-    radius_deg: Option<f64>,
-    ticks: Option<u64>,
-    to_m: Option<[f64; 3]>,
-}
+/// Declares what `[motion]` lends to entries.
+macro_rules! entry {
+    ($($name:ident: $type:ty = $default:expr, [$($range:tt)+], $label:literal, $unit:literal, $help:literal;)+) => {
+        /// An `[[event]]` as it stands in a file: flat, with the keys of every kind, because serde's tagged enums lose the line of an error.
+        /// Which kind has which keys is checked before, where the lines are known.
+        #[derive(Deserialize)]
+        struct Entry {
+            #[serde(default)]
+            tick: u64,
+            kind: Kind,
+            $($name: Option<$type>,)+
+            bubble: Option<usize>,
+            at: Option<[f64; 3]>,
+            velocity_m_s: Option<[f64; 3]>,
+            toward: Option<[f64; 3]>,
+            speed_m_s: Option<f64>,
+            radius_deg: Option<f64>,
+            ticks: Option<u64>,
+            to_m: Option<[f64; 3]>,
+        }
 
-#[derive(Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Kind {
-    Motion,
-    Stir,
-    Blow,
-    Drag,
-    Prick,
+        impl Entry {
+            fn motion(&self) -> MotionChange {
+                MotionChange { $($name: self.$name,)+ }
+            }
+        }
+    };
+}
+with_changing_keys!(entry! {});
+
+words! {
+    /// What the key `kind` of an event may be.
+    pub enum Kind: "kind of event" {
+        Motion = "motion", "Another motion from then on";
+        Stir = "stir", "Something wet moves over the film";
+        Blow = "blow", "A jet of air meets the film";
+        Drag = "drag", "The bubble goes elsewhere";
+        Prick = "prick", "The bubble bursts";
+    }
 }
 
 /// A kind's keys as an entry has them; those absent have their defaults.
@@ -298,16 +203,7 @@ macro_rules! keys {
 impl From<Entry> for Event {
     fn from(entry: Entry) -> Self {
         let change = match entry.kind {
-            Kind::Motion => Change::Motion(MotionChange {
-                flow: entry.flow,
-                strength: entry.strength,
-                seed: entry.seed,
-                spin_deg_s: entry.spin_deg_s,
-                evaporation_nm_s: entry.evaporation_nm_s,
-                gravity_m_s2: entry.gravity_m_s2,
-                drag_1_s: entry.drag_1_s,
-                air_drag: entry.air_drag,
-            }),
+            Kind::Motion => Change::Motion(entry.motion()),
             Kind::Stir => Change::Stir(keys!(entry: Stir { bubble, at, velocity_m_s, radius_deg, ticks })),
             Kind::Blow => Change::Blow(keys!(entry: Blow { bubble, at, toward, speed_m_s, radius_deg, ticks })),
             Kind::Drag => Change::Drag(keys!(entry: Drag { bubble, to_m })),
@@ -319,7 +215,7 @@ impl From<Entry> for Event {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Scene;
+    use super::super::{Motion, Scene};
     use super::*;
 
     fn at(tick: u64, change: MotionChange) -> Event {

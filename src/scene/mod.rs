@@ -15,19 +15,27 @@ mod event;
 mod light;
 mod motion;
 mod preset;
+mod section;
 mod setting;
 mod source;
 #[cfg(test)]
 mod tests;
 
-pub use bubble::{Boundary, Bubble, Detail, Film, FilmIndexName, FilmStateName};
-pub use camera::Camera;
+pub use crate::physics::{
+    film::{Boundary, Flow},
+    transport::Scheme,
+};
+pub use bubble::{Bubble, BubbleKeys, Detail, Film, FilmIndexName, FilmKeys, FilmStateName};
+pub use camera::{Camera, CameraKeys};
 pub use check::Fault;
 pub use error::{Problem, SceneError, nearest, shorten};
-pub use event::{Blow, Change, Drag, Event, MotionChange, Prick, Stir};
-pub use light::{Backdrop, Environment, Light, LightPatch, MAX_PATCHES, Quality, View};
-pub use motion::{Flow, Motion, TransportScheme};
+pub use event::{Blow, BlowKeys, Change, Drag, DragKeys, Event, Prick, PrickKeys, Stir, StirKeys};
+pub use light::{
+    Backdrop, Environment, Light, LightKeys, LightPatch, LightPatchKeys, MAX_PATCHES, Quality, View, ViewKeys,
+};
+pub use motion::{Motion, MotionChange, MotionKeys};
 pub use preset::{preset, preset_names, preset_sentence, preset_toml};
+pub use section::{Key, Range};
 pub use setting::Setting;
 pub use source::SceneSource;
 
@@ -167,9 +175,9 @@ impl Scene {
         check::in_range("version", self.version, VERSION..=VERSION)?;
         check::at_most("bubble", self.bubbles.len(), MAX_BUBBLES)?;
         check::each("bubble", &self.bubbles, Bubble::check)?;
-        self.camera.check().map_err(|fault| fault.inside("camera"))?;
+        self.camera.check_ranges().map_err(|fault| fault.inside("camera"))?;
         self.light.check().map_err(|fault| fault.inside("light"))?;
-        self.view.check().map_err(|fault| fault.inside("view"))?;
+        self.view.check_ranges().map_err(|fault| fault.inside("view"))?;
         self.motion.check().map_err(|fault| fault.inside("motion"))?;
         check::each("event", &self.events, |event| event.check(self.bubbles.len()))?;
         self.check_boundaries()?;

@@ -20,8 +20,7 @@ pub fn documented() -> Vec<Row> {
     let mut rows = Vec::new();
     for line in include_str!("../../assets/scenes/README.md").lines() {
         if let Some(header) = line.strip_prefix("## ") {
-            // Keys of a kind of event stand below the last thing named: `kind = "stir"`.
-            section = header.trim_matches('`').rsplit('`').next().unwrap_or_default().trim_matches(['[', ']']);
+            section = section_of(header);
         }
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
         if let ["", key, default, range, meaning, ""] = cells[..]
@@ -31,4 +30,9 @@ pub fn documented() -> Vec<Row> {
         }
     }
     rows
+}
+
+/// The section that a heading is about. Keys of a kind of event stand below the last thing named: `kind = "stir"`.
+pub fn section_of(header: &str) -> &str {
+    header.trim_matches('`').rsplit('`').next().unwrap_or_default().trim_matches(['[', ']'])
 }

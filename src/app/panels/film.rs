@@ -2,24 +2,11 @@
 
 use egui::Ui;
 
-use super::widgets::{choice, group, seed, slider};
+use super::widgets::{choice, choice_of, group, number, number_within, options_of, seed, slider};
 use crate::{
-    app::model::Model,
-    scene::{Boundary, Bubble, Detail, Film, FilmIndexName, FilmStateName},
+    app::{edit::Edit, model::Model},
+    scene::{Boundary, Bubble, Detail, Film, FilmIndexName, FilmStateName, Range},
 };
-
-const STATES: [(FilmStateName, &str, &str); 3] = [
-    (FilmStateName::Uniform, "uniform", "One thickness everywhere; nothing flows"),
-    (FilmStateName::Rest, "rest", "Sorted by gravity: thin above, thick below"),
-    (FilmStateName::Blown, "blown", "Freshly blown: random patches, not yet sorted"),
-];
-
-const BOUNDARIES: [(Boundary, &str, &str); 4] = [
-    (Boundary::Free, "free", "A whole bubble in the air"),
-    (Boundary::Bath, "bath", "Half a bubble that stands on water"),
-    (Boundary::Ring, "ring", "A dome of film on a ring, open below"),
-    (Boundary::Drop, "drop", "A whole bubble with a drop hanging at its bottom"),
-];
 
 /// Cells along a panel's edge that the panel offers.
 const CELLS: [(u32, &str, &str); 4] = [
@@ -27,12 +14,6 @@ const CELLS: [(u32, &str, &str); 4] = [
     (128, "128", "98 304 cells"),
     (256, "256", "393 216 cells"),
     (512, "512", "1 572 864 cells: for fast graphics cards"),
-];
-
-/// How many of them.
-const DETAILS: [(Detail, &str, &str); 2] = [
-    (Detail::Full, "full", "All of these cells"),
-    (Detail::Half, "half", "Half along each edge: enough for a bubble of 40 pixels, for a third of the time"),
 ];
 
 /// Shows and edits the selected bubble's film.
@@ -44,69 +25,65 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         slider(ui, "Bubble", &mut number, 1..=count, "The bubble to edit", |slider| slider);
         model.selected = number - 1;
     }
-    let Some(bubble) = model.scene.bubbles.get_mut(model.selected) else {
+    let Some(bubble) = model.scene.bubbles.get(model.selected) else {
         ui.label("This scene has no bubble.");
         return;
     };
-    slider(ui, "Radius", &mut bubble.radius_mm, 0.1..=5000.0, "Radius of the bubble", |slider| {
-        slider.logarithmic(true).suffix(" mm").max_decimals(1)
-    });
-    let (mut film, mut ended) = (bubble.film.clone(), bubble.clone());
-    end(ui, &mut ended);
-    edit(ui, &mut film);
-    model.change_film(model.selected, film);
-    model.change_end(model.selected, &ended);
+    let mut edited = bubble.clone();
+    number(ui, &Bubble::KEYS.radius_mm, &mut edited.radius_mm, |slider| slider.logarithmic(true).max_decimals(1));
+    boundary(ui, &mut edited);
+    film(ui, &mut edited.film);
+    if edited != *bubble {
+        model.edit(Edit::Bubble(model.selected, edited.into()));
+    }
 }
 
 /// What the film ends at, and what comes from there.
-fn end(ui: &mut Ui, bubble: &mut Bubble) {
-    choice(ui, "Boundary", &mut bubble.boundary, &BOUNDARIES);
+fn boundary(ui: &mut Ui, bubble: &mut Bubble) {
+    choice(ui, &Bubble::KEYS.boundary, &mut bubble.boundary);
+    if let Some([lowest, highest]) = bubble.boundary.rims_deg() {
+        bubble.rim_deg = bubble.rim_deg.clamp(lowest, highest);
+        number_within(ui, &Bubble::KEYS.rim_deg, &mut bubble.rim_deg, lowest..=highest, |s| s.max_decimals(0));
+    }
     if bubble.boundary == Boundary::Free {
         return;
     }
-    if bubble.boundary != Boundary::Bath {
-        let lowest = if bubble.boundary == Boundary::Ring { 150.0 } else { 175.0 };
-        bubble.rim_deg = bubble.rim_deg.min(lowest);
-        let help = "Where the film ends: the angle from the top";
-        slider(ui, "Rim", &mut bubble.rim_deg, 30.0..=lowest, help, |slider| slider.suffix("°").max_decimals(0));
-    }
-    let help = "How many thin patches rise from the rim";
-    slider(ui, "Regeneration", &mut bubble.regeneration, 0.0..=10.0, help, |slider| slider.max_decimals(1));
+    number(ui, &Bubble::KEYS.regeneration, &mut bubble.regeneration, |slider| slider.max_decimals(1));
     let most_mm = 0.25 * bubble.radius_mm.clamp(0.4, 400.0);
     bubble.patch_mm = bubble.patch_mm.min(most_mm);
-    slider(ui, "Patches", &mut bubble.patch_mm, 0.1..=most_mm, "Radius of these patches", |slider| {
-        slider.logarithmic(true).suffix(" mm").max_decimals(1)
+    number_within(ui, &Bubble::KEYS.patch_mm, &mut bubble.patch_mm, 0.1..=most_mm, |slider| {
+        slider.logarithmic(true).max_decimals(1)
     });
 }
 
-fn edit(ui: &mut Ui, film: &mut Film) {
-    choice(ui, "State", &mut film.state, &STATES);
-    let thinnest_nm = if film.state == FilmStateName::Uniform { 0.0 } else { 1.0 };
+fn film(ui: &mut Ui, film: &mut Film) {
+    let keys = Film::KEYS;
+    choice(ui, &keys.state, &mut film.state);
+    let Range::Within(flowing_nm, thickest_nm) = keys.thickness_nm.range else { unreachable!("a range of numbers") };
+    let thinnest_nm = if film.state == FilmStateName::Uniform { 0.0 } else { flowing_nm };
     film.thickness_nm = film.thickness_nm.max(thinnest_nm);
-    let help = "Mean thickness of the film, outside to inside.\nBlack below 30 nm, brightest colours from 200 to 600 nm, pale above 1000 nm.";
-    slider(ui, "Thickness", &mut film.thickness_nm, thinnest_nm..=10_000.0, help, |slider| {
-        slider.logarithmic(true).smallest_positive(1.0).suffix(" nm").max_decimals(1)
+    number_within(ui, &keys.thickness_nm, &mut film.thickness_nm, thinnest_nm..=thickest_nm, |slider| {
+        slider.logarithmic(true).smallest_positive(1.0).max_decimals(1)
     });
     if film.state != FilmStateName::Uniform {
-        let help = "How strongly gravity has sorted the film: 0 is even, above 0 thick below.";
-        slider(ui, "Stratification", &mut film.stratification, -5.0..=5.0, help, |slider| slider.max_decimals(2));
+        number(ui, &keys.stratification, &mut film.stratification, |slider| slider.max_decimals(2));
     }
     index(ui, &mut film.index);
-    let help = "Thickness of the layer of soap molecules on each face; soap has about 2 nm.";
-    slider(ui, "Skins", &mut film.skin_nm, 0.0..=5.0, help, |slider| slider.suffix(" nm").max_decimals(1));
+    number(ui, &keys.skin_nm, &mut film.skin_nm, |slider| slider.max_decimals(1));
     if film.state == FilmStateName::Blown {
-        seed(ui, "Film seed", &mut film.seed, "The seed of the random film: each seed gives another film");
+        seed(ui, &keys.seed, &mut film.seed);
     }
     if film.state != FilmStateName::Uniform {
-        choice(ui, "Cells", &mut film.cells, &CELLS);
-        choice(ui, "Detail", &mut film.detail, &DETAILS);
+        options_of(ui, keys.cells.label, &mut film.cells, &CELLS);
+        // A window has settled whether a film takes all of its cells or half of them.
+        choice_of(ui, keys.detail.label, &mut film.detail, &[Detail::Full, Detail::Half]);
     }
 }
 
 /// Water's index varies with the wavelength; any other one is a number.
 fn index(ui: &mut Ui, index: &mut FilmIndexName) {
     const WATER_LIKE: f64 = 1.333;
-    group(ui, "Index", |ui| {
+    group(ui, Film::KEYS.index.label, |ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         let is_constant = matches!(index, FilmIndexName::Constant(_));
         let liquids = [
@@ -123,7 +100,7 @@ fn index(ui: &mut Ui, index: &mut FilmIndexName) {
             *index = FilmIndexName::Constant(WATER_LIKE);
         }
     });
-    if let FilmIndexName::Constant(n) = index {
-        slider(ui, "Value", n, 1.0..=4.0, "Refractive index of all films", |slider| slider.fixed_decimals(3));
+    if let (FilmIndexName::Constant(n), Range::Within(lowest, highest)) = (index, Film::KEYS.index.range) {
+        slider(ui, "Value", n, lowest..=highest, "Refractive index of all films", |slider| slider.fixed_decimals(3));
     }
 }

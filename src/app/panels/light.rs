@@ -4,10 +4,13 @@ use egui::Ui;
 
 use super::{
     header,
-    widgets::{group, row, slider},
+    widgets::{group, number, number_within, row},
 };
 use crate::{
-    app::model::{Model, Request, Target},
+    app::{
+        edit::Edit,
+        model::{Model, Request, Target},
+    },
     physics::colour::{BUILT_IN, BuiltIn},
     scene::{Environment, Light},
 };
@@ -19,7 +22,7 @@ const CONSTANT: [f64; 3] = [0.5; 3];
 pub fn show(ui: &mut Ui, model: &mut Model) {
     environment(ui, model);
     illuminant(ui, model);
-    let light = &mut model.scene.light;
+    let mut light = model.scene.light.clone();
     if let Some(radiance) = &mut light.constant {
         group(ui, "Radiance", |ui| {
             for (value, name) in radiance.iter_mut().zip(["red", "green", "blue"]) {
@@ -28,12 +31,13 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
             }
         });
     }
-    slider(ui, "Rotation", &mut light.rotation_deg, -180.0..=180.0, "Turns the light about the vertical", |slider| {
-        slider.suffix("°").max_decimals(1)
+    number_within(ui, &Light::KEYS.rotation_deg, &mut light.rotation_deg, -180.0..=180.0, |s| s.max_decimals(1));
+    number(ui, &Light::KEYS.intensity, &mut light.intensity, |slider| {
+        slider.logarithmic(true).smallest_positive(0.01).max_decimals(2)
     });
-    slider(ui, "Intensity", &mut light.intensity, 0.0..=10_000.0, "Factor on the light's radiance", |slider| {
-        slider.logarithmic(true).smallest_positive(0.01).suffix("x").max_decimals(2)
-    });
+    if light != model.scene.light {
+        model.edit(Edit::Light(light));
+    }
 }
 
 fn environment(ui: &mut Ui, model: &mut Model) {

@@ -2,49 +2,25 @@
 
 use egui::{Response, Ui};
 
-use super::widgets::{choice, group, seed, slider};
+use super::widgets::{choice, group, number, number_within, seed, slider};
 use crate::{
-    app::{history, model::Model},
-    scene::{Flow, MotionChange, TransportScheme},
+    app::{edit::Edit, history, model::Model},
+    scene::Motion,
 };
-
-const FLOWS: [(Flow, &str, &str); 5] = [
-    (Flow::Free, "free", "Gravity and the air, as in a real film"),
-    (Flow::Rest, "rest", "Nothing moves the film"),
-    (Flow::Sloshing, "slosh", "The film swings as a whole about its rest state"),
-    (Flow::Draught, "draught", "Slow, large gusts of the air around the bubble"),
-    (Flow::Stirred, "stirred", "Many turning vortices, as after a stir"),
-];
-
-const SCHEMES: [(TransportScheme, &str, &str); 3] = [
-    (TransportScheme::Map, "map", "A flow map, remapped rarely: filaments stay sharp"),
-    (TransportScheme::MapAccurate, "accurate", "The same with the thickness on a grid twice as fine"),
-    (TransportScheme::Bicubic, "bicubic", "The usual scheme, for comparison: filaments blur"),
-];
 
 /// Shows and edits the motion that is in force now.
 pub fn show(ui: &mut Ui, model: &mut Model) {
     clock(ui, model);
     time_line(ui, model);
-    let motion = model.motion();
-    let mut flow = motion.flow;
-    if choice(ui, "Flow", &mut flow, &FLOWS) {
-        model.change_motion(MotionChange { flow: Some(flow), ..MotionChange::default() });
+    let now = model.motion();
+    let mut motion = model.motion_draft.take().unwrap_or_else(|| now.clone());
+    let is_dragged = flow(ui, &mut motion) | film(ui, &mut motion) | life(ui, &mut motion) | method(ui, &mut motion);
+    if is_dragged {
+        // It counts once it is let go: each value on the way would be an event of its own.
+        model.motion_draft = Some(motion);
+    } else if motion != now {
+        model.edit(Edit::Motion(motion.into()));
     }
-    dials(ui, model);
-    let mut number = motion.seed;
-    if seed(ui, "Flow seed", &mut number, "The seed of the random flow: each seed gives another flow") {
-        model.change_motion(MotionChange { seed: Some(number), ..MotionChange::default() });
-    }
-    let speed = &mut model.scene.motion.speed;
-    slider(ui, "Speed", speed, 0.01..=100.0, "Film time that passes in a second", |slider| {
-        slider.logarithmic(true).suffix("x").max_decimals(2)
-    });
-    let help = "Factor on drainage between surfaces that do not move, which takes hours at 1";
-    slider(ui, "Drainage", &mut model.scene.motion.drainage, 0.0..=1e4, help, |slider| {
-        slider.logarithmic(true).smallest_positive(1.0).max_decimals(0)
-    });
-    choice(ui, "Scheme", &mut model.scene.motion.scheme, &SCHEMES);
     events(ui, model);
 }
 
@@ -82,54 +58,84 @@ fn time_line(ui: &mut Ui, model: &mut Model) {
     }
 }
 
-/// Sliders of what is an event in the history. They count once they are let go: each value on the way would be an event of its own.
-fn dials(ui: &mut Ui, model: &mut Model) {
-    let motion = model.motion();
-    let shown = model.motion_draft.clone().unwrap_or_default().applied_to(motion.clone());
-    let MotionChange { mut strength, mut spin_deg_s, mut evaporation_nm_s, .. } = MotionChange::default();
-    let mut is_dragged = false;
-    let mut dial = |response: Response| {
-        is_dragged |= response.dragged();
-        response.changed()
-    };
-    let mut value = shown.strength;
-    if dial(slider(ui, "Strength", &mut value, 0.0..=10.0, "Factor on the speed of the flow", |s| s.max_decimals(2))) {
-        strength = Some(value);
-    }
-    let [x, y, mut z] = shown.spin_deg_s;
-    let help = "Turn of the whole film about the vertical";
-    if dial(slider(ui, "Spin", &mut z, -360.0..=360.0, help, |s| s.suffix(" °/s").max_decimals(1))) {
-        spin_deg_s = Some([x, y, z]);
-    }
-    let mut rate = shown.evaporation_nm_s;
-    let help = "Thickness that evaporates from the whole film";
-    if dial(slider(ui, "Evaporation", &mut rate, 0.0..=100.0, help, |s| s.suffix(" nm/s").max_decimals(1))) {
-        evaporation_nm_s = Some(rate);
-    }
-    let gravity_m_s2 = gravity(ui, shown.gravity_m_s2, dial);
-    let edit = MotionChange { strength, spin_deg_s, evaporation_nm_s, gravity_m_s2, ..MotionChange::default() };
-    if edit != MotionChange::default() {
-        model.motion_draft = Some(edit);
-    }
-    if is_dragged {
-        return;
-    }
-    if let Some(change) = model.motion_draft.take().filter(|change| change.applied_to(motion.clone()) != motion) {
-        model.change_motion(change);
-    }
+/// What moves the film; tells whether a slider is being dragged, as the functions below do.
+fn flow(ui: &mut Ui, motion: &mut Motion) -> bool {
+    let keys = Motion::KEYS;
+    choice(ui, &keys.flow, &mut motion.flow);
+    seed(ui, &keys.seed, &mut motion.seed);
+    let strength = number(ui, &keys.strength, &mut motion.strength, |slider| slider.max_decimals(2));
+    let turn_deg_s = &mut motion.spin_deg_s[2];
+    let spin = number_within(ui, &keys.spin_deg_s, turn_deg_s, -360.0..=360.0, |slider| slider.max_decimals(1));
+    let gravity = gravity(ui, &mut motion.gravity_m_s2);
+    strength.dragged() | spin.dragged() | gravity
 }
 
-/// Sliders for the strength of gravity and its tilt about the world's x axis; returns gravity if one was moved.
-fn gravity(ui: &mut Ui, [x, y, z]: [f64; 3], mut dial: impl FnMut(Response) -> bool) -> Option<[f64; 3]> {
+/// Sliders for the strength of gravity and its tilt about the world's x axis.
+fn gravity(ui: &mut Ui, gravity_m_s2: &mut [f64; 3]) -> bool {
+    let [_, y, z] = *gravity_m_s2;
     let mut strength = y.hypot(z);
     let mut tilt_deg = if strength > 0.0 { y.atan2(-z).to_degrees() } else { 0.0 };
-    let help = "What pulls a free film down";
-    let stronger = dial(slider(ui, "Gravity", &mut strength, 0.0..=100.0, help, |s| s.suffix(" m/s²").max_decimals(1)));
-    let help = "From straight down towards +y. The arrow keys tilt it as the picture shows it.";
-    let tilted = dial(slider(ui, "Tilt", &mut tilt_deg, -180.0..=180.0, help, |s| s.suffix("°").max_decimals(1)));
-    let (sin, cos) = tilt_deg.to_radians().sin_cos();
-    let rounded = |part: f64| (part * 1e3).round() / 1e3;
-    (stronger || tilted).then(|| [x, rounded(strength * sin), rounded(-strength * cos)])
+    let key = Motion::KEYS.gravity_m_s2;
+    let pull = number_within(ui, &key, &mut strength, 0.0..=100.0, |slider| slider.max_decimals(1));
+    let help = "From straight down towards +y. The arrow keys tilt gravity as the picture shows it.";
+    let tilt = slider(ui, "Tilt", &mut tilt_deg, -180.0..=180.0, help, |s| s.suffix("°").max_decimals(1));
+    if pull.changed() || tilt.changed() {
+        let (sin, cos) = tilt_deg.to_radians().sin_cos();
+        let rounded = |part: f64| (part * 1e3).round() / 1e3;
+        (gravity_m_s2[1], gravity_m_s2[2]) = (rounded(strength * sin), rounded(-strength * cos));
+    }
+    pull.dragged() | tilt.dragged()
+}
+
+/// What slows the film down, spreads it and lets it run out.
+fn film(ui: &mut Ui, motion: &mut Motion) -> bool {
+    let keys = Motion::KEYS;
+    more(ui, "Liquid", |ui| {
+        [
+            number(ui, &keys.drag_1_s, &mut motion.drag_1_s, |s| s.logarithmic(true).smallest_positive(0.1)),
+            number(ui, &keys.air_drag, &mut motion.air_drag, |slider| slider.max_decimals(2)),
+            number(ui, &keys.viscosity_mm2_s, &mut motion.viscosity_mm2_s, |s| {
+                s.logarithmic(true).smallest_positive(1.0).max_decimals(0)
+            }),
+            number(ui, &keys.diffusion_mm2_s, &mut motion.diffusion_mm2_s, |s| {
+                s.logarithmic(true).smallest_positive(0.1).max_decimals(1)
+            }),
+            number(ui, &keys.drainage, &mut motion.drainage, |s| {
+                s.logarithmic(true).smallest_positive(1.0).max_decimals(0)
+            }),
+        ]
+    })
+}
+
+/// What lets the film dry, burst and come again.
+fn life(ui: &mut Ui, motion: &mut Motion) -> bool {
+    let keys = Motion::KEYS;
+    let rate_nm_s = &mut motion.evaporation_nm_s;
+    let drying = number_within(ui, &keys.evaporation_nm_s, rate_nm_s, 0.0..=100.0, |slider| slider.max_decimals(1));
+    let others = more(ui, "Life", |ui| {
+        [
+            number(ui, &keys.humidity, &mut motion.humidity, |slider| slider.max_decimals(2)),
+            number(ui, &keys.air_speed_m_s, &mut motion.air_speed_m_s, |slider| slider.max_decimals(2)),
+            number(ui, &keys.black_film_life_s, &mut motion.black_film_life_s, |s| s.logarithmic(true).max_decimals(1)),
+            number(ui, &keys.burst_slowdown, &mut motion.burst_slowdown, |s| s.logarithmic(true).max_decimals(0)),
+            number(ui, &keys.renew_s, &mut motion.renew_s, |s| s.logarithmic(true).max_decimals(1)),
+        ]
+    });
+    drying.dragged() | others
+}
+
+/// How the film is computed, and how fast the clock runs: the same for the whole history.
+fn method(ui: &mut Ui, motion: &mut Motion) -> bool {
+    let keys = Motion::KEYS;
+    let speed = number(ui, &keys.speed, &mut motion.speed, |slider| slider.logarithmic(true).max_decimals(2));
+    choice(ui, &keys.scheme, &mut motion.scheme);
+    speed.dragged()
+}
+
+/// Rows that are folded away until somebody asks for them; tells whether one is being dragged.
+fn more<const N: usize>(ui: &mut Ui, title: &str, rows: impl FnOnce(&mut Ui) -> [Response; N]) -> bool {
+    let shown = egui::CollapsingHeader::new(title).default_open(false).show_unindented(ui, rows);
+    shown.body_returned.is_some_and(|rows| rows.iter().any(Response::dragged))
 }
 
 /// The history: what happens at which time, each entry removable.
@@ -155,6 +161,6 @@ fn events(ui: &mut Ui, model: &mut Model) {
         }
     });
     if let Some(index) = removed {
-        model.scene.events.remove(index);
+        model.edit(Edit::Forget(index));
     }
 }

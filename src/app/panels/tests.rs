@@ -9,7 +9,7 @@ use crate::{
         model::{Model, Request, Target, tests::model},
         tools::Tool,
     },
-    scene::{Backdrop, Boundary, Change, FilmStateName, Flow, Scene, TransportScheme},
+    scene::{Backdrop, Boundary, Change, FilmStateName, Flow, Scene, Scheme},
 };
 
 struct State {
@@ -126,7 +126,7 @@ fn a_flow_chosen_while_time_runs_is_an_event_that_can_be_taken_back() {
     assert_eq!(window.state().model.motion().flow, Flow::Stirred);
     assert_eq!(window.state().model.scene.events.len(), 1);
     click(&mut window, "History (1)");
-    window.get_by_label_contains("2.00 s: stirred");
+    window.get_by_label_contains("2.00 s: flow stirred");
     click(&mut window, "×");
     assert_eq!(window.state().model.scene.events, []);
 }
@@ -162,7 +162,7 @@ fn a_change_after_going_back_stands_before_what_came_later() {
 fn a_scheme_is_chosen_for_the_whole_history() {
     let mut window = window();
     click(&mut window, "bicubic");
-    assert_eq!(window.state().model.scene.motion.scheme, TransportScheme::Bicubic);
+    assert_eq!(window.state().model.scene.motion.scheme, Scheme::Bicubic);
 }
 
 #[test]

@@ -4,6 +4,11 @@ use std::ops::RangeInclusive;
 
 use egui::{Align, Layout, Response, Slider, SliderClamping, Ui, emath::Numeric, vec2};
 
+use crate::{
+    Words,
+    scene::{Key, Range},
+};
+
 /// Width of the names, points.
 const NAME_WIDTH: f32 = 84.0;
 
@@ -34,6 +39,35 @@ fn named(ui: &mut Ui, name: &str) -> Response {
     .inner
 }
 
+/// What a key means, as a tooltip: the sentence of the format's page without its marks.
+pub fn tooltip(help: &str) -> String {
+    let plain = help.replace(" [table](#files-that-a-scene-names)", " table").replace('`', "");
+    let mut letters = plain.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// A row with a slider over a key's whole range.
+pub fn number<N: Numeric>(
+    ui: &mut Ui,
+    key: &Key,
+    value: &mut N,
+    form: impl FnOnce(Slider<'_>) -> Slider<'_>,
+) -> Response {
+    let Range::Within(low, high) = key.range else { unreachable!("`{}` has no ends: give some", key.name) };
+    number_within(ui, key, value, N::from_f64(low)..=N::from_f64(high), form)
+}
+
+/// A row with a slider over a part of a key's range.
+pub fn number_within<N: Numeric>(
+    ui: &mut Ui,
+    key: &Key,
+    value: &mut N,
+    range: RangeInclusive<N>,
+    form: impl FnOnce(Slider<'_>) -> Slider<'_>,
+) -> Response {
+    slider(ui, key.label, value, range, &tooltip(key.help), |slider| form(slider.suffix(key.unit)))
+}
+
 /// A row with a slider over a whole range, that no edit leaves.
 pub fn slider<N: Numeric>(
     ui: &mut Ui,
@@ -49,11 +83,27 @@ pub fn slider<N: Numeric>(
     })
 }
 
+/// A row with a box to tick.
+pub fn flag(ui: &mut Ui, key: &Key, value: &mut bool) -> Response {
+    row(ui, key.label, &tooltip(key.help), |ui| ui.checkbox(value, ""))
+}
+
 /// Room for a slider's number, points.
 const VALUE_WIDTH: f32 = 76.0;
 
-/// A row of words of which one is chosen; tells whether another was chosen now.
-pub fn choice<T: Copy + PartialEq>(ui: &mut Ui, name: &str, value: &mut T, options: &[(T, &str, &str)]) -> bool {
+/// A row of the words of a key, of which one is chosen; tells whether another was chosen now.
+pub fn choice<T: Words>(ui: &mut Ui, key: &Key, value: &mut T) -> bool {
+    choice_of(ui, key.label, value, T::CHOICES)
+}
+
+/// The same with some of the words.
+pub fn choice_of<T: Words>(ui: &mut Ui, name: &str, value: &mut T, choices: &[T]) -> bool {
+    let options: Vec<_> = choices.iter().map(|choice| (*choice, choice.name(), choice.help())).collect();
+    options_of(ui, name, value, &options)
+}
+
+/// A row of options of which one is chosen; tells whether another was chosen now.
+pub fn options_of<T: Copy + PartialEq>(ui: &mut Ui, name: &str, value: &mut T, options: &[(T, &str, &str)]) -> bool {
     let before = *value;
     group(ui, name, |ui| {
         ui.horizontal_wrapped(|ui| {
@@ -67,11 +117,12 @@ pub fn choice<T: Copy + PartialEq>(ui: &mut Ui, name: &str, value: &mut T, optio
 }
 
 /// A seed as a number, and a button for another one.
-pub fn seed(ui: &mut Ui, name: &str, value: &mut u64, help: &str) -> bool {
+pub fn seed(ui: &mut Ui, key: &Key, value: &mut u64) -> bool {
     ui.horizontal(|ui| {
-        let label = named(ui, name);
-        let number = ui.add(egui::DragValue::new(value).speed(0.1)).labelled_by(label.id).on_hover_text(help);
-        let button = ui.button(format!("New {}", name.to_lowercase())).on_hover_text("Draws another seed");
+        let label = named(ui, key.label);
+        let number = egui::DragValue::new(value).speed(0.1);
+        let number = ui.add(number).labelled_by(label.id).on_hover_text(tooltip(key.help));
+        let button = ui.button(format!("New {}", key.label.to_lowercase())).on_hover_text("Draws another seed");
         if button.clicked() {
             *value = crate::app::model::new_seed();
         }

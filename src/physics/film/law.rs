@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{PATCH_THICKNESS, PrescribedFlow, Regeneration, patch_speed};
+use super::{Flow, PATCH_THICKNESS, PrescribedFlow, Regeneration, patch_speed};
 use crate::physics::flow::{CORRECTED_TURN, FlowForces};
 
 /// How the film's liquid is driven.
@@ -10,22 +10,10 @@ use crate::physics::flow::{CORRECTED_TURN, FlowForces};
 pub enum FlowLaw {
     /// Not at all.
     Rest,
-    /// Low swings to and fro.
-    Sloshing {
-        /// Factor on all speeds.
-        strength: f64,
-        /// Seed: each gives another flow.
-        seed: u32,
-    },
-    /// A slow large-scale breath of air that never quite rests.
-    Draught {
-        /// Factor on all speeds.
-        strength: f64,
-        /// Seed: each gives another flow.
-        seed: u32,
-    },
-    /// The draught, and vortices that drift in it.
-    Stirred {
+    /// By a flow in closed form.
+    Prescribed {
+        /// Which.
+        flow: Flow,
         /// Factor on all speeds.
         strength: f64,
         /// Seed: each gives another flow.
@@ -89,9 +77,7 @@ impl FlowLaw {
         match self {
             Self::Rest => PrescribedFlow::default(),
             Self::Free(free) => PrescribedFlow::draught(free.seed, free.draught),
-            Self::Sloshing { strength, seed } => PrescribedFlow::sloshing(seed, strength),
-            Self::Draught { strength, seed } => PrescribedFlow::draught(seed, strength),
-            Self::Stirred { strength, seed } => PrescribedFlow::stirred(seed, strength),
+            Self::Prescribed { flow, strength, seed } => flow.prescribed(seed, strength).unwrap_or_default(),
         }
     }
 
@@ -107,9 +93,7 @@ impl FlowLaw {
     pub fn ticks_a_step(self, tick_s: f64, cell_angle: f64) -> u64 {
         let strength = match self {
             Self::Rest => 0.0,
-            Self::Sloshing { strength, .. } | Self::Draught { strength, .. } | Self::Stirred { strength, .. } => {
-                strength
-            }
+            Self::Prescribed { strength, .. } => strength,
             Self::Free(free) => return free.ticks_a_step(tick_s),
         };
         // At strength 1 the fastest vortices turn by a quarter of a radian in 0.1 s, where a Runge-Kutta step errs by 1e-5 of that; the

@@ -1,18 +1,16 @@
 //! Flows whose answer is known in closed form, on the unit sphere.
 
-use std::{f64::consts::TAU, str::FromStr};
+use std::f64::consts::TAU;
 
 use glam::{DMat3, DQuat, DVec3};
 use thiserror::Error;
 
 use super::FlowForces;
+use crate::words::words;
 
 /// Why a case could not be set up.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FlowCaseError {
-    /// A name that stands for nothing.
-    #[error("unknown flow case \"{0}\": use one of rossby-haurwitz, stationary, sloshing, decay, poisson")]
-    UnknownName(String),
     /// A degree and order that no harmonic has, or none that moves.
     #[error("no such mode as degree {degree}, order {order}: use degrees 1 to 32 and orders {lowest} to the degree")]
     Mode {
@@ -28,43 +26,14 @@ pub enum FlowCaseError {
     Zero(&'static str),
 }
 
-/// The kinds of cases.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FlowCaseKind {
-    /// A wave of degree 5 and order 4 on a solid rotation: it turns rigidly at 28/30 of it (Williamson et al. 1992, test 6).
-    RossbyHaurwitz,
-    /// A jet that stands still.
-    Stationary,
-    /// A small standing wave of a stratified film.
-    Sloshing,
-    /// A harmonic that viscosity wears down.
-    Decay,
-    /// ψ from ζ, nothing more.
-    Poisson,
-}
-
-impl FlowCaseKind {
-    /// Its name on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::RossbyHaurwitz => "rossby-haurwitz",
-            Self::Stationary => "stationary",
-            Self::Sloshing => "sloshing",
-            Self::Decay => "decay",
-            Self::Poisson => "poisson",
-        }
-    }
-}
-
-impl FromStr for FlowCaseKind {
-    type Err = FlowCaseError;
-
-    fn from_str(name: &str) -> Result<Self, FlowCaseError> {
-        [Self::RossbyHaurwitz, Self::Stationary, Self::Sloshing, Self::Decay, Self::Poisson]
-            .into_iter()
-            .find(|kind| kind.name() == name)
-            .ok_or_else(|| FlowCaseError::UnknownName(name.to_owned()))
+words! {
+    /// The kinds of cases.
+    pub enum FlowCaseKind: "flow case" {
+        RossbyHaurwitz = "rossby-haurwitz", "A wave of degree 5 and order 4 on a solid rotation: it turns rigidly at 28/30 of it (Williamson et al. 1992, test 6)";
+        Stationary = "stationary", "A jet that stands still";
+        Sloshing = "sloshing", "A small standing wave of a stratified film";
+        Decay = "decay", "A harmonic that viscosity wears down";
+        Poisson = "poisson", "ψ from ζ, nothing more";
     }
 }
 

@@ -1,29 +1,15 @@
 //! Exact answers: the initial field at the foot of the trajectory.
 
-use std::str::FromStr;
-
 use glam::DVec3;
 
-use super::{CaseError, PERIOD, Tracer, Wind};
+use super::{PERIOD, Tracer, Wind};
+use crate::words::words;
 
-/// What a tracer's values mean in a divergent wind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Quantity {
-    /// Amount per area: thins where the wind diverges; its integral is conserved.
-    Density,
-    /// Amount per amount, a mixing ratio: carried unchanged.
-    Ratio,
-}
-
-impl FromStr for Quantity {
-    type Err = CaseError;
-
-    fn from_str(name: &str) -> Result<Self, CaseError> {
-        match name {
-            "density" => Ok(Self::Density),
-            "ratio" => Ok(Self::Ratio),
-            _ => Err(CaseError::UnknownName { what: "kind", name: name.into(), known: "density, ratio" }),
-        }
+words! {
+    /// What a tracer's values mean in a divergent wind.
+    pub enum Quantity: "kind" {
+        Density = "density", "Amount per area: thins where the wind diverges; its integral is conserved";
+        Ratio = "ratio", "Amount per amount, a mixing ratio: carried unchanged";
     }
 }
 

@@ -22,16 +22,6 @@ use thiserror::Error;
 /// Why a transport test could not be set up.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum CaseError {
-    /// A name that stands for nothing.
-    #[error("unknown {what} \"{name}\": use one of {known}")]
-    UnknownName {
-        /// What was to be named.
-        what: &'static str,
-        /// The name given.
-        name: String,
-        /// The names there are.
-        known: &'static str,
-    },
     /// A direction of length zero, or not finite.
     #[error("the {0} is not a direction: give three finite numbers that are not all zero")]
     NoDirection(&'static str),

@@ -3,44 +3,27 @@
 //! Not the tracer but the map to where the fluid was at the last remap is advected; the tracer is looked up through it. The error
 //! then follows the number of remaps and not of steps. A remap after each step is plain semi-Lagrangian transport.
 
-use std::str::FromStr;
-
 use glam::{DVec3, DVec4};
 
-use super::CaseError;
-use crate::physics::sphere::{CubedSphere, GridError, PaddedField};
+use crate::{
+    physics::sphere::{CubedSphere, GridError, PaddedField},
+    words::words,
+};
 
-/// How a tracer is moved.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Scheme {
-    /// Semi-Lagrangian with bilinear interpolation.
-    Bilinear,
-    /// Semi-Lagrangian with bicubic interpolation.
-    Bicubic,
-    /// Bilinear with back and forth error compensation.
-    Bfecc,
-    /// The flow map, remapped rarely; the tracer is looked up by biquintic interpolation.
-    #[default]
-    Map,
-    /// The same with the tracer on a grid twice as fine.
-    MapAccurate,
+words! {
+    /// How a tracer is moved.
+    #[derive(Default)]
+    pub enum Scheme: "scheme" {
+        Bilinear = "bilinear", "Semi-Lagrangian with bilinear interpolation, for comparison: the film blurs";
+        Bicubic = "bicubic", "Semi-Lagrangian with bicubic interpolation, for comparison: filaments blur";
+        Bfecc = "bfecc", "Bilinear with back and forth error compensation, for comparison";
+        #[default]
+        Map = "map", "A flow map, remapped rarely: filaments stay sharp";
+        MapAccurate = "map-accurate", "A flow map, with the thickness on a grid twice as fine";
+    }
 }
 
 impl Scheme {
-    /// All schemes, the cheapest first.
-    pub const ALL: [Self; 5] = [Self::Bilinear, Self::Bicubic, Self::Bfecc, Self::Map, Self::MapAccurate];
-
-    /// Its name in scenes and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Bilinear => "bilinear",
-            Self::Bicubic => "bicubic",
-            Self::Bfecc => "bfecc",
-            Self::Map => "map",
-            Self::MapAccurate => "map-accurate",
-        }
-    }
-
     /// Whether it keeps a map from step to step.
     pub fn keeps_map(self) -> bool {
         matches!(self, Self::Map | Self::MapAccurate)
@@ -63,16 +46,6 @@ impl Scheme {
     /// The grid that the tracer is kept on. Fails where it would be too fine.
     pub fn tracer_grid(self, film: CubedSphere) -> Result<CubedSphere, GridError> {
         CubedSphere::new(film.n() * self.tracer_refinement())
-    }
-}
-
-impl FromStr for Scheme {
-    type Err = CaseError;
-
-    fn from_str(name: &str) -> Result<Self, CaseError> {
-        let known = "bilinear, bicubic, bfecc, map, map-accurate";
-        let unknown = || CaseError::UnknownName { what: "scheme", name: name.into(), known };
-        Self::ALL.into_iter().find(|scheme| scheme.name() == name).ok_or_else(unknown)
     }
 }
 

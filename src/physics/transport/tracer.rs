@@ -1,41 +1,20 @@
 //! The initial fields of the transport tests.
 
-use std::{
-    f64::consts::{FRAC_PI_2, PI},
-    str::FromStr,
-};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DMat3, DQuat, DVec3};
 
 use super::{CaseError, unit};
+use crate::words::words;
 
-/// The five initial fields.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TracerKind {
-    /// GH: Gaussian hills, smooth.
-    GaussianHills,
-    /// CB: cosine bells on a floor of 0.1, once differentiable.
-    CosineBells,
-    /// CCB: 0.9 − 0.8 CB², non-linearly correlated with the cosine bells.
-    CorrelatedCosineBells,
-    /// SC: slotted cylinders, discontinuous.
-    SlottedCylinders,
-    /// TC1: the single bell of Williamson's test case 1, of radius 1/3 and height 1 on 0.
-    Bell,
-}
-
-impl FromStr for TracerKind {
-    type Err = CaseError;
-
-    fn from_str(name: &str) -> Result<Self, CaseError> {
-        match name {
-            "gh" => Ok(Self::GaussianHills),
-            "cb" => Ok(Self::CosineBells),
-            "ccb" => Ok(Self::CorrelatedCosineBells),
-            "sc" => Ok(Self::SlottedCylinders),
-            "tc1" => Ok(Self::Bell),
-            _ => Err(CaseError::UnknownName { what: "tracer", name: name.into(), known: "gh, cb, ccb, sc, tc1" }),
-        }
+words! {
+    /// The five initial fields.
+    pub enum TracerKind: "tracer" {
+        GaussianHills = "gh", "Gaussian hills, smooth";
+        CosineBells = "cb", "Cosine bells on a floor of 0.1, once differentiable";
+        CorrelatedCosineBells = "ccb", "0.9 − 0.8 CB², non-linearly correlated with the cosine bells";
+        SlottedCylinders = "sc", "Slotted cylinders, discontinuous";
+        Bell = "tc1", "The single bell of Williamson's test case 1, of radius 1/3 and height 1 on 0";
     }
 }
 

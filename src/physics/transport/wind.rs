@@ -1,35 +1,21 @@
 //! The winds of the transport tests, in a form without poles.
 
-use std::{f64::consts::PI, str::FromStr};
+use std::f64::consts::PI;
 
 use glam::{DMat3, DQuat, DVec3};
 
 use super::{CaseError, unit};
+use crate::words::words;
 
 /// The period T of all winds, in time units.
 pub const PERIOD: f64 = 5.0;
 
-/// The three winds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum WindKind {
-    /// SB: solid-body rotation, one turn in T.
-    SolidBody,
-    /// ND: non-divergent deformation on top of a rotation; the deformation undoes itself within T.
-    NonDivergent,
-    /// DV: divergent deformation on top of a rotation; it undoes itself within T.
-    Divergent,
-}
-
-impl FromStr for WindKind {
-    type Err = CaseError;
-
-    fn from_str(name: &str) -> Result<Self, CaseError> {
-        match name {
-            "sb" => Ok(Self::SolidBody),
-            "nd" => Ok(Self::NonDivergent),
-            "dv" => Ok(Self::Divergent),
-            _ => Err(CaseError::UnknownName { what: "wind", name: name.into(), known: "sb, nd, dv" }),
-        }
+words! {
+    /// The three winds.
+    pub enum WindKind: "wind" {
+        SolidBody = "sb", "Solid-body rotation, one turn in T";
+        NonDivergent = "nd", "Non-divergent deformation on top of a rotation; the deformation undoes itself within T";
+        Divergent = "dv", "Divergent deformation on top of a rotation; it undoes itself within T";
     }
 }
 

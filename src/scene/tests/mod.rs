@@ -1,6 +1,7 @@
 //! The format's page against the code, and reading and writing whole scenes.
 
 use super::*;
+use crate::Words;
 use page::{Row, documented};
 
 #[path = "../../../tests/support/page.rs"]
@@ -45,21 +46,130 @@ fn setting(section: &str, key: &str, value: &str) -> String {
     }
 }
 
+/// The page's tables: the section that each belongs to, and its keys.
+fn tables() -> Vec<(&'static str, Vec<Key>)> {
+    let version = Key {
+        name: "version",
+        label: "",
+        unit: "",
+        range: Range::Within(VERSION.into(), VERSION.into()),
+        help: "version of this format; required",
+    };
+    let other = |name, range, help| Key { name, label: "", unit: "", range, help };
+    let kind = other("kind", Range::Word(event::Kind::NAMES, event::Kind::HELP), "what happens; required");
+    let tick = other("tick", Range::Whole, "when it happens; not before the event above it");
+    vec![
+        ("", vec![version]),
+        ("bubble", Bubble::ALL_KEYS.to_vec()),
+        ("bubble.film", Film::ALL_KEYS.to_vec()),
+        ("camera", Camera::ALL_KEYS.to_vec()),
+        ("light", Light::ALL_KEYS.to_vec()),
+        ("light.patch", LightPatch::ALL_KEYS.to_vec()),
+        ("view", View::ALL_KEYS.to_vec()),
+        ("motion", Motion::ALL_KEYS.to_vec()),
+        ("event", vec![kind, tick]),
+        ("kind = \"motion\"", MotionChange::ALL_KEYS.to_vec()),
+        ("kind = \"stir\"", Stir::ALL_KEYS.to_vec()),
+        ("kind = \"blow\"", Blow::ALL_KEYS.to_vec()),
+        ("kind = \"drag\"", Drag::ALL_KEYS.to_vec()),
+        ("kind = \"prick\"", Prick::ALL_KEYS.to_vec()),
+    ]
+}
+
+/// A range as the page writes it.
+fn written_range(range: Range) -> String {
+    match range {
+        Range::Within(low, high) => format!("{low} ..= {high}"),
+        Range::Finite => "finite".to_owned(),
+        Range::Whole => "whole".to_owned(),
+        Range::Word(words, _) => words.iter().map(|word| format!("`\"{word}\"`")).collect::<Vec<_>>().join(", "),
+        Range::Flag => "`true`, `false`".to_owned(),
+        Range::Other(text) => text.to_owned(),
+    }
+}
+
+/// What a key means; each word of a choice, too.
+fn meaning(key: &Key) -> String {
+    let Range::Word(words, help) = key.range else { return key.help.to_owned() };
+    let plain = |help: &str| help[..1].to_lowercase() + &help[1..];
+    let words = words.iter().zip(help).map(|(word, help)| format!("`{word}`: {}", plain(help)));
+    format!("{}. {}", key.help, words.collect::<Vec<_>>().join("; "))
+}
+
+/// The scene with an item in each list, every key that has a default at its default.
+fn defaults() -> toml::Table {
+    let changes = [
+        Change::Motion(MotionChange::default()),
+        Change::Stir(Stir::default()),
+        Change::Blow(Blow::default()),
+        Change::Drag(Drag::default()),
+        Change::Prick(Prick::default()),
+    ];
+    let scene = Scene {
+        light: Light { patches: vec![LightPatch::default()], ..Light::default() },
+        events: changes.map(|change| Event { tick: 0, change }).into(),
+        ..Scene::default()
+    };
+    toml::Table::try_from(scene).unwrap()
+}
+
+/// The page with its tables as the code has them: each takes the place of the first table below its heading.
+fn page_of_the_code(page: &str) -> String {
+    let (defaults, tables) = (defaults(), tables());
+    let (mut lines, mut heading, mut in_table) = (Vec::new(), Some(""), false);
+    for line in page.lines() {
+        if let Some(header) = line.strip_prefix("## ") {
+            heading = Some(page::section_of(header));
+        }
+        let is_row = line.starts_with('|');
+        let keys = heading.and_then(|heading| tables.iter().find(|(section, _)| *section == heading));
+        if let (true, Some((path, keys))) = (is_row && !in_table, keys) {
+            lines.extend(["| key | default | range | meaning |".to_owned(), "|---|---|---|---|".to_owned()]);
+            let default = |key: &Key| {
+                section(&defaults, path).get(key.name).map_or("absent".to_owned(), |value| format!("`{value}`"))
+            };
+            let is_change = kind(path) == Some("motion");
+            lines.extend(keys.iter().map(|key| {
+                let help = if is_change { format!("new `{}`", key.name) } else { meaning(key) };
+                format!("| `{}` | {} | {} | {help} |", key.name, default(key), written_range(key.range))
+            }));
+            heading = None;
+            in_table = true;
+        } else if !(is_row && in_table) {
+            in_table = false;
+            lines.push(line.to_owned());
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+/// The format's page lists every key with its default, range and meaning, in the words of the code. `SOAPFILM_BLESS=1` writes it anew.
 #[test]
-fn documented_keys_are_the_coded_keys() {
+fn the_page_lists_the_keys_of_the_code() {
+    const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/scenes/README.md");
+    let page = std::fs::read_to_string(PAGE).unwrap();
+    let expected = page_of_the_code(&page);
+    if std::env::var("SOAPFILM_BLESS").is_ok_and(|value| value == "1") {
+        return std::fs::write(PAGE, &expected).unwrap();
+    }
+    let wrong: Vec<_> = page.lines().zip(expected.lines()).filter(|(known, coded)| known != coded).collect();
+    assert!(page == expected, "SOAPFILM_BLESS=1 writes the page anew: {wrong:#?}");
+    let listed = expected.lines().filter(|line| line.starts_with("| `")).count();
+    assert_eq!(listed, tables().iter().map(|(_, keys)| keys.len()).sum::<usize>(), "each table has its heading");
+}
+
+/// No key is missing in the tables of the code.
+#[test]
+fn every_key_of_a_scene_is_in_a_section() {
     let every_key = document::every_key();
-    let rows = documented();
-    let kinds = Change::every_key().map(|change| toml::Table::try_from(change).unwrap()["kind"].to_string());
-    let kinds = kinds.map(|kind| format!("kind = {kind}"));
-    let tables = ["", "bubble", "bubble.film", "camera", "light", "light.patch", "view", "motion", "event"];
-    for path in tables.into_iter().chain(kinds.iter().map(String::as_str)) {
+    for (path, keys) in tables() {
         let coded = section(&every_key, path).iter();
         // What all events have stands in a table of its own.
         let of_all = |key: &str| key == "kind" || key == "tick";
-        let belongs = |key: &str| !path.contains("event") && kind(path).is_none() || of_all(key) == (path == "event");
-        let keys = coded.filter(|(_, value)| !is_section(value)).map(|(key, _)| key.as_str());
-        let mut coded: Vec<&str> = keys.filter(|key| belongs(key)).collect();
-        let mut listed: Vec<&str> = rows.iter().filter(|row| row.section == path).map(|row| row.key).collect();
+        let belongs = |key: &str| path != "event" && kind(path).is_none() || of_all(key) == (path == "event");
+        let coded = coded.filter(|(_, value)| !is_section(value)).map(|(key, _)| key.as_str());
+        let mut coded: Vec<&str> = coded.filter(|key| belongs(key)).collect();
+        let mut listed: Vec<&str> = keys.iter().map(|key| key.name).collect();
         coded.sort_unstable();
         listed.sort_unstable();
         assert_eq!(listed, coded, "[{path}]");
@@ -68,31 +178,6 @@ fn documented_keys_are_the_coded_keys() {
 
 fn is_section(value: &toml::Value) -> bool {
     value.is_table() || value.as_array().is_some_and(|items| items.iter().any(toml::Value::is_table))
-}
-
-#[test]
-fn documented_defaults_are_the_coded_defaults() {
-    let scene = Scene {
-        light: Light { patches: vec![LightPatch::default()], ..Light::default() },
-        events: [
-            Change::Motion(MotionChange::default()),
-            Change::Stir(Stir::default()),
-            Change::Blow(Blow::default()),
-            Change::Drag(Drag::default()),
-            Change::Prick(Prick::default()),
-        ]
-        .map(|change| Event { tick: 0, change })
-        .into(),
-        ..Scene::default()
-    };
-    let coded = toml::Table::try_from(scene).unwrap();
-    let rows = documented();
-    assert!(rows.len() > 30, "only {} keys found in the page", rows.len());
-    for Row { section: path, key, default, .. } in rows {
-        let listed = (default != "absent")
-            .then(|| toml::from_str::<toml::Table>(&format!("x = {default}")).unwrap()["x"].clone());
-        assert_eq!(section(&coded, path).get(key), listed.as_ref(), "{key} in [{path}]");
-    }
 }
 
 /// A number as TOML, in the form that its key wants.

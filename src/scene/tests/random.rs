@@ -1,14 +1,13 @@
 //! Random scenes and random texts.
 
 use super::super::*;
+use crate::Words;
 use proptest::prelude::*;
 
 fn film() -> impl Strategy<Value = Film> {
-    let state = prop_oneof![Just(FilmStateName::Uniform), Just(FilmStateName::Rest), Just(FilmStateName::Blown)];
     let named = "(glycerol [0-9]{1,2}%|[a-z]{1,6}\\.csv)".prop_map(FilmIndexName::Named);
     let index = prop_oneof![Just(FilmIndexName::Water), (1.0..4.0).prop_map(FilmIndexName::Constant), named];
-    let detail = prop_oneof![Just(Detail::Auto), Just(Detail::Full), Just(Detail::Half)];
-    (state, 1.0..10_000.0, -5.0..5.0, index, 0.0..5.0, any::<u64>(), 16u32..=1024, detail).prop_map(
+    (any_of(), 1.0..10_000.0, -5.0..5.0, index, 0.0..5.0, any::<u64>(), 16u32..=1024, any_of()).prop_map(
         |(state, thickness_nm, stratification, index, skin_nm, seed, cells, detail)| Film {
             state,
             thickness_nm,
@@ -89,8 +88,7 @@ fn patch() -> impl Strategy<Value = LightPatch> {
 
 fn view() -> impl Strategy<Value = View> {
     let backdrop = prop_oneof![Just(Backdrop::Environment), radiance().prop_map(Backdrop::Radiance)];
-    let quality = prop::sample::select(Quality::ALL.to_vec());
-    let look = (quality, prop::option::of(-1e9..1e9), any::<bool>());
+    let look = (any_of(), prop::option::of(-1e9..1e9), any::<bool>());
     (-20.0..20.0, backdrop, look, any::<bool>(), any::<u64>()).prop_map(
         |(exposure_ev, backdrop, (quality, polariser_deg, white_balance), dither, dither_seed)| View {
             exposure_ev,
@@ -104,15 +102,15 @@ fn view() -> impl Strategy<Value = View> {
     )
 }
 
-fn flow() -> impl Strategy<Value = Flow> {
-    prop_oneof![Just(Flow::Free), Just(Flow::Rest), Just(Flow::Sloshing), Just(Flow::Draught), Just(Flow::Stirred)]
+fn any_of<T: Words + std::fmt::Debug>() -> impl Strategy<Value = T> {
+    prop::sample::select(T::CHOICES)
 }
 
 fn motion() -> impl Strategy<Value = Motion> {
-    let spins = (spin(), 0.0..1000.0, scheme());
+    let spins = (spin(), 0.0..1000.0, any_of());
     let ends = (0.0..1.0, 0.0..10.0, 0.0..1e6, 1.0..1e4, 0.0..1e6);
     let forces = (gravity(), 0.0..1000.0, 0.0..10.0, 0.0..1e6, 0.0..1000.0, 0.0..1e4);
-    (1e-4..0.1, flow(), 0.0..10.0, any::<u64>(), spins, forces, ends, 1u32..=1000, 0.01..100.0).prop_map(
+    (1e-4..0.1, any_of(), 0.0..10.0, any::<u64>(), spins, forces, ends, 1u32..=1000, 0.01..100.0).prop_map(
         |(tick_s, flow, strength, seed, (spin_deg_s, evaporation_nm_s, scheme), forces, ends, remap_ticks, speed)| {
             Motion {
                 tick_s,
@@ -148,34 +146,19 @@ fn gravity() -> impl Strategy<Value = [f64; 3]> {
     [-1000.0..1000.0, -1000.0..1000.0, -1000.0..1000.0]
 }
 
-fn scheme() -> impl Strategy<Value = TransportScheme> {
-    use TransportScheme::{Bfecc, Bicubic, Bilinear, Map, MapAccurate};
-    prop_oneof![Just(Bilinear), Just(Bicubic), Just(Bfecc), Just(Map), Just(MapAccurate)]
-}
-
 fn event() -> impl Strategy<Value = Event> {
     let change = prop_oneof![motion_change(), stir(), blow(), drag(), prick()];
     (any::<u64>(), change).prop_map(|(tick, change)| Event { tick, change })
 }
 
+/// Some of the keys that an event can change.
 fn motion_change() -> impl Strategy<Value = Change> {
-    let maybe = |range: std::ops::Range<f64>| prop::option::of(range);
-    let spins = (prop::option::of(spin()), maybe(0.0..1000.0));
-    let forces = (prop::option::of(gravity()), maybe(0.0..1000.0), maybe(0.0..10.0));
-    (prop::option::of(flow()), maybe(0.0..10.0), any::<u64>(), spins, forces).prop_map(
-        |(flow, strength, seed, (spin_deg_s, evaporation_nm_s), (gravity_m_s2, drag_1_s, air_drag))| {
-            Change::Motion(MotionChange {
-                flow,
-                strength,
-                seed: Some(seed),
-                spin_deg_s,
-                evaporation_nm_s,
-                gravity_m_s2,
-                drag_1_s,
-                air_drag,
-            })
-        },
-    )
+    let seed = |(motion, keeps): (Motion, bool)| {
+        let start =
+            if keeps { Motion { strength: 3.0, seed: motion.seed, ..motion.clone() } } else { Motion::default() };
+        Change::Motion(MotionChange { seed: Some(motion.seed), ..MotionChange::between(&start, &motion) })
+    };
+    (motion(), any::<bool>()).prop_map(seed)
 }
 
 fn direction() -> impl Strategy<Value = [f64; 3]> {

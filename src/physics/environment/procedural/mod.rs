@@ -4,32 +4,32 @@ mod shape;
 mod tent;
 mod windows;
 
+use std::sync::{Arc, LazyLock};
+
 use glam::DVec3;
 
-/// An environment that is built in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Procedural {
-    /// A photographer's light tent: bright cloth all round, softboxes, a grey floor. The whole film shows its colours.
-    Tent,
-    /// A dark room with bright mullioned windows: colours live inside the windows' reflections.
-    Windows,
+use super::CubeMap;
+use crate::words::words;
+
+words! {
+    /// An environment that is built in.
+    pub enum Procedural: "environment" {
+        Tent = "tent", "A photographer's light tent: bright cloth all round, softboxes, a grey floor";
+        Windows = "windows", "A dark room with bright windows: colours live in the windows' reflections";
+    }
 }
 
+/// The maps of all of them, each made when it is first asked for: the room takes seconds.
+static MAPS: [LazyLock<Arc<CubeMap>>; Procedural::ALL.len()] = [
+    LazyLock::new(|| Arc::new(CubeMap::from_procedural(Procedural::Tent))),
+    LazyLock::new(|| Arc::new(CubeMap::from_procedural(Procedural::Windows))),
+];
+
 impl Procedural {
-    /// Every built-in environment.
-    pub const ALL: [Self; 2] = [Self::Tent, Self::Windows];
-
-    /// The name that scene files and the command line use.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tent => "tent",
-            Self::Windows => "windows",
-        }
-    }
-
-    /// The environment of that [`name`](Self::name).
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|environment| environment.name() == name)
+    /// Its cube map, made once for all that ask.
+    #[must_use]
+    pub fn map(self) -> Arc<CubeMap> {
+        Arc::clone(&MAPS[self as usize])
     }
 
     /// Texels along the edge of a cube map's face that show its finest detail.
@@ -52,15 +52,14 @@ impl Procedural {
 
 #[cfg(test)]
 mod tests {
-    use super::super::CubeMap;
     use super::*;
 
     #[test]
-    fn names_are_found_again() {
+    fn maps_are_made_once_and_are_their_own() {
+        assert!(Arc::ptr_eq(&Procedural::Tent.map(), &Procedural::Tent.map()));
         for environment in Procedural::ALL {
-            assert_eq!(Procedural::from_name(environment.name()), Some(environment));
+            assert_eq!(environment.map().size(), environment.cube_size());
         }
-        assert_eq!(Procedural::from_name("Tent"), None);
     }
 
     #[test]

@@ -1,0 +1,159 @@
+//! Edits: whatever a user changes of a scene goes through one gate, [`super::model::Model::edit`].
+//!
+//! The rule for all controls: what moves the films (the keys that [`MotionChange`] has) is an event at the clock's tick, and so is what the
+//! pointer does to a film; the past stays as it was. At tick 0 nothing has happened yet, and the change is one of how the scene begins.
+//! Everything else holds for the whole history: editing it changes the past too, and a film that would have begun otherwise is blown anew.
+
+use super::{history, model::new_seed};
+use crate::scene::{Bubble, Camera, Change, Event, FilmIndexName, Light, Motion, MotionChange, Scene, View};
+
+/// A change of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// Another camera.
+    Camera(Camera),
+    /// Another view.
+    View(View),
+    /// Another light.
+    Light(Light),
+    /// Another bubble in the place of one. All films in a picture are made of the same, so that what this film is made of holds for all.
+    Bubble(usize, Box<Bubble>),
+    /// Other bubbles in the place of all.
+    Bubbles(Vec<Bubble>),
+    /// Every film blown anew, in another breath of air.
+    Reseed,
+    /// Another motion, from now on as far as it can change.
+    Motion(Box<Motion>),
+    /// Something happens now.
+    Happens(Change),
+    /// Another beginning of the motion, and other events.
+    History(Box<Motion>, Vec<Event>),
+    /// An event that has not happened, by its index.
+    Forget(usize),
+}
+
+impl Edit {
+    /// Makes the change at the clock's tick, and returns the one that takes it back.
+    pub fn apply(self, scene: &mut Scene, tick: u64) -> Self {
+        match self {
+            Self::Camera(camera) => Self::Camera(std::mem::replace(&mut scene.camera, camera)),
+            Self::View(view) => Self::View(std::mem::replace(&mut scene.view, view)),
+            Self::Light(light) => Self::Light(std::mem::replace(&mut scene.light, light)),
+            Self::Bubbles(bubbles) => Self::Bubbles(std::mem::replace(&mut scene.bubbles, bubbles)),
+            Self::Bubble(index, bubble) => Self::Bubbles(replace_bubble(scene, index, *bubble)),
+            Self::Reseed => {
+                let bubbles = scene.bubbles.iter().cloned().map(reseeded).collect();
+                Self::Bubbles(std::mem::replace(&mut scene.bubbles, bubbles))
+            }
+            Self::History(motion, events) => {
+                let motion = std::mem::replace(&mut scene.motion, *motion);
+                Self::History(motion.into(), std::mem::replace(&mut scene.events, events))
+            }
+            Self::Motion(motion) => {
+                let before = Self::History(scene.motion.clone().into(), scene.events.clone());
+                move_by(scene, tick, *motion);
+                before
+            }
+            Self::Happens(change) => Self::Forget(history::insert(scene, Event { tick, change })),
+            Self::Forget(index) => {
+                let before = Self::History(scene.motion.clone().into(), scene.events.clone());
+                if index < scene.events.len() {
+                    scene.events.remove(index);
+                }
+                before
+            }
+        }
+    }
+}
+
+fn replace_bubble(scene: &mut Scene, index: usize, bubble: Bubble) -> Vec<Bubble> {
+    let before = scene.bubbles.clone();
+    for other in &mut scene.bubbles {
+        (other.film.index, other.film.skin_nm) = (bubble.film.index.clone(), bubble.film.skin_nm);
+    }
+    if let Some(slot) = scene.bubbles.get_mut(index) {
+        *slot = bubble;
+    }
+    before
+}
+
+fn reseeded(mut bubble: Bubble) -> Bubble {
+    bubble.film.seed = new_seed();
+    bubble
+}
+
+/// Makes a motion that in force at a tick: what can change while time runs changes from then on, the rest for the whole history.
+fn move_by(scene: &mut Scene, tick: u64, motion: Motion) {
+    let now = scene.motion_at(tick);
+    let Motion { tick_s, scheme, remap_ticks, speed, .. } = motion;
+    let change = MotionChange::between(&now, &motion);
+    scene.motion = Motion { tick_s, scheme, remap_ticks, speed, ..scene.motion.clone() };
+    if change != MotionChange::default() {
+        history::record(scene, tick, change);
+    }
+}
+
+/// Whether a film of a scene begins otherwise than it did.
+#[must_use]
+pub fn begins_anew(before: &[Bubble], after: &[Bubble]) -> bool {
+    // What a film is made of, and the size and place of its bubble, shape no film at its beginning.
+    let beginning = |bubble: &Bubble| {
+        let mut same = Bubble { center_m: [0.0; 3], radius_mm: 1.0, ..bubble.clone() };
+        (same.film.index, same.film.skin_nm) = (FilmIndexName::Water, 0.0);
+        same
+    };
+    before.len() != after.len() || before.iter().zip(after).any(|(a, b)| a != b && beginning(a) != beginning(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Flow, Prick, Quality};
+
+    /// Every edit, taken back by what it returns, leaves the scene as it was.
+    #[test]
+    fn what_an_edit_returns_takes_it_back() {
+        let stirred = MotionChange { flow: Some(Flow::Stirred), ..MotionChange::default() };
+        let events = vec![Event { tick: 30, change: Change::Motion(stirred) }];
+        let scene = Scene { events, ..Scene::default() };
+        let edits = [
+            Edit::Camera(Camera { azimuth_deg: 77.0, ..Camera::default() }),
+            Edit::View(View { quality: Quality::Fast, ..View::default() }),
+            Edit::Light(Light { intensity: 3.0, ..Light::default() }),
+            Edit::Bubble(0, Bubble { radius_mm: 10.0, ..Bubble::default() }.into()),
+            Edit::Bubbles(Vec::new()),
+            Edit::Reseed,
+            Edit::Motion(Motion { drainage: 7.0, speed: 2.0, ..Motion::default() }.into()),
+            Edit::Happens(Change::Prick(Prick::default())),
+            Edit::Forget(0),
+        ];
+        for edit in edits {
+            let (mut edited, name) = (scene.clone(), format!("{edit:?}"));
+            let back = edit.apply(&mut edited, 60);
+            assert_ne!(edited, scene, "{name}");
+            back.apply(&mut edited, 60);
+            assert_eq!(edited, scene, "{name}");
+        }
+    }
+
+    #[test]
+    fn what_moves_the_film_changes_from_now_on_and_the_method_for_ever() {
+        let mut scene = Scene::default();
+        Edit::Motion(Motion { drainage: 7.0, speed: 2.0, ..Motion::default() }.into()).apply(&mut scene, 60);
+        assert_eq!([59, 60].map(|tick| scene.motion_at(tick).drainage), [0.0, 7.0]);
+        assert_eq!(scene.motion_at(0).speed, 2.0);
+    }
+
+    #[test]
+    fn a_film_is_blown_anew_where_it_would_have_begun_otherwise() {
+        let bubble = Bubble::default();
+        let anew = |change: fn(&mut Bubble)| {
+            let mut other = bubble.clone();
+            change(&mut other);
+            begins_anew(&[bubble.clone()], &[other])
+        };
+        assert!(anew(|bubble| bubble.film.thickness_nm = 300.0) && anew(|bubble| bubble.rim_deg = 50.0));
+        assert!(!anew(|bubble| bubble.radius_mm = 3.0) && !anew(|bubble| bubble.film.skin_nm = 2.0));
+        assert!(begins_anew(&[bubble], &[]));
+    }
+}
