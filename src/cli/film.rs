@@ -8,6 +8,11 @@ use super::{AdapterArguments, SceneSettings, parse, progress::Progress};
 use crate::{
     input::LoadedScene,
     output::{CsvWriter, check_target, print, write_atomically},
+    physics::film::{
+        Flow,
+        properties::{SURFACE_VISCOSITY, VISCOSITY, kinematic_viscosity},
+    },
+    scene::Scene,
     studio::{FilmCell, Studio, reference_film},
 };
 
@@ -44,7 +49,17 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if let Some(path) = &arguments.output {
         save(path, &cells)?;
     }
-    Ok(print(format_args!("{}\n", summary(&cells)))?)
+    Ok(print(format_args!("{}\n{}", summary(&cells), viscosity(&scene.scene, arguments.bubble)))?)
+}
+
+/// The viscosity of a film that moves by itself, beside that of soapy water with mobile surfaces, in a line.
+fn viscosity(scene: &Scene, bubble: usize) -> String {
+    let Some(bubble) = scene.bubbles.get(bubble).filter(|_| scene.motion.flow == Flow::Free) else {
+        return String::new();
+    };
+    let of_water = kinematic_viscosity(VISCOSITY, SURFACE_VISCOSITY, 1e-9 * bubble.film.thickness_nm);
+    let here = scene.motion.viscosity_mm2_s;
+    format!("viscosity {here} mm²/s; soapy water with mobile surfaces has {:.0} mm²/s\n", 1e6 * of_water)
 }
 
 fn cells(arguments: &Arguments, scene: &LoadedScene) -> anyhow::Result<Vec<FilmCell>> {
@@ -62,9 +77,8 @@ fn summary(cells: &[FilmCell]) -> String {
     let film = || cells.iter().filter(|cell| cell.thickness_nm > 0.0);
     let area: f64 = film().map(|cell| cell.solid_angle_sr).sum();
     let liquid: f64 = film().map(|cell| cell.solid_angle_sr * cell.thickness_nm).sum();
-    let range = film().fold([f64::MAX, 0.0], |[low, high]: [f64; 2], cell| {
-        [low.min(cell.thickness_nm), high.max(cell.thickness_nm)]
-    });
+    let range = film()
+        .fold([f64::MAX, 0.0], |[low, high]: [f64; 2], cell| [low.min(cell.thickness_nm), high.max(cell.thickness_nm)]);
     if area == 0.0 {
         return format!("{} cells, no film", cells.len());
     }

@@ -9,6 +9,7 @@ use super::{
     pipelines::ComputeKey,
     timing::{Groups, Recorder},
 };
+pub use crate::physics::film::model::BlackeningLaw;
 
 /// See `shaders/pass/blacken.wgsl`.
 #[repr(C)]
@@ -27,19 +28,6 @@ pub struct BlackenUniform {
     /// Rate of the collapse, 1/tick.
     pub rate: f32,
     pad: [u32; 2],
-}
-
-/// How film collapses, now.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BlackeningLaw {
-    /// What has evaporated from the film, nm.
-    pub thinned_nm: f64,
-    /// Thickness of black film, at which evaporation ends, nm.
-    pub black_nm: f64,
-    /// Thickness below which film collapses, nm.
-    pub onset_nm: f64,
-    /// Rate at which the difference to black film decays, 1/tick.
-    pub rate: f64,
 }
 
 /// The collapse of a film, done at remaps.

@@ -126,7 +126,8 @@ fn state_in_f64(film: &ReferenceFilm, key: &FieldKey) -> State {
 /// Root mean square of a difference over the root mean square, and its largest value.
 fn apart(found: &[f64], expected: &[f64]) -> [f64; 2] {
     assert_eq!(found.len(), expected.len());
-    let mean_square = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>() / expected.len() as f64;
+    let mean_square =
+        |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>() / expected.len() as f64;
     let difference = || found.iter().zip(expected).map(|(a, b)| a - b);
     let rms = mean_square(&mut difference()).sqrt();
     let size = mean_square(&mut expected.iter().copied()).sqrt();
@@ -200,10 +201,7 @@ fn a_free_film_is_the_f64_one() {
 #[test]
 fn a_film_that_ends_somewhere_is_the_f64_one() {
     let Some(gpu) = gpu() else { return };
-    let ends = [
-        ("bath", ending(Some(Cap::HEMISPHERE), None, None)),
-        ("drop", ending(None, Some(0.4), None)),
-    ];
+    let ends = [("bath", ending(Some(Cap::HEMISPHERE), None, None)), ("drop", ending(None, Some(0.4), None))];
     for (name, end) in ends {
         hold(&gpu, name, &FieldKey { end, ..key(20, 3, FlowLaw::Free(FREE)) }, 16);
     }
@@ -240,7 +238,10 @@ fn a_film_that_drains_and_regenerates_is_the_f64_one() {
     let regeneration = |rim| Some(Regeneration { rim, radius: 0.25, amount: 3.0, seed: 8 });
     let ends = [
         ("drains into a drop", ending(None, Some(0.4), None)),
-        ("drains into a bath, with patches", ending(Some(Cap::HEMISPHERE), None, regeneration(std::f64::consts::FRAC_PI_2))),
+        (
+            "drains into a bath, with patches",
+            ending(Some(Cap::HEMISPHERE), None, regeneration(std::f64::consts::FRAC_PI_2)),
+        ),
         ("regenerates at a drop", ending(None, Some(0.4), regeneration(2.7))),
     ];
     for (name, end) in ends {

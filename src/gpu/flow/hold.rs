@@ -6,6 +6,7 @@ use super::{
     super::{Gpu, GpuError, timing::Recorder},
     FlowGrid,
 };
+use crate::physics::flow::PinnedRegion;
 
 /// See `shaders/pass/flow_hold.wgsl`.
 #[repr(C)]
@@ -20,9 +21,6 @@ pub struct HoldUniform {
     pad: u32,
 }
 
-/// Cells from a drop's rim to where nothing flows, at least: what the flow's differences need.
-const LEAST_CELLS: f64 = 3.0;
-
 /// What holds the film fast.
 pub(super) struct FlowHold {
     uniform: wgpu::Buffer,
@@ -31,13 +29,8 @@ pub(super) struct FlowHold {
 impl FlowHold {
     /// A drop of an angular radius in radians.
     pub(super) fn new(gpu: &Gpu, grid: &FlowGrid, radius: f64) -> Self {
-        let width = (0.5 * radius).max(LEAST_CELLS * grid.sphere.cell_angle());
-        let uniform = HoldUniform {
-            cells: grid.sphere.n() as u32,
-            rim: radius.max(width) as f32,
-            inner: (radius - width).max(0.0) as f32,
-            pad: 0,
-        };
+        let PinnedRegion { outer, inner } = PinnedRegion::new(radius, grid.sphere.cell_angle());
+        let uniform = HoldUniform { cells: grid.sphere.n() as u32, rim: outer as f32, inner: inner as f32, pad: 0 };
         Self { uniform: gpu.uniform("hold", &uniform) }
     }
 

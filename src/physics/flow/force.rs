@@ -58,7 +58,13 @@ impl HalfStep {
     /// For a cell's velocity, its ln h with `n × ∇ ln h`, and what stirs it besides. The air slows thin film down more than thick, which
     /// makes vorticity where liquid flows along an edge: of `−n·curl(αu)` that is `n·(u × ∇α) = α_h u·(n × ∇ ln h)`, for α_h goes as
     /// 1/h.
-    pub(super) fn new(forces: &FlowForces, dt: f64, u: DVec3, (log_thickness, turned): (f64, DVec3), forcing: f64) -> Self {
+    pub(super) fn new(
+        forces: &FlowForces,
+        dt: f64,
+        u: DVec3,
+        (log_thickness, turned): (f64, DVec3),
+        forcing: f64,
+    ) -> Self {
         let of_air = forces.air_drag * u.length().max(MIN_AIR_SPEED).sqrt() * (-log_thickness).exp();
         let drag = forces.drag + of_air;
         let source = (forces.gravity + of_air * u).dot(turned) + forcing;

@@ -89,7 +89,13 @@ pub fn collapse(
     halo: &HaloTable,
 ) -> PaddedField<f64> {
     let (grid, level_nm) = (tracer.grid(), level_nm - law.thinned_nm);
-    let film = Collapse { law, tracer, means: means(tracer, 2.0 * law.onset_nm - law.black_nm - level_nm, halo), level_nm, ticks };
+    let film = Collapse {
+        law,
+        tracer,
+        means: means(tracer, 2.0 * law.onset_nm - law.black_nm - level_nm, halo),
+        level_nm,
+        ticks,
+    };
     let shed = PaddedField::from_places(grid, HALO, |place| film.share_nm(place)).with_bounded_halo(halo);
     let gathered = |place: usize| {
         let is_thick = !film.is_thin(place);
@@ -189,7 +195,8 @@ mod tests {
         let after = collapse(&tracer, &law(0.0), LEVEL_NM, 6, &halo);
         let areas = tracer.grid().areas();
         let sum = |field: &PaddedField<f64>| field.cells().iter().zip(&areas).map(|(v, a)| v * a).sum::<f64>();
-        let moved: f64 = after.cells().iter().zip(tracer.cells()).zip(&areas).map(|((a, b), area)| (a - b).abs() * area).sum();
+        let moved: f64 =
+            after.cells().iter().zip(tracer.cells()).zip(&areas).map(|((a, b), area)| (a - b).abs() * area).sum();
         // Shares count cells and not areas, which differ by a few per cent across a stencil.
         assert!(moved > 0.01 && (sum(&after) - sum(&tracer)).abs() < 0.1 * moved, "{moved}");
     }

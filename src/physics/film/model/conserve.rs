@@ -74,7 +74,8 @@ impl Liquid {
     #[must_use]
     pub fn restored(&self, field: &PaddedField<f64>) -> PaddedField<f64> {
         let excess = self.gained(field) - (self.spared_nm - self.drained_nm) * self.film_area;
-        let [offset, slope] = self.bounds.map_or([-excess / self.film_area, 0.0], |bounds| self.balance(excess, bounds));
+        let [offset, slope] =
+            self.bounds.map_or([-excess / self.film_area, 0.0], |bounds| self.balance(excess, bounds));
         let values = field.padded().iter().map(|value| value + offset + slope * value);
         PaddedField::from_padded(field.grid(), values.collect())
     }
@@ -129,7 +130,10 @@ mod tests {
         liquid.count_drained(&field(|x| x.z - 0.25));
         assert!((liquid.drained_nm - 0.25).abs() < 1e-13);
         liquid.count_spared(&field(|x| x.z + 0.5));
-        assert!((liquid.spared_nm - 0.75).abs() < 1e-13, "half a nanometre more than there was, though a quarter has left");
+        assert!(
+            (liquid.spared_nm - 0.75).abs() < 1e-13,
+            "half a nanometre more than there was, though a quarter has left"
+        );
         let kept = liquid.restored(&film);
         assert!((liquid.gained(&kept) / liquid.film_area - 0.5).abs() < 1e-13);
     }

@@ -84,7 +84,8 @@ pub fn distortion(map: &PaddedField<DVec3>, rule: RemapRule) -> f64 {
     let worst = cells.map(|(panel, i, j)| {
         let place = grid.padded_index(panel, i as isize, j as isize);
         let strides = [1, grid.padded_width()];
-        let error = strides.map(|stride| interpolation_error(map.padded(), place, stride)).into_iter().fold(0.0, f64::max);
+        let error =
+            strides.map(|stride| interpolation_error(map.padded(), place, stride)).into_iter().fold(0.0, f64::max);
         if is_folded(map.padded(), place, strides) { 2.0 } else { error / limit }
     });
     worst.fold(0.0, f64::max)

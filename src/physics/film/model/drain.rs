@@ -176,7 +176,13 @@ mod tests {
 
     #[test]
     fn nothing_drains_out_of_the_drop_or_without_a_flux() {
-        let law = DrainLaw { gravity: 100.0 * DVec3::NEG_Z, drop_rad: 0.5, black_nm: 10.0, patch_radius: 1.0, ..DrainLaw::default() };
+        let law = DrainLaw {
+            gravity: 100.0 * DVec3::NEG_Z,
+            drop_rad: 0.5,
+            black_nm: 10.0,
+            patch_radius: 1.0,
+            ..DrainLaw::default()
+        };
         assert_eq!(drain(&even(), &law, 700.0, 5, None), even());
         let drains = drain(&even(), &DrainLaw { flux: 1e-12, ..law }, 700.0, 5, None);
         assert_eq!(drains.bilinear(DVec3::NEG_Z), 0.0);
