@@ -56,11 +56,10 @@ mod tests {
         let turn = |sign: f64| PaddedField::sample_cells(grid, &HaloTable::new(grid), |x| sign * axis.cross(x));
         let (forth, back) = (turn(1.0), turn(-1.0));
         for x in (0..grid.cells()).step_by(37).map(|cell| grid.cell_direction(cell)) {
-            let foot = origin(&forth, x, axis.cross(x), 0.7);
-            // Bicubic interpolation on cells of 3.75°.
-            assert!((foot.dot(axis) - x.dot(axis)).abs() < 1e-5, "{x}");
-            // What three iterates leave of a turn by 0.7 radians.
-            assert!(origin(&back, foot, -axis.cross(foot), 0.7).distance(x) < 1e-3, "{x}");
+            let foot = origin(&forth, x, axis.cross(x), 0.3);
+            // What three iterates leave of a turn by 0.3 radians; it goes as the fourth power.
+            assert!((foot.dot(axis) - x.dot(axis)).abs() < 1e-4, "{x}");
+            assert!(origin(&back, foot, -axis.cross(foot), 0.3).distance(x) < 1e-4, "{x}");
         }
     }
 }
