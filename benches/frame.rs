@@ -9,13 +9,16 @@ use soapfilm::{
 };
 
 const SIZES: [[u32; 2]; 2] = [[1280, 720], [1920, 1080]];
+/// A picture that shows whether the benchmark works: `cargo bench --bench frame -- --test`.
+const SMOKE: [[u32; 2]; 1] = [[320, 180]];
 const PASSES: [&str; 7] = ["bake_table", "fit_bands", "seed_field", "step_field", "show_field", "draw", "tonemap"];
 
 fn frame(criterion: &mut Criterion) {
     let gpu = pollster::block_on(Gpu::headless(&AdapterChoice::default().or_env())).expect("an adapter to measure on");
     println!("adapter: {}, {}", gpu.adapter_name(), gpu.driver());
     let mut renderer = Renderer::new(gpu);
-    for size in SIZES {
+    let is_smoke = std::env::args().any(|argument| argument == "--test");
+    for size in if is_smoke { SMOKE.to_vec() } else { SIZES.to_vec() } {
         let (bubble, mirror) = (wanted(size, false), wanted(size, true));
         draw(&mut renderer, &bubble);
         draw(&mut renderer, &mirror);

@@ -12,6 +12,8 @@ use crate::{report::Report, timed};
 
 /// Cells along an edge of the film that is scrubbed.
 const CELLS: u32 = 256;
+/// Cells of a film that only shows whether the benchmark works.
+const SMOKE_CELLS: u32 = 64;
 /// Where it is scrubbed from, in ticks.
 const END_TICKS: u64 = 360;
 /// How far back, in ticks.
@@ -23,7 +25,8 @@ pub fn run(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
     println!("\nscenes: 0 = free, 1 = stirred");
     let columns = ["scene", "back_ticks", "steps", "cpu_s", "cpu_ms_step", "frame_cpu_ms"];
     let mut report = Report::new("history", &columns);
-    let end = if smoke { END_TICKS / 20 } else { END_TICKS };
+    let (cells, end) = if smoke { (SMOKE_CELLS, END_TICKS / 20) } else { (CELLS, END_TICKS) };
+    let wanted = |flow, tick| wanted(flow, cells, tick);
     let mut renderer = Renderer::new(gpu);
     for (scene, flow) in [Flow::Free, Flow::Stirred].into_iter().enumerate() {
         // Once as a whole, so that no row pays for pipelines.
@@ -45,9 +48,9 @@ pub fn run(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
 }
 
 /// A frame of the default scene's film at a tick, moved by a flow.
-fn wanted(flow: Flow, tick: u64) -> anyhow::Result<Want> {
+fn wanted(flow: Flow, cells: u32, tick: u64) -> anyhow::Result<Want> {
     let mut loaded = load_scene("default")?;
-    loaded.scene.bubbles[0].film.cells = CELLS;
+    loaded.scene.bubbles[0].film.cells = cells;
     loaded.scene.motion.flow = flow;
     let moment = Moment { tick, fraction: 0.0 };
     let shot = Shot {

@@ -116,14 +116,15 @@ fn leak(gpu: &Gpu, film: &FreeFilm<'_>, rim: f64) -> Result<f64, GpuError> {
 
 /// Nothing flows across a rim, and no film is lost.
 fn tight(run: &mut Run<'_>) -> Result<(), GpuError> {
-    for (name, rim, limit) in [("a bath", FRAC_PI_2, 2e-3), ("a ring at 69°", 1.2, 2e-2), ("a ring at 126°", 2.2, 2e-2)]
-    {
+    let rims = [("a bath", FRAC_PI_2, 2e-3), ("a ring at 126°", 2.2, 2e-2), ("a ring at 69°", 1.2, 2e-2)];
+    let steps = run.short_or_full(15, 30);
+    for (name, rim, limit) in rims.into_iter().take(run.short_or_full(2, 3)) {
         let cap = if rim == FRAC_PI_2 { Cap::HEMISPHERE } else { Cap::above(rim) };
         let mut film = fresh(run.gpu, Some(cap), None)?;
         let (before, _) = film.liquid()?;
-        film.run(30, STEP_S)?;
+        film.run(steps, STEP_S)?;
         let early = leak(run.gpu, &film, rim)?;
-        film.run(60, STEP_S)?;
+        film.run(2 * steps, STEP_S)?;
         let (late, (after, _)) = (leak(run.gpu, &film, rim)?, film.liquid()?);
         run.at_most(format!("{name}: flow across its rim, part of the largest"), early.max(late), limit);
         run.at_most(format!("{name}: film gained or lost, part of it"), (after / before - 1.0).abs(), LOSS);
@@ -134,7 +135,8 @@ fn tight(run: &mut Run<'_>) -> Result<(), GpuError> {
 /// Each remap samples beyond the rim what is within, and each step makes the vorticity there its image.
 fn image(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut film = fresh(run.gpu, Some(Cap::HEMISPHERE), None)?;
-    film.run(120, STEP_S)?;
+    let steps = run.short_or_full(40, 120);
+    film.run(steps, STEP_S)?;
     let solver = film.motion.flow();
     let (grid, zeta) = (solver.sphere(), read(run.gpu, solver, solver.zeta())?);
     let mirrored = |cell: usize, values: &[f64]| {
@@ -147,8 +149,9 @@ fn image(run: &mut Run<'_>) -> Result<(), GpuError> {
     let nm = film.thickness()?;
     let even = largest((0..grid.cells()).map(|cell| (nm[cell] - mirrored(cell, &nm)).abs()));
     // Places of images are f32: a hundred-thousandth of a cell, across which both change by no more than themselves.
-    run.at_most("a film on a bath after 2 s: vorticity that is not odd, part of the largest", odd, 1e-4);
-    run.at_most("a film on a bath after 2 s: thickness that is not even, nm", even, 0.05);
+    let name = format!("a film on a bath after {steps} steps");
+    run.at_most(format!("{name}: vorticity that is not odd, part of the largest"), odd, 1e-4);
+    run.at_most(format!("{name}: thickness that is not even, nm"), even, 0.05);
     Ok(())
 }
 
@@ -159,7 +162,7 @@ fn drop(run: &mut Run<'_>) -> Result<(), GpuError> {
     for (drop_rad, found) in [None, Some(radius)].into_iter().zip(&mut leaks) {
         let mut film = fresh(run.gpu, None, drop_rad)?;
         let (before, _) = film.liquid()?;
-        film.run(60, STEP_S)?;
+        film.run(run.short_or_full(30, 60), STEP_S)?;
         let name = if drop_rad.is_some() { "a film with a drop" } else { "a film without a drop" };
         run.at_most(format!("{name}: film gained or lost, part of it"), (film.liquid()?.0 / before - 1.0).abs(), LOSS);
         *found = leak(run.gpu, &film, PI - 0.5 * radius)?;
@@ -174,8 +177,8 @@ fn drop(run: &mut Run<'_>) -> Result<(), GpuError> {
 /// is in the drop or the bath.
 fn drainage(run: &mut Run<'_>) -> Result<(), GpuError> {
     const FACTOR: f64 = 1500.0;
-    const STEPS: u32 = 120;
     const NM: f64 = 2000.0;
+    let steps = run.short_or_full(40, 120);
     for (name, cap, drop_rad) in [("a drop", None, 0.1), ("a bath", Some(Cap::HEMISPHERE), 0.0)] {
         let even = field(run.gpu, 64, Rules { cap, ..RULES }, |_| NM)?;
         let mut film = FreeFilm::new(run.gpu, even, FlowForces::default(), PrescribedFlow::default())?;
@@ -183,9 +186,9 @@ fn drainage(run: &mut Run<'_>) -> Result<(), GpuError> {
         let law =
             DrainLaw { gravity: GRAVITY, flux, black_nm: BLACK_NM, drop_rad, patch_radius: 1.0, ..DrainLaw::default() };
         film.field.drain(Some((law, 4)));
-        film.run(STEPS, STEP_S)?;
+        film.run(steps, STEP_S)?;
         let exact = Drainage { thickness_m: 1e-9 * NM, radius_m: RADIUS_M, viscosity: VISCOSITY };
-        let time_s = FACTOR * STEP_S * f64::from(STEPS);
+        let time_s = FACTOR * STEP_S * f64::from(steps);
         let (grid, nm) = (film.sphere(), film.thickness()?);
         let error = largest((0..grid.cells()).filter_map(|cell| {
             let z = grid.cell_direction(cell).z;
@@ -212,8 +215,8 @@ fn patch(run: &mut Run<'_>) -> Result<(), GpuError> {
     let gravity = 0.1 * GRAVITY;
     let start = 70f64.to_radians();
     let middle = DVec3::new(start.sin(), 0.0, start.cos());
-    // 1, 2 and 10e-4 m²/s, of which the last stops a patch within a step.
-    for viscosity in [0.04, 0.08, 0.4] {
+    // 1, 10 and 2e-4 m²/s, of which the second stops a patch within a step.
+    for viscosity in [0.04, 0.4, 0.08].into_iter().take(run.short_or_full(1, 3)) {
         let forces = FlowForces { gravity, drag: DRAG_1_S, air_drag: 0.0, viscosity };
         let even = field(run.gpu, 128, Rules { cap: Some(Cap::HEMISPHERE), ..RULES }, |_| NM)?;
         let mut film = FreeFilm::new(run.gpu, even, forces, PrescribedFlow::default())?;
@@ -257,16 +260,16 @@ fn regeneration(run: &mut Run<'_>) -> Result<(), GpuError> {
     const RIM: f64 = 1.9;
     const RADIUS: f64 = 0.08;
     const RATE_1_S: f64 = 40.0;
-    const STEPS: u32 = 90;
     /// Steps for which a film hears of a patch, so that no remap misses it.
     const HEARD: f64 = 8.0;
     const NM: f64 = 700.0;
+    let steps = run.short_or_full(60, 90);
     let cap = Cap::above(RIM);
     let even = field(run.gpu, 64, Rules { cap: Some(cap), ..RULES }, |_| NM)?;
     let mut film = FreeFilm::new(run.gpu, even, FlowForces::default(), PrescribedFlow::default())?;
     let regeneration = Regeneration { rim: RIM, radius: RADIUS, amount: 3.0, seed: 5 };
     let (mut reservoir, mut returned, mut lost): (f64, f64, f64) = (0.0, 0.0, 0.0);
-    for step in 1..=STEPS {
+    for step in 1..=steps {
         let now = f64::from(step);
         let patches = regeneration.patches(RATE_1_S, (now - HEARD).max(0.0) * STEP_S, now * STEP_S);
         let patches =
@@ -283,7 +286,7 @@ fn regeneration(run: &mut Run<'_>) -> Result<(), GpuError> {
     }
     // Each covers a thousandth of the cap; where two overlap, the later one finds less.
     let part = RADIUS.powi(2) / (2.0 * (1.0 - RIM.cos()));
-    let patches = regeneration.patches(RATE_1_S, 0.0, STEP_S * f64::from(STEPS));
+    let patches = regeneration.patches(RATE_1_S, 0.0, STEP_S * f64::from(steps));
     let expected: f64 = patches.map(|patch| NM * part * (1.0 - patch.thickness)).sum();
     run.at_most("regeneration at a ring: film and reservoir gained or lost", lost, LOSS);
     run.at_most("regeneration at a ring: liquid that came back, nm", returned, 0.0);

@@ -17,6 +17,7 @@ words! {
         Sloshing = "sloshing", "The film swings as a whole about its rest state";
         Draught = "draught", "Slow, large gusts of the air around the bubble";
         Stirred = "stirred", "Many turning vortices, as after a stir";
+        Jets = "jets", "Bands that turn about the vertical against one another, as the clouds of Jupiter";
     }
 }
 
@@ -29,6 +30,7 @@ impl Flow {
             Self::Sloshing => Some(PrescribedFlow::sloshing(seed, strength)),
             Self::Draught => Some(PrescribedFlow::draught(seed, strength)),
             Self::Stirred => Some(PrescribedFlow::stirred(seed, strength)),
+            Self::Jets => Some(PrescribedFlow::jets(seed, strength)),
         }
     }
 }
@@ -36,14 +38,17 @@ impl Flow {
 /// Root mean square speeds at strength 1, rad/s.
 const DRAUGHT_RAD_S: f64 = 0.12;
 const SLOSH_RAD_S: f64 = 0.45;
+const JETS_RAD_S: f64 = 0.3;
 const DRAUGHT_WAVES: usize = 14;
 const SLOSH_WAVES: usize = 3;
+const JET_WAVES: usize = 3;
 const STIR_VORTICES: usize = 36;
 
 /// Streams of random numbers, one for each use, so that a stirred film feels the draught of its seed.
 const DRAUGHT_STREAM: u32 = 1;
 const STIR_STREAM: u32 = 2;
 const SLOSH_STREAM: u32 = 3;
+const JETS_STREAM: u32 = 4;
 
 impl PrescribedFlow {
     /// The draught that air never stops to make: slow and large-scale, swinging with many periods of 2 to 9 s, so that the film goes
@@ -67,6 +72,17 @@ impl PrescribedFlow {
         let mut random = Random::new(seed, SLOSH_STREAM);
         let mut waves: Vec<Wave> = (0..SLOSH_WAVES).map(|_| sloshing_wave(&mut random)).collect();
         scale_to_rms(&mut waves, SLOSH_RAD_S * strength);
+        let draught = Self::draught(seed, 0.5 * strength);
+        Self { waves: [waves, draught.waves].concat(), vortices: Vec::new() }
+    }
+
+    /// Jets: some ten bands of latitude that turn about the vertical, each against its neighbours, and wander slowly; in a weaker draught,
+    /// which bends them. Patches are drawn out into bands.
+    pub fn jets(seed: u32, strength: f64) -> Self {
+        let mut random = Random::new(seed, JETS_STREAM);
+        let mut waves: Vec<Wave> = (0..JET_WAVES).map(|_| jet_wave(&mut random)).collect();
+        // These waves do not swing: for the same amplitude they are faster by the root of two.
+        scale_to_rms(&mut waves, JETS_RAD_S * strength / std::f64::consts::SQRT_2);
         let draught = Self::draught(seed, 0.5 * strength);
         Self { waves: [waves, draught.waves].concat(), vortices: Vec::new() }
     }
@@ -96,6 +112,19 @@ fn sloshing_wave(random: &mut Random) -> Wave {
         drift_rad_s: 0.0,
         swing_rad_s: TAU / random.between(2.0, 3.0),
         swing_phase: random.between(0.0, TAU),
+    }
+}
+
+/// A wave along the vertical, whose crests are circles of latitude.
+fn jet_wave(random: &mut Random) -> Wave {
+    let k = random.between(7.0, 13.0);
+    Wave {
+        k: k * DVec3::Z,
+        phase: random.between(0.0, TAU),
+        amplitude: 1.0 / k,
+        drift_rad_s: random.sign() * random.between(0.02, 0.1),
+        swing_rad_s: 0.0,
+        swing_phase: 0.0,
     }
 }
 
