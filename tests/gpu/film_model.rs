@@ -193,8 +193,8 @@ const COUNTED_NM: f64 = 5e-5;
 fn a_free_film_is_the_f64_one() {
     let Some(gpu) = gpu() else { return };
     for (cells, seed) in [(16, 2), (24, 3)] {
-        let end = hold(&gpu, "free", &key(cells, seed, FlowLaw::Free(FREE)), 24);
-        assert!(end.remaps > 3);
+        let end = hold(&gpu, "free", &key(cells, seed, FlowLaw::Free(FREE)), 16);
+        assert!(end.remaps > 2);
     }
 }
 
@@ -270,7 +270,7 @@ fn a_film_that_is_pushed_is_the_f64_one() {
 fn a_film_in_a_flow_in_closed_form_is_the_f64_one() {
     let Some(gpu) = gpu() else { return };
     let stirred = FlowLaw::Prescribed { flow: Flow::Stirred, strength: 1.0, seed: 2 };
-    hold(&gpu, "stirred", &key(24, 1, stirred), 120);
+    hold(&gpu, "stirred", &key(24, 1, stirred), 60);
     let changing = FieldKey {
         flows: vec![
             FlowSegment { from_tick: 0, law: FlowLaw::Free(FREE) },
