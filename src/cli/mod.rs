@@ -6,6 +6,7 @@
 
 mod colour;
 mod failure;
+mod film;
 mod flow;
 mod info;
 mod lut;
@@ -65,6 +66,8 @@ enum Command {
     Sequence(sequence::Arguments),
     /// List the built-in scenes
     Presets(presets::Arguments),
+    /// Write the thickness of a bubble's film, cell by cell
+    Film(film::Arguments),
     /// Report the colour that a film reflects
     Colour(colour::Arguments),
     /// Write the lookup table of film colours, and how to sample it
@@ -175,6 +178,7 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
         Command::Render(arguments) => render::run(&arguments),
         Command::Sequence(arguments) => sequence::run(&arguments),
         Command::Presets(arguments) => presets::run(&arguments),
+        Command::Film(arguments) => film::run(&arguments),
         Command::Colour(arguments) => colour::run(&arguments),
         Command::Lut(arguments) => lut::run(&arguments),
         Command::Transport(arguments) => transport::run(&arguments),

@@ -114,8 +114,7 @@ impl Grid {
 /// Solid angles of film in all cells, in the grid's order.
 #[must_use]
 pub fn film_areas(sphere: CubedSphere, cap: Cap) -> Vec<f64> {
-    let part = |cell| cap.part_of_cell(sphere.cell_direction(cell), sphere.cell_angle());
-    sphere.areas().iter().enumerate().map(|(cell, area)| area * part(cell)).collect()
+    cap.areas(sphere)
 }
 
 /// What each cell of a grid's halo is interpolated from: all beyond edges, then all beyond corners.

@@ -4,7 +4,11 @@ use std::fmt;
 
 use super::{MAX_THICKNESS_NM, MAX_TICKS};
 use crate::{
-    gpu::GpuError, input::LoadError, output::OutputError, scene::SceneError, verify::reference::ReferenceError,
+    gpu::GpuError,
+    input::LoadError,
+    output::OutputError,
+    scene::SceneError,
+    verify::{reference::ReferenceError, reference_film::ReferenceFilmError},
 };
 
 /// Why there is no picture, no film or no colour. Each message is one line that says what is wrong and what to do.
@@ -25,6 +29,9 @@ pub enum Error {
     /// A film cannot be read.
     #[error(transparent)]
     Film(#[from] ReferenceError),
+    /// The film model in f64 does not take a film.
+    #[error(transparent)]
+    ReferenceFilm(#[from] ReferenceFilmError),
     /// A picture without pixels.
     #[error("a picture of {}x{} pixels has none: give at least one pixel each way", .0[0], .0[1])]
     Size([u32; 2]),

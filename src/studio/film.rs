@@ -5,10 +5,13 @@ use glam::DVec3;
 use super::{Error, Studio, moment, shot};
 use crate::{
     input::LoadedScene,
-    physics::sphere::CubedSphere,
-    plan::{BubbleKey, FilmKey, centre_path, film_grids, settle_detail},
+    physics::sphere::{CubedSphere, HaloTable, PaddedField},
+    plan::{BubbleKey, FilmKey, Want, centre_path, film_grids, settle_detail},
     scene::{Camera, Scene},
-    verify::reference::{MovedFilms, ReferenceError, film_sphere, moved_film},
+    verify::{
+        reference::{MovedFilms, ReferenceError, film_sphere, moved_film},
+        reference_film::ReferenceFilm,
+    },
 };
 
 /// One cell of a film.
@@ -32,20 +35,72 @@ pub(super) fn read(
     bubble: usize,
     time_s: f64,
 ) -> Result<Vec<FilmCell>, Error> {
-    let count = loaded.scene.bubbles.len();
-    if bubble >= count {
-        return Err(Error::NoBubble { index: bubble, count });
+    let asked = Asked::new(loaded, bubble, time_s)?;
+    studio.renderer.bring(&asked.want)?;
+    let (grid, films) = match asked.key.film {
+        FilmKey::Uniform(_) => (asked.grid_of_scene()?, MovedFilms::new()),
+        FilmKey::Field(_) => {
+            let (grid, field) = moved_film(&studio.renderer, bubble)?.ok_or(Error::NothingDrawn)?;
+            (grid, MovedFilms::from([(bubble, field)]))
+        }
+    };
+    cells(&asked.key, grid, &films)
+}
+
+/// Thickness of each cell of a bubble's film, moved by the film model in f64 on the CPU; no adapter is needed. It is slow, and takes films of the
+/// scheme `map` with at most 64 cells along an edge. `progress` hears how many more ticks of the film's time are done. The other arguments are those of
+/// [`Studio::film`].
+///
+/// # Errors
+/// Those of [`Studio::film`], and [`Error::ReferenceFilm`] for films that the model does not take.
+pub fn reference_film(
+    scene: &LoadedScene,
+    bubble: usize,
+    time_s: f64,
+    progress: &dyn Fn(u64),
+) -> Result<Vec<FilmCell>, Error> {
+    let asked = Asked::new(scene, bubble, time_s)?;
+    let (grid, films) = match &asked.key.film {
+        FilmKey::Uniform(_) => (asked.grid_of_scene()?, MovedFilms::new()),
+        FilmKey::Field(key) => {
+            let mut film = ReferenceFilm::new(key)?;
+            film.play(key, progress);
+            let (grid, nm) = (film.film().grid(), film.thickness_nm(key));
+            let field = PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| nm[cell]);
+            (grid, MovedFilms::from([(bubble, field)]))
+        }
+    };
+    cells(&asked.key, grid, &films)
+}
+
+/// A bubble's film that is asked for.
+struct Asked {
+    /// What brings it: a small picture of the bubble alone.
+    want: Want,
+    key: BubbleKey,
+    /// Cells along an edge that the scene has for it.
+    cells: u32,
+}
+
+impl Asked {
+    fn new(loaded: &LoadedScene, bubble: usize, time_s: f64) -> Result<Self, Error> {
+        let count = loaded.scene.bubbles.len();
+        if bubble >= count {
+            return Err(Error::NoBubble { index: bubble, count });
+        }
+        let moment = moment(&loaded.scene, time_s)?;
+        let mut close_up = loaded.clone();
+        look_at(&mut close_up.scene, bubble, time_s);
+        let mut want = shot(&close_up, SIZE, moment, false)?;
+        want.picture.draw.bubbles.retain(|key| key.index == bubble);
+        let key = want.picture.draw.bubbles.first().cloned().ok_or(Error::NoFilm { bubble, time_s })?;
+        Ok(Self { want, key, cells: film_grids(&close_up.scene, bubble)[0] })
     }
-    let moment = moment(&loaded.scene, time_s)?;
-    let mut close_up = loaded.clone();
-    look_at(&mut close_up.scene, bubble, time_s);
-    let mut want = shot(&close_up, SIZE, moment, false)?;
-    want.picture.draw.bubbles.retain(|key| key.index == bubble);
-    let key = want.picture.draw.bubbles.first().cloned().ok_or(Error::NoFilm { bubble, time_s })?;
-    studio.renderer.bring(&want)?;
-    let grid_of_scene = film_grids(&close_up.scene, bubble)[0] as usize;
-    let (grid, films) = moved(studio, &key, grid_of_scene)?;
-    cells(&key, grid, &films)
+
+    /// The grid of a film of one thickness, which has no field.
+    fn grid_of_scene(&self) -> Result<CubedSphere, Error> {
+        Ok(CubedSphere::new(self.cells as usize).map_err(ReferenceError::from)?)
+    }
 }
 
 /// Turns the camera to a bubble. How fine its film is stays as the scene's own camera has it.
@@ -56,15 +111,6 @@ fn look_at(scene: &mut Scene, bubble: usize, time_s: f64) {
     let distance_m = 4.0 * 1e-3 * target.radius_mm;
     // From above, where a camera is never below a bath.
     scene.camera = Camera { target_m: centre_m.into(), distance_m, elevation_deg: 45.0, ..Camera::default() };
-}
-
-/// The grid of a film, and the thickness that the device has for it; a film of one thickness has neither there and takes the scene's grid.
-fn moved(studio: &Studio, key: &BubbleKey, grid_of_scene: usize) -> Result<(CubedSphere, MovedFilms), Error> {
-    if let FilmKey::Uniform(_) = key.film {
-        return Ok((CubedSphere::new(grid_of_scene).map_err(ReferenceError::from)?, MovedFilms::new()));
-    }
-    let (grid, field) = moved_film(&studio.renderer, key.index)?.ok_or(Error::NothingDrawn)?;
-    Ok((grid, MovedFilms::from([(key.index, field)])))
 }
 
 /// The film as pictures see it: thinned by evaporation, with its hole, and with nothing beyond its rim.

@@ -19,7 +19,7 @@ mod tests;
 
 pub use colour::{Colour, colour};
 pub use error::Error;
-pub use film::FilmCell;
+pub use film::{FilmCell, reference_film};
 pub use picture::{Picture, Radiance};
 
 use crate::{

@@ -13,7 +13,12 @@ use crate::{
         timing::Recorder,
         transport_case::values,
     },
-    physics::{film::PrescribedFlow, flow::FlowForces, sphere::CubedSphere, transport::Scheme},
+    physics::{
+        film::{PrescribedFlow, model::FreePart},
+        flow::FlowForces,
+        sphere::CubedSphere,
+        transport::Scheme,
+    },
 };
 
 /// How a film is moved by a flow map, from pole to pole.
@@ -72,16 +77,17 @@ impl<'a> FreeFilm<'a> {
         for first in (0..steps).step_by(BATCH as usize) {
             let mut recorder = Recorder::new(self.gpu);
             for _ in first..steps.min(first + BATCH) {
-                let around = Surroundings {
+                let part = FreePart {
+                    from_s: self.seconds,
+                    dt_s: step_s,
                     forces,
-                    air: &self.air,
-                    pushes: &[],
-                    mean_nm,
+                    pushes: Vec::new(),
                     thinned_nm: 0.0,
                     black_nm: 1.0,
                     strain: 0.0,
                 };
-                self.motion.advance(&mut recorder, &mut self.field, &around, (self.seconds, step_s), 1)?;
+                let around = Surroundings { part: &part, air: &self.air, mean_nm };
+                self.motion.advance(&mut recorder, &mut self.field, &around, 1)?;
                 self.seconds += step_s;
             }
             recorder.submit(&Default::default());

@@ -11,6 +11,7 @@ mod picture;
 pub mod played;
 mod random;
 pub mod reference;
+pub mod reference_film;
 mod rims;
 pub mod sorting;
 mod stability;

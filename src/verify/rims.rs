@@ -10,13 +10,12 @@ use super::{
     played::largest,
 };
 use crate::{
-    gpu::{
-        Gpu, GpuError, film::Rules, flow::FlowSolver, grid::film_areas, passes::drain::DrainLaw, readback::Readback,
-        timing::Recorder,
-    },
+    gpu::{Gpu, GpuError, film::Rules, flow::FlowSolver, grid::film_areas, readback::Readback, timing::Recorder},
     physics::{
         film::{
-            Cap, InitialFilm, PrescribedFlow, Regeneration, patch_speed,
+            Cap, InitialFilm, PrescribedFlow, Regeneration,
+            model::DrainLaw,
+            patch_speed,
             properties::{DENSITY, Drainage, VISCOSITY},
         },
         flow::{FlowCase, FlowCaseKind, FlowForces, Mode, fit_oscillation},

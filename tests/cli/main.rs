@@ -3,6 +3,7 @@
 
 mod colour;
 mod files;
+mod film;
 mod lut;
 mod mistakes;
 mod sequence;
@@ -95,8 +96,8 @@ impl Desk {
     }
 }
 
-const COMMANDS: [&str; 10] =
-    ["app", "render", "sequence", "presets", "colour", "lut", "transport", "flow", "verify", "info"];
+const COMMANDS: [&str; 11] =
+    ["app", "render", "sequence", "presets", "film", "colour", "lut", "transport", "flow", "verify", "info"];
 
 #[test]
 fn every_help_has_an_example() {

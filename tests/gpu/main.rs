@@ -8,6 +8,7 @@ mod boundaries;
 mod bursting;
 mod extremes;
 mod far;
+mod film_model;
 mod flow;
 mod fuzz;
 mod history;

@@ -18,33 +18,28 @@ use crate::{
         uniform_buffer::UniformBuffer,
     },
     physics::{
-        film::{FrozenFlow, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Push},
-        flow::{FOLLOWED_TURN, FlowForces, MIN_AIR_SPEED},
+        film::{
+            FrozenFlow, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Push,
+            model::{FreePart, air_rate},
+        },
+        flow::{FOLLOWED_TURN, FlowForces},
     },
 };
 
 /// What a free film is subject to during a step.
 pub struct Surroundings<'a> {
-    /// Gravity, drag and viscosity.
-    pub forces: FlowForces,
+    /// When the step begins, how long it lasts, and what acts on the film.
+    pub part: &'a FreePart,
     /// The air's own motion.
     pub air: &'a PrescribedFlow,
-    /// What pushes the film in this step.
-    pub pushes: &'a [Push],
     /// Mean thickness, which says how well the air drags the film along, nm.
     pub mean_nm: f64,
-    /// What has evaporated from the film, nm.
-    pub thinned_nm: f64,
-    /// Thickness at which evaporation ends, nm.
-    pub black_nm: f64,
-    /// How fast the film may shear and turn for what has pushed it, 1/s.
-    pub strain: f64,
 }
 
 impl Surroundings<'_> {
     /// What the flow takes thicknesses relative to: the mean of what is left, so that logarithms are as exact as the tracer.
     fn reference_nm(&self) -> f64 {
-        (self.mean_nm - self.thinned_nm).max(self.black_nm)
+        self.part.reference_nm(self.mean_nm)
     }
 }
 
@@ -81,21 +76,21 @@ impl FreeMotion {
         &self.solver
     }
 
-    /// Moves a film by one step from a time in seconds, that lasts some ticks.
+    /// Moves a film by one step, that counts as some ticks.
     pub fn advance(
         &mut self,
         recorder: &mut Recorder<'_>,
         field: &mut Field,
         around: &Surroundings<'_>,
-        (from_s, dt_s): (f64, f64),
         ticks: u32,
     ) -> Result<(), GpuError> {
         self.feel(recorder, field, around)?;
-        self.blow(recorder, field, around, from_s)?;
-        self.push(recorder, field, around.pushes)?;
+        self.blow(recorder, field, around)?;
+        self.push(recorder, field, &around.part.pushes)?;
+        let FreePart { dt_s, strain, forces, .. } = *around.part;
         // The flow knows thicknesses relative to a reference.
-        let forces = FlowForces { air_drag: around.forces.air_drag / around.reference_nm(), ..around.forces };
-        if around.strain * dt_s > FOLLOWED_TURN {
+        let forces = FlowForces { air_drag: forces.air_drag / around.reference_nm(), ..forces };
+        if strain * dt_s > FOLLOWED_TURN {
             self.solver.step_corrected(recorder, dt_s, &forces)?;
         } else {
             self.solver.step(recorder, dt_s, &forces)?;
@@ -119,9 +114,9 @@ impl FreeMotion {
             map_cells: field.map_grid().cells,
             tracer_cells: field.tracer_grid().cells,
             reference_nm: reference_nm as f32,
-            offset_nm: (level_nm - around.thinned_nm - reference_nm) as f32,
+            offset_nm: (level_nm - around.part.thinned_nm - reference_nm) as f32,
             level_nm: (level_nm - reference_nm) as f32,
-            black_nm: (around.black_nm - reference_nm) as f32,
+            black_nm: (around.part.black_nm - reference_nm) as f32,
             rim_z,
             inversion,
         };
@@ -141,17 +136,10 @@ impl FreeMotion {
     }
 
     /// Lets the air stir the film.
-    fn blow(
-        &self,
-        recorder: &mut Recorder<'_>,
-        field: &Field,
-        around: &Surroundings<'_>,
-        time_s: f64,
-    ) -> Result<(), GpuError> {
+    fn blow(&self, recorder: &mut Recorder<'_>, field: &Field, around: &Surroundings<'_>) -> Result<(), GpuError> {
         let flow = field.flow_grid();
-        let FlowForces { drag, air_drag, .. } = around.forces;
-        let of_air = air_drag * MIN_AIR_SPEED.sqrt() / around.mean_nm.max(around.black_nm);
-        let gusts = &gusts(recorder.gpu, &around.air.frozen_at(time_s), flow.cells, drag + of_air);
+        let rate = air_rate(&around.part.forces, around.mean_nm.max(around.part.black_nm));
+        let gusts = &gusts(recorder.gpu, &around.air.frozen_at(around.part.from_s), flow.cells, rate);
         let kernel = FlowGusts { gusts, tangents: &flow.tangents, forcing: self.solver.forcing() };
         kernel.flow_gusts(recorder, STEP_FLOW, flow.cell_groups())
     }

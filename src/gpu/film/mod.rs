@@ -35,7 +35,6 @@ use super::{
         correct_error::CorrectError,
         decide_remap::RemapRule,
         diffuse::Diffusion,
-        drain::DrainLaw,
         sample_tracer::{Gathered, Sampling, sample_tracer},
         trace_step::{Step, trace_step},
     },
@@ -44,7 +43,7 @@ use super::{
     timing::{Groups, Recorder, STEP_FIELD},
 };
 use crate::physics::{
-    film::Cap,
+    film::{Cap, model::DrainLaw},
     sphere::{CubedSphere, GridError},
     transport::Scheme,
 };

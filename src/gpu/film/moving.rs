@@ -7,24 +7,12 @@ use crate::{
     gpu::{
         device::{Gpu, GpuError},
         flow::FlowSolver,
-        passes::{
-            blacken::BlackeningLaw, decide_remap::RemapRule, drain::DrainLaw, sample_tracer::Gathered, trace_step::Step,
-        },
+        passes::{decide_remap::RemapRule, sample_tracer::Gathered, trace_step::Step},
         timing::Recorder,
     },
-    physics::{
-        film::{
-            InitialFilm, Patch, PrescribedFlow,
-            properties::{BLACK_FILM_COLLAPSE, BLACK_FILM_ONSET},
-        },
-        flow::{CORRECTED_TURN, FlowForces},
-    },
-    plan::{BLACK_FILM_NM, FieldKey, FlowLaw, FreeFlow, RestingFilm},
+    physics::film::{InitialFilm, PrescribedFlow},
+    plan::{FieldKey, FlowLaw, RestingFilm},
 };
-
-/// Steps of a flow in one step of its film at most: enough for 250 times the gravity of the Earth, or a stir of 10 m/s and 8°, on a bubble
-/// of 5 cm.
-const MOST_PARTS_A_STEP: f64 = 16.0;
 
 /// A film that moves.
 pub struct MovingFilm {
@@ -114,55 +102,23 @@ impl MovingFilm {
         law: &mut LawInForce,
         ticks: Range<u64>,
     ) -> Result<(), GpuError> {
-        let length = u32::try_from(ticks.end - ticks.start).unwrap_or(u32::MAX);
-        let (now, end) = (key.law(ticks.start), ticks.end as f64);
-        self.field.diffuse(recorder.gpu, now.diffusion(), key.tick_s);
-        let FlowLaw::Free(free) = now else {
-            self.field.collapse(recorder.gpu, None);
-            self.field.drain(None);
-            return self.field.advance(recorder, &law.step(key, ticks.start, length.into()), length);
-        };
-        self.field.collapse(recorder.gpu, key.has_black_film(end).then(|| blackening(key, end)));
-        self.field.drain(draining(key, &free, end));
-        self.advance_freely(recorder, key, &free, law, (ticks.start, length))
-    }
-
-    fn advance_freely(
-        &mut self,
-        recorder: &mut Recorder<'_>,
-        key: &FieldKey,
-        free: &FreeFlow,
-        law: &mut LawInForce,
-        (tick, ticks): (u64, u32),
-    ) -> Result<(), GpuError> {
+        let step = key.film_step(&ticks);
+        self.field.diffuse(recorder.gpu, step.law.diffusion(), key.tick_s);
+        self.field.collapse(recorder.gpu, step.blackening);
+        self.field.drain(step.drain);
+        if !matches!(step.law, FlowLaw::Free(_)) {
+            return self.field.advance(recorder, &law.step(key, ticks.start, step.ticks.into()), step.ticks);
+        }
         let Self { field, motion, .. } = self;
         let motion = match motion {
             Some(motion) => motion,
             None => motion.insert(FreeMotion::new(recorder, field)?),
         };
-        // Where even a tick is longer than the flow's steps may be, it is several; the film counts its ticks once.
-        let end = tick as f64 + f64::from(ticks);
-        let felt = free.accelerated(key.acceleration_during(tick as f64, end));
-        let strain = key.strain_until(end);
-        let longest_s = felt.longest_step_s().min(CORRECTED_TURN / strain);
-        let parts = (f64::from(ticks) * key.tick_s / longest_s).ceil().clamp(1.0, MOST_PARTS_A_STEP);
-        let dt_ticks = f64::from(ticks) / parts;
-        // Beyond so many steps gravity is felt as far as they can follow it: such films are sorted within a tick anyway.
-        let followed = (felt.longest_step_s() / (dt_ticks * key.tick_s)).min(1.0).powi(2);
-        for part in 0..parts as u32 {
-            let now = tick as f64 + f64::from(part) * dt_ticks;
-            let forces = free.accelerated(key.acceleration_during(now, now + dt_ticks)).forces;
-            let around = Surroundings {
-                forces: FlowForces { gravity: followed * forces.gravity, ..forces },
-                air: law.flow(key, tick),
-                pushes: &key.pushes_during(now, now + dt_ticks),
-                mean_nm: field.mean(),
-                thinned_nm: key.thinned_nm(now + 0.5 * dt_ticks),
-                black_nm: BLACK_FILM_NM,
-                strain,
-            };
-            let counted = if part == 0 { ticks } else { 0 };
-            motion.advance(recorder, field, &around, (now * key.tick_s, dt_ticks * key.tick_s), counted)?;
+        let air = law.flow(key, ticks.start);
+        for (k, part) in step.parts.iter().enumerate() {
+            let around = Surroundings { part, air, mean_nm: field.mean() };
+            // The film counts its ticks once.
+            motion.advance(recorder, field, &around, if k == 0 { step.ticks } else { 0 })?;
         }
         Ok(())
     }
@@ -231,43 +187,6 @@ pub fn rules(key: &FieldKey) -> Rules {
         flow_cells: key.flow_cells,
         cap: key.cap(),
         drop_rad: key.drop_rad(),
-    }
-}
-
-/// The longest time between two remaps of a film that regenerates: patches are seen when they have risen by a part of their size.
-const REGENERATION_S: f64 = 0.1;
-/// Angle from the lowest point of a film within which what drains is in the drop, where nothing else says how large that is: 5°.
-const DROP_RAD: f64 = 0.0873;
-
-/// How film leaves at its rim until a time in ticks, if it does, and how often it must.
-fn draining(key: &FieldKey, free: &FreeFlow, ticks: f64) -> Option<(DrainLaw, u32)> {
-    if key.regeneration().is_none() && free.drainage == 0.0 {
-        return None;
-    }
-    let most = key.regeneration().map_or(f64::from(key.remap_ticks), |_| REGENERATION_S / key.tick_s).max(1.0);
-    // A remap that is due comes with a step's end.
-    let window = most + free.ticks_a_step(key.tick_s) as f64;
-    let patches = key.patches_during(ticks - window, ticks);
-    let aged = |patch: Patch| (patch.middle, patch.thickness, (ticks - patch.time_s / key.tick_s).max(0.0) as u32);
-    let law = DrainLaw {
-        gravity: free.forces.gravity,
-        flux: free.drainage * key.tick_s,
-        thinned_nm: key.thinned_nm(ticks),
-        black_nm: BLACK_FILM_NM,
-        drop_rad: if key.cap().is_some() { 0.0 } else { key.drop_rad().unwrap_or(DROP_RAD) },
-        patch_radius: key.regeneration().map_or(1.0, |regeneration| regeneration.radius),
-        patches: patches.into_iter().map(aged).collect(),
-    };
-    Some((law, most as u32))
-}
-
-/// How the film collapses at a time in ticks.
-fn blackening(key: &FieldKey, ticks: f64) -> BlackeningLaw {
-    BlackeningLaw {
-        thinned_nm: key.thinned_nm(ticks),
-        black_nm: BLACK_FILM_NM,
-        onset_nm: 1e9 * BLACK_FILM_ONSET,
-        rate: BLACK_FILM_COLLAPSE * key.tick_s,
     }
 }
 

@@ -5,16 +5,16 @@ use crate::gpu::{
     control::Control,
     device::{Gpu, GpuError},
     passes::{
-        blacken::{BlackFilm, BlackeningLaw},
+        blacken::BlackFilm,
         conserve::{Excess, Sum, conserve},
         decide_remap::{RemapRule, decide_remap},
         diffuse::Diffusion,
-        drain::DrainLaw,
         reset_map::ResetMap,
         settle_tracer::SettleTracer,
     },
     timing::{Groups, Recorder, STEP_FIELD},
 };
+use crate::physics::film::model::{BlackeningLaw, DrainLaw};
 
 impl Field {
     /// From now on the thickness spreads by so many rad²/s, in ticks of a length in seconds. Schemes without a map do not spread it.
@@ -41,13 +41,11 @@ impl Field {
 
     /// When the map is remapped.
     pub(super) fn remap_rule(&self) -> RemapRule {
-        let diffusing = self.diffusion.as_ref().map_or(u32::MAX, Diffusion::latest_ticks);
-        let draining = self.drain.as_ref().map_or(u32::MAX, |(_, most)| *most);
+        let diffusing = self.diffusion.as_ref().map(Diffusion::latest_ticks);
+        let draining = self.drain.as_ref().map(|(_, most)| *most);
+        let rule = self.rules.remap.no_later_than([diffusing, draining]);
         // Errors count in cells of the film, whatever those of the map.
-        RemapRule {
-            error_limit_cells: self.rules.remap.error_limit_cells / self.rules.map_coarsening.max(1) as f32,
-            latest_ticks: self.rules.remap.latest_ticks.min(diffusing).min(draining),
-        }
+        RemapRule { error_limit_cells: rule.error_limit_cells / self.rules.map_coarsening.max(1) as f32, ..rule }
     }
 
     /// Decides on a remap, and lets what it is due for happen: diffusion, drainage, black film.

@@ -10,12 +10,9 @@ use crate::{
         passes::flow_measure::FlowMeasures,
         readback::Readback,
     },
+    physics::film::rests,
     plan::RestingFilm,
 };
-
-/// Answers for as long as which a speed may go on to grow as it did, and still not reach the limit: a minute. Rounding lets the speed of a film
-/// at rest grow a little for a while; a film that is about to turn over grows much faster.
-const AHEAD: i32 = 30;
 
 /// What is known of a film's calming down.
 #[derive(Default)]
@@ -57,8 +54,7 @@ impl RestWatch {
         limit: f64,
     ) -> Result<(), GpuError> {
         if let Some(speed) = self.answer(gpu)? {
-            let stays_below = |before: f64| speed * (speed / before).max(1.0).powi(AHEAD) < limit;
-            self.rest = (speed == 0.0 || self.before.is_some_and(stays_below)).then_some(rest);
+            self.rest = rests(speed, self.before, limit).then_some(rest);
             self.before = Some(speed);
         }
         self.asked = Some(Speed::OnItsWay(Readback::of_buffer(gpu, flow.measures(), size_of::<FlowMeasures>() as u64)));

@@ -7,9 +7,7 @@ use crate::gpu::{
     timing::{Recorder, STEP_FLOW},
     uniform_buffer::UniformBuffer,
 };
-
-/// Cells from a drop's rim to where nothing flows, at least: what the flow's differences need.
-const LEAST_CELLS: f64 = 3.0;
+use crate::physics::flow::PinnedRegion;
 
 /// What holds the film fast.
 pub(super) struct HeldDrop {
@@ -19,13 +17,8 @@ pub(super) struct HeldDrop {
 impl HeldDrop {
     /// A drop of an angular radius in radians.
     pub(super) fn new(gpu: &Gpu, grid: &FlowGrid, radius: f64) -> Self {
-        let width = (0.5 * radius).max(LEAST_CELLS * grid.sphere.cell_angle());
-        let uniform = HoldUniform {
-            cells: grid.sphere.n() as u32,
-            rim: radius.max(width) as f32,
-            inner: (radius - width).max(0.0) as f32,
-            padding: 0,
-        };
+        let PinnedRegion { outer, inner } = PinnedRegion::new(radius, grid.sphere.cell_angle());
+        let uniform = HoldUniform { cells: grid.sphere.n() as u32, rim: outer as f32, inner: inner as f32, padding: 0 };
         Self { uniform: gpu.uniform("hold", &uniform) }
     }
 

@@ -9,6 +9,7 @@ use crate::gpu::{
     timing::{Recorder, STEP_FIELD},
     uniform_buffer::UniformBuffer,
 };
+use crate::physics::film::model::BlackeningLaw;
 
 shader_struct! {
     /// See `shaders/pass/blacken.wgsl`.
@@ -67,19 +68,6 @@ kernels! {
         @5 means: Read<[f32]>;
     }
     compute gather;
-}
-
-/// How film collapses, now.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BlackeningLaw {
-    /// What has evaporated from the film, nm.
-    pub thinned_nm: f64,
-    /// Thickness of black film, at which evaporation ends, nm.
-    pub black_nm: f64,
-    /// Thickness below which film collapses, nm.
-    pub onset_nm: f64,
-    /// Rate at which the difference to black film decays, 1/tick.
-    pub rate: f64,
 }
 
 /// The collapse of a film, done at remaps.

@@ -9,32 +9,7 @@ use crate::gpu::{
     timing::Recorder,
 };
 
-/// When a map is remapped.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RemapRule {
-    /// Error of interpolating the map, in cells, beyond which it is.
-    pub error_limit_cells: f32,
-    /// The most ticks between two remaps.
-    pub latest_ticks: u32,
-}
-
-impl RemapRule {
-    /// Error at which going on costs as much as the lookups of a remap.
-    pub const ERROR_LIMIT_CELLS: f32 = 0.05;
-
-    /// Ticks from one decision to the next.
-    #[must_use]
-    pub fn decision_ticks(self) -> u32 {
-        (self.latest_ticks / 8).max(1)
-    }
-
-    /// Whether a remap is due `ticks` ticks after the last decision, whatever the map has become. The next decision comes as long after this
-    /// one, which would be too late.
-    #[must_use]
-    pub fn is_due_after(self, ticks: u32) -> bool {
-        ticks > self.latest_ticks / 2
-    }
-}
+pub use crate::physics::film::model::RemapRule;
 
 shader_struct! {
     /// See `shaders/pass/decide_remap.wgsl`.
@@ -114,20 +89,4 @@ pub fn decide_remap(
         MeasureDistortion { decide, control: block, map }.measure_distortion(recorder, name, groups)?;
     }
     DecideRemap { decide, control: block, arguments }.decide_remap(recorder, name, [1; 3])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_remap_is_due_if_the_next_decision_comes_too_late_however_soon_the_last_remap_was() {
-        for latest_ticks in 1..40 {
-            let rule = RemapRule { error_limit_cells: 1.0, latest_ticks };
-            for ticks in 1..40 {
-                // What `decide_remap.wgsl` finds just after a remap, when least is due.
-                assert_eq!(rule.is_due_after(ticks), ticks + ticks > latest_ticks, "{ticks} of {latest_ticks}");
-            }
-        }
-    }
 }

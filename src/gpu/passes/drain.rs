@@ -1,7 +1,6 @@
 //! Lets film leave at its rim: drainage, and thin patches in place of thicker film.
 
 use bytemuck::Zeroable;
-use glam::DVec3;
 
 use crate::{
     gpu::{
@@ -11,7 +10,7 @@ use crate::{
         kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
         timing::{Recorder, STEP_FIELD},
     },
-    plan::MAX_RIM_PATCHES,
+    physics::film::model::{DrainLaw, MAX_RIM_PATCHES},
 };
 
 shader_struct! {
@@ -69,25 +68,6 @@ kernels! {
         @4 drained: ReadWrite<[f32]>;
     }
     compute drain_film;
-}
-
-/// How film leaves at its rim, now.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct DrainLaw {
-    /// Gravity over the radius, 1/s².
-    pub gravity: DVec3,
-    /// Times it and the cube of a thickness in nm, the flux of drainage in a tick, nm rad.
-    pub flux: f64,
-    /// What has evaporated, nm.
-    pub thinned_nm: f64,
-    /// Thickness of black film, nm.
-    pub black_nm: f64,
-    /// Angle from the lowest point within which what drains is in the drop, radians; 0 where film drains over a rim.
-    pub drop_rad: f64,
-    /// Radius of a patch, radians.
-    pub patch_radius: f64,
-    /// Patches of the last ticks: middle, thickness over that around, and ticks since they left.
-    pub patches: Vec<(DVec3, f64, u32)>,
 }
 
 impl DrainLaw {

@@ -137,6 +137,22 @@ impl PrescribedFlow {
         x.cross(waves.sum::<DVec3>() + vortices.sum::<DVec3>())
     }
 
+    /// Vorticity at unit vector `x` and time `t` in seconds, 1/s: the Laplacian on the sphere of the stream function, which is that in space less
+    /// the second derivative along x and twice the first.
+    pub fn vorticity(&self, x: DVec3, t: f64) -> f64 {
+        let waves = self.waves.iter().map(|wave| {
+            let (along, angle) = (wave.k.dot(x), wave.angle(x, t));
+            -wave.amplitude_at(t)
+                * ((wave.k.length_squared() - along * along) * angle.sin() + 2.0 * along * angle.cos())
+        });
+        let vortices = self.vortices.iter().map(|vortex| {
+            let (center, kappa) = (vortex.center_at(t), vortex.sharpness);
+            let along = center.dot(x);
+            vortex.value(x, center, t) * kappa * (kappa * (1.0 - along * along) - 2.0 * along)
+        });
+        waves.sum::<f64>() + vortices.sum::<f64>()
+    }
+
     /// The flow at time `t` in seconds for upload; phases are reduced first, so that f32 serves at any time.
     pub fn frozen_at(&self, t: f64) -> FrozenFlow {
         FrozenFlow {
@@ -252,6 +268,22 @@ mod tests {
             let gradient = |e: DVec3| (psi(x + d * e) - psi(x - d * e)) / (2.0 * d);
             let turned = x.cross(gradient(e1) * e1 + gradient(e2) * e2);
             assert!(turned.distance(flow.velocity(x, 0.6)) < 1e-6);
+        }
+    }
+
+    #[test]
+    fn vorticity_is_the_curl_of_the_velocity() {
+        let flow = PrescribedFlow::stirred(4, 1.0);
+        let d = 1e-4;
+        for x in directions() {
+            let (e1, e2) = x.any_orthonormal_pair();
+            let across = |e: DVec3, along: DVec3| {
+                let at = |s: f64| flow.velocity((x + s * e).normalize(), 0.6).dot(along);
+                (at(d) - at(-d)) / (2.0 * d)
+            };
+            let curl = (across(e1, e2) - across(e2, e1)) * x.dot(e1.cross(e2));
+            // Truncation d²/6 times third derivatives near 1e3 for vortices of 5°.
+            assert!((curl - flow.vorticity(x, 0.6)).abs() < 2e-5, "{x}");
         }
     }
 

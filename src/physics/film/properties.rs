@@ -1,7 +1,7 @@
-//! What a soap film is made of, and what follows: viscosity, drag, evaporation, drainage, the pressures in black film, and how it bursts.
+//! What a soap film is made of, and what follows: viscosity, drag, evaporation, drainage, black film, and how it bursts.
 //! All in SI units; h is the total thickness.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 /// Density of the liquid, kg/m³: water's, which soap hardly changes.
 pub const DENSITY: f64 = 1000.0;
@@ -11,8 +11,6 @@ pub const SURFACE_TENSION: f64 = 0.025;
 pub const VISCOSITY: f64 = 1.1e-3;
 /// Surface shear viscosity of a mobile surfactant layer, Pa s m; layers in use have 1e-8 to 1e-5.
 pub const SURFACE_VISCOSITY: f64 = 3e-8;
-/// Hamaker constant of water between air, J (Israelachvili 2011, "Intermolecular and Surface Forces", 3 to 5e-20).
-pub const HAMAKER: f64 = 4e-20;
 /// Density of air at 25 °C, kg/m³.
 pub const AIR_DENSITY: f64 = 1.184;
 /// Kinematic viscosity of air at 25 °C, m²/s.
@@ -23,6 +21,9 @@ pub const GRAVITY: f64 = 9.80665;
 pub const VAPOUR_DIFFUSIVITY: f64 = 2.5e-5;
 /// Density of saturated water vapour at 20 °C, kg/m³.
 pub const SATURATED_VAPOUR: f64 = 0.0173;
+/// Thickness of black film in nm, at which evaporation ends. Common black films are 10 to 30 nm thick, where the repulsion of the charged surfaces
+/// meets van der Waals' attraction and the suction of the rim (Israelachvili 2011, "Intermolecular and Surface Forces").
+pub const BLACK_FILM_NM: f64 = 10.0;
 /// Thickness below which two surfaces that only attract each other collapse to black film, m (40 to 60 nm).
 pub const BLACK_FILM_ONSET: f64 = 50e-9;
 /// Rate at which film thinner than that collapses, 1/s. In real films black spots spread by suction at their rim, within a fraction of a
@@ -126,47 +127,6 @@ fn bisect(low: f64, high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     (0..60).fold((low, high), halve).1
 }
 
-/// Disjoining pressure of a film, Pa: `B e^(−κh) − A/(6π h³)`, the repulsion of charged surfaces less van der Waals' attraction (Derjaguin,
-/// Landau, Verwey & Overbeek; Israelachvili 2011).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Disjoining {
-    /// B in Pa.
-    pub repulsion_pa: f64,
-    /// 1/κ, the Debye length, m.
-    pub debye_m: f64,
-    /// A in J.
-    pub hamaker_j: f64,
-}
-
-impl Default for Disjoining {
-    /// An ionic soap at 0.01 mol/l: the Debye length is 0.304 nm/√c, and B = 64 kT n tanh²(zeψ/4kT) ≈ 1e6 Pa for surfaces near 100 mV.
-    fn default() -> Self {
-        Self { repulsion_pa: 1e6, debye_m: 3.04e-9, hamaker_j: HAMAKER }
-    }
-}
-
-impl Disjoining {
-    /// The pressure at a thickness, Pa; positive pushes the surfaces apart.
-    #[must_use]
-    pub fn pressure_pa(&self, thickness_m: f64) -> f64 {
-        self.repulsion_pa * (-thickness_m / self.debye_m).exp() - self.hamaker_j / (6.0 * PI * thickness_m.powi(3))
-    }
-
-    /// Thickness at which common black film rests against a suction, m: where the pressure, falling from its barrier, meets it. The
-    /// barrier's own place for a suction beyond it.
-    #[must_use]
-    pub fn black_film_m(&self, suction_pa: f64) -> f64 {
-        let nanometres = |k: u32| 1e-9 * (1.0 + 0.05 * f64::from(k));
-        let (mut barrier, mut height) = (nanometres(0), f64::MIN);
-        for thickness in (0..1000).map(nanometres) {
-            if self.pressure_pa(thickness) > height {
-                (barrier, height) = (thickness, self.pressure_pa(thickness));
-            }
-        }
-        if height <= suction_pa { barrier } else { bisect(barrier, 100e-9, |h| self.pressure_pa(h) < suction_pa) }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -224,17 +184,5 @@ mod tests {
         let near = film.thickness_m(1e-3, 2e4);
         assert!((near / film.apex_m(2e4) - 1.0).abs() < 1e-5, "{near:e} {:e}", film.apex_m(2e4));
         assert!(film.thickness_m(0.5, 2e4) > near, "thicker below");
-    }
-
-    #[test]
-    fn black_film_rests_between_10_and_30_nm() {
-        let film = Disjoining::default();
-        for suction in [10.0, 100.0, 1000.0] {
-            let rest = film.black_film_m(suction);
-            assert!((10e-9..35e-9).contains(&rest), "{rest:e}");
-            assert!((film.pressure_pa(rest) / suction - 1.0).abs() < 1e-6);
-        }
-        assert!(film.pressure_pa(BLACK_FILM_ONSET) < 0.0, "thicker film attracts itself");
-        assert!(film.black_film_m(1e9) < 5e-9);
     }
 }

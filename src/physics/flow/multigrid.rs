@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::operators::{Order, laplacian};
+use super::operators::{CellMetric, Order, laplacian};
 use crate::physics::sphere::{CubedSphere, HaloTable, PaddedField};
 
 /// Sweeps on each grid but the coarsest.
@@ -182,8 +182,8 @@ impl Level {
 
     /// The solution for right sides whose mean does not count.
     fn solve(&self, f: &[f64], shift: Shift) -> PaddedField<f64> {
-        let areas = self.grid.areas();
-        let mean = f.iter().zip(&areas).map(|(f, area)| f * area).sum::<f64>() / (4.0 * PI);
+        let areas: Vec<f64> = (0..f.len()).map(|cell| CellMetric::new(self.grid, cell).area_density()).collect();
+        let mean = f.iter().zip(&areas).map(|(f, area)| f * area).sum::<f64>() / areas.iter().sum::<f64>();
         let f: Vec<f64> = f.iter().map(|f| f - mean).collect();
         let start = self.field(|_| 0.0);
         coarsest_weights(self.grid.n(), shift).iter().fold(start, |psi, weight| self.sweep(&psi, &f, shift, *weight))

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use glam::DVec3;
 
-use crate::physics::sphere::{CubedSphere, PANELS, PaddedField};
+use crate::physics::sphere::{CubedSphere, HALO, PANELS, PaddedField};
 
 /// Where a cell is in its panel.
 #[derive(Clone, Copy, Debug)]
@@ -31,9 +31,21 @@ pub enum Order {
 impl CellMetric {
     /// The metric at a cell, given its place in the order panel, j, i.
     pub fn new(grid: CubedSphere, cell: usize) -> Self {
-        let (panel, i, j) = grid.cell(cell);
-        let [x, y] = [i, j].map(|k| ((k as f64 + 0.5) * grid.cell_angle() - FRAC_PI_4).tan());
-        Self { panel, x, y }
+        Self::at_place(grid, place_of(grid, cell))
+    }
+
+    /// The metric at a place of padded storage: the halo continues a panel's own coordinates.
+    pub fn at_place(grid: CubedSphere, place: usize) -> Self {
+        let width = grid.padded_width();
+        let tangent = |k: usize| ((k as f64 - HALO as f64 + 0.5) * grid.cell_angle() - FRAC_PI_4).tan();
+        Self { panel: place / (width * width), x: tangent(place % width), y: tangent(place / width % width) }
+    }
+
+    /// Solid angle of the cell over the square of the cell angle, by the metric at its centre: `A B / δ³`.
+    pub fn area_density(self) -> f64 {
+        let [a, b] = [1.0 + self.x * self.x, 1.0 + self.y * self.y];
+        let delta2 = a + self.y * self.y;
+        a * b / (delta2 * delta2.sqrt())
     }
 
     /// Factors of ψ_αα, ψ_αβ and ψ_ββ in the Laplacian.
@@ -52,16 +64,21 @@ impl CellMetric {
     }
 }
 
-/// The values around a cell: `at(di, dj)` is that of the cell so many steps along i and j away.
-fn around(field: &PaddedField<f64>, cell: usize) -> impl Fn(isize, isize) -> f64 + '_ {
-    let grid = field.grid();
+/// The place of a cell in padded storage.
+fn place_of(grid: CubedSphere, cell: usize) -> usize {
     let (panel, i, j) = grid.cell(cell);
-    move |di, dj| field.padded()[grid.padded_index(panel, i as isize + di, j as isize + dj)]
+    grid.padded_index(panel, i as isize, j as isize)
+}
+
+/// The values around a place of padded storage: `at(di, dj)` is that of the cell so many steps along i and j away.
+fn around(field: &PaddedField<f64>, place: usize) -> impl Fn(isize, isize) -> f64 + '_ {
+    let width = field.grid().padded_width() as isize;
+    move |di, dj| field.padded()[place.wrapping_add_signed(dj * width + di)]
 }
 
 /// `n × ∇ψ` at the centre of a cell, fourth order: the velocity, in rad/s, if ψ is the stream function.
 pub fn turned_gradient(psi: &PaddedField<f64>, cell: usize) -> DVec3 {
-    let at = around(psi, cell);
+    let at = around(psi, place_of(psi.grid(), cell));
     let slope =
         |at: &dyn Fn(isize) -> f64| (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * psi.grid().cell_angle());
     CellMetric::new(psi.grid(), cell).turned_gradient(slope(&|k| at(k, 0)), slope(&|k| at(0, k)))
@@ -69,8 +86,13 @@ pub fn turned_gradient(psi: &PaddedField<f64>, cell: usize) -> DVec3 {
 
 /// The Laplacian at the centre of a cell, and the factor of the cell's own value in it, which is negative.
 pub fn laplacian(psi: &PaddedField<f64>, cell: usize, order: Order) -> (f64, f64) {
-    let at = around(psi, cell);
-    let [aa, ab, bb] = CellMetric::new(psi.grid(), cell).laplacian_factors();
+    laplacian_at(psi, place_of(psi.grid(), cell), order)
+}
+
+/// [`laplacian`] at a place of padded storage, around which as many cells must be stored as the order reads.
+pub fn laplacian_at(psi: &PaddedField<f64>, place: usize, order: Order) -> (f64, f64) {
+    let at = around(psi, place);
+    let [aa, ab, bb] = CellMetric::at_place(psi.grid(), place).laplacian_factors();
     let (by_aa, by_ab, by_bb, own) = match order {
         Order::Second => (
             at(1, 0) + at(-1, 0) - 2.0 * at(0, 0),
@@ -128,6 +150,14 @@ mod tests {
         assert!(coarse[1] / fine[1] > 5.0 && fine[1] < 1e-4, "{coarse:?} {fine:?}");
         let [coarse, fine] = [32, 64].map(|n| errors(n, Order::Second)[0]);
         assert!(coarse / fine > 3.5, "{coarse} {fine}");
+    }
+
+    #[test]
+    fn the_metric_measures_cells() {
+        let grid = CubedSphere::new(64).unwrap();
+        let density = |cell| CellMetric::new(grid, cell).area_density() * grid.cell_angle().powi(2);
+        let worst = grid.areas().into_iter().enumerate().map(|(cell, area)| (density(cell) / area - 1.0).abs());
+        assert!(worst.fold(0.0, f64::max) < 2e-4, "midpoint rule, error O(D²)");
     }
 
     #[test]

@@ -17,55 +17,26 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::{multigrid::Multigrid, operators::turned_gradient};
-#[cfg(doc)]
-use crate::physics::film::properties::air_drag;
-use crate::physics::sphere::{CubedSphere, FieldValue, HaloTable, PaddedField};
+use super::{
+    force::{FlowForces, HalfStep, VISCOUS_STAGE},
+    mirror_vorticity::mirrored,
+    multigrid::Multigrid,
+    operators::{CellMetric, turned_gradient},
+    pinned_region::PinnedRegion,
+    trace::advected,
+};
+use crate::physics::sphere::{Cap, CubedSphere, FieldValue, HaloTable, PaddedField};
 
 /// Cycles that find ψ, each of which leaves less than a fifth of the residual.
 pub const POISSON_CYCLES: usize = 2;
 /// Cycles of each of the two viscous solves.
 pub const VISCOUS_CYCLES: usize = 1;
-/// Length of each of the two stages of the viscous rule, over the step's: 1 − 1/√2.
-pub const VISCOUS_STAGE: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Turn of an eddy in a step, in radians, up to which the extrapolated velocity is good enough: vortex pairs of 6° to 25° on 32 cells gain at
 /// most 6e-4 of their energy at 0.5 in steps taken once, but up to 1.5 % at 1 and 7 % at 2.
 pub const FOLLOWED_TURN: f64 = 0.5;
 /// The same for steps that are tried first. The same pairs gain nothing at any turn up to 4, but lose: in 24 steps 5 to 13 % at 2 and 25 to
 /// 40 % at 4, part of it by interpolation. At 8 some gain again.
 pub const CORRECTED_TURN: f64 = 4.0;
-
-/// ν dt beyond which nothing is left but solid rotation, in rad²: more would only magnify the discretisation's error in that.
-const MAX_VISCOUS_STEP: f64 = 2.0;
-
-/// [`FlowForces::air_drag`] of air at 25 °C: α = ρ_a √(ν_a U/R) / (ρ h/2) is `AIR_DRAG √|u| / h` with |u| = U/R in rad/s and h in nm,
-/// whatever the radius. See [`air_drag`].
-pub const AIR_DRAG: f64 = 9359.0;
-/// Slowest speed against the air that drag is reckoned with, rad/s: air is never quite at rest.
-pub const MIN_AIR_SPEED: f64 = 0.02;
-
-/// What acts on the film during a step, on the unit sphere.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FlowForces {
-    /// Gravity, less the bubble's acceleration, over the radius: 1/s².
-    pub gravity: DVec3,
-    /// Drag that is the same everywhere, 1/s.
-    pub drag: f64,
-    /// Drag of air over the root of the speed, times the thickness: nm/√s. See [`AIR_DRAG`]; 0 for none. If it is not 0, ln h must be
-    /// that of the thickness in nm.
-    pub air_drag: f64,
-    /// Kinematic viscosity over R², 1/s.
-    pub viscosity: f64,
-}
-
-impl FlowForces {
-    /// ν dt γ of one viscous stage, or nothing if viscosity does nothing.
-    #[must_use]
-    pub fn viscous_stage(&self, dt: f64) -> Option<f64> {
-        let step = (self.viscosity * dt).min(MAX_VISCOUS_STEP);
-        (step > 0.0).then_some(VISCOUS_STAGE * step)
-    }
-}
 
 /// The longest step in seconds that is stable under gravity `g` (over the radius, 1/s²) where ln h changes by at most `slope` a radian: the
 /// leapfrog's 2/σ for the fastest wave of buoyancy. Take shorter ones where a tick is longer.
@@ -83,17 +54,39 @@ pub struct FlowSolver {
     psi_before: Option<PaddedField<f64>>,
     /// What stirs the film besides, 1/s².
     forcing: PaddedField<f64>,
+    /// Where the film ends, if anywhere.
+    cap: Option<Cap>,
+    /// What holds it fast, if anything does.
+    pinned: Option<PinnedRegion>,
 }
 
 impl FlowSolver {
     /// A film whose vorticity, of mean zero, is given in 1/s at each cell.
     pub fn new(grid: CubedSphere, zeta: impl Fn(DVec3) -> f64 + Sync) -> Self {
+        Self::bounded(grid, None, None, zeta)
+    }
+
+    /// The same of a film that may end at the rim of a cap, across which nothing flows, and that a drop at its lowest point may hold fast, by its
+    /// angular radius in radians.
+    pub fn bounded(
+        grid: CubedSphere,
+        cap: Option<Cap>,
+        drop_rad: Option<f64>,
+        zeta: impl Fn(DVec3) -> f64 + Sync,
+    ) -> Self {
         let multigrid = Multigrid::new(grid);
         let zeta = PaddedField::sample_cells(grid, multigrid.halo(), zeta);
         let psi = PaddedField::from_cells(grid, multigrid.halo(), |_| 0.0);
-        let mut solver = Self { multigrid, zeta, forcing: psi.clone(), psi, psi_before: None };
+        let pinned = drop_rad.map(|radius| PinnedRegion::new(radius, grid.cell_angle()));
+        let mut solver = Self { multigrid, zeta, forcing: psi.clone(), psi, psi_before: None, cap, pinned };
+        solver.zeta = solver.reflected(solver.zeta.clone());
         solver.psi = solver.stream_function(solver.psi.clone(), &solver.zeta, Self::FIRST_CYCLES);
         solver
+    }
+
+    /// Vorticity with its image beyond the rim, if there is one (F9).
+    fn reflected(&self, zeta: PaddedField<f64>) -> PaddedField<f64> {
+        self.cap.map_or_else(|| zeta.clone(), |cap| mirrored(&zeta, cap, self.halo()))
     }
 
     /// Cycles that find the first ψ, from nothing.
@@ -168,10 +161,10 @@ impl FlowSolver {
         before: &PaddedField<f64>,
     ) -> (PaddedField<f64>, PaddedField<f64>) {
         let (moved, added) = self.moved(dt, forces, log_thickness, before);
-        let zeta = self.without_mean(&self.viscous(moved, &added, dt, forces));
+        let zeta = self.reflected(self.viscous(moved, &added, dt, forces));
         let guess = combined(self.halo(), &[(2.0, &self.psi), (-1.0, before)]);
         let psi = self.stream_function(guess, &zeta, POISSON_CYCLES);
-        (zeta, psi)
+        self.pinned.map_or((zeta.clone(), psi.clone()), |region| region.stopped(&zeta, &psi, self.halo()))
     }
 
     /// Vorticity advected and slowed by drag, and what buoyancy and stirring add to it.
@@ -184,7 +177,9 @@ impl FlowSolver {
     ) -> (PaddedField<f64>, PaddedField<f64>) {
         let psi = combined(self.halo(), &[(1.5, &self.psi), (-0.5, before)]);
         let velocity = self.field(|cell| turned_gradient(&psi, cell));
-        let (zeta, at, thickness) = (self.zeta.cells(), velocity.cells(), log_thickness.cells());
+        // Here, and not after the step, because the sum that finds it then finds what else must be known of the whole film.
+        let zeta = self.without_mean(&self.zeta).cells();
+        let (at, thickness) = (velocity.cells(), log_thickness.cells());
         let forcing = self.forcing.cells();
         let half_step = |cell: usize| {
             let turned = turned_gradient(log_thickness, cell);
@@ -218,8 +213,8 @@ impl FlowSolver {
             (0..VISCOUS_CYCLES).fold(guess, |guess, _| self.multigrid.cycle(&guess, &f, shift))
         };
         let root = std::f64::consts::SQRT_2;
-        let first = sum(&[(1.0 + root, &zeta), (1.0 / root, added)]);
-        let second = sum(&[(-root, &zeta), (VISCOUS_STAGE, added)]);
+        let first = self.reflected(sum(&[(1.0 + root, &zeta), (1.0 / root, added)]));
+        let second = self.reflected(sum(&[(-root, &zeta), (VISCOUS_STAGE, added)]));
         let once = solve(&first, first.clone());
         // What the first stage took away, the second nearly will of its part.
         let guess = sum(&[(root, &once), (1.0, &second), (1.0 - root, &first)]);
@@ -233,39 +228,14 @@ impl FlowSolver {
     }
 
     fn without_mean(&self, field: &PaddedField<f64>) -> PaddedField<f64> {
-        let (values, areas) = (field.cells(), field.grid().areas());
-        let integral: f64 = values.iter().zip(&areas).map(|(value, area)| value * area).sum();
+        let (grid, values) = (field.grid(), field.cells());
+        let area = |cell| CellMetric::new(grid, cell).area_density() * grid.cell_angle().powi(2);
+        let integral: f64 = values.iter().enumerate().map(|(cell, value)| value * area(cell)).sum();
         self.field(|cell| values[cell] - integral / (4.0 * std::f64::consts::PI))
     }
 
     fn field<T: FieldValue>(&self, value: impl Fn(usize) -> T + Sync) -> PaddedField<T> {
         PaddedField::from_cells(self.multigrid.grid(), self.multigrid.halo(), value)
-    }
-}
-
-/// What drag and buoyancy do to a cell's vorticity in half a step: exactly what they do under forces that hold still, however strong.
-struct HalfStep {
-    /// What drag leaves.
-    decay: f64,
-    /// What is added, 1/s.
-    push: f64,
-}
-
-impl HalfStep {
-    /// For a cell's velocity, its ln h with `n × ∇ ln h`, and what stirs it besides. The air slows thin film down more than thick, which
-    /// makes vorticity where liquid flows along an edge: of `−n·curl(αu)` that is `n·(u × ∇α) = α_h u·(n × ∇ ln h)`, for α_h goes as
-    /// 1/h.
-    fn new(forces: &FlowForces, dt: f64, u: DVec3, (log_thickness, turned): (f64, DVec3), forcing: f64) -> Self {
-        let of_air = forces.air_drag * u.length().max(MIN_AIR_SPEED).sqrt() * (-log_thickness).exp();
-        let drag = forces.drag + of_air;
-        let source = (forces.gravity + of_air * u).dot(turned) + forcing;
-        let x = 0.5 * dt * drag;
-        let decayed = if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 };
-        Self { decay: (-x).exp(), push: 0.5 * dt * decayed * source }
-    }
-
-    fn applied(&self, zeta: f64) -> f64 {
-        self.decay * zeta + self.push
     }
 }
 
@@ -275,40 +245,10 @@ fn combined(halo: &HaloTable, terms: &[(f64, &PaddedField<f64>)]) -> PaddedField
     PaddedField::from_cells(terms[0].1, halo, |cell| terms.iter().map(|(factor, _, cells)| factor * cells[cell]).sum())
 }
 
-/// A field carried for a time `dt` by a steady velocity: its values where the liquid of each cell came from.
-pub fn advected<T: FieldValue>(
-    halo: &HaloTable,
-    field: &PaddedField<T>,
-    velocity: &PaddedField<DVec3>,
-    dt: f64,
-) -> PaddedField<T> {
-    let at = velocity.cells();
-    PaddedField::from_cells(field.grid(), halo, |cell| {
-        let x = field.grid().cell_direction(cell);
-        let middle = |u: DVec3| (x - 0.5 * dt * u).normalize();
-        let next = |u: DVec3| velocity.bicubic(middle(u));
-        let (once, twice) = (next(at[cell]), next(next(at[cell])));
-        let u = next(extrapolated(x, [at[cell], once, twice]));
-        // The origin is x reflected at the middle: a symmetric step along a great circle.
-        let middle = middle(u);
-        field.bicubic(2.0 * x.dot(middle) * middle - x)
-    })
-}
-
-/// Where three iterates lead to in the end, in the tangent plane at `x`: Aitken's extrapolation, with vectors for complex numbers. It is
-/// exact within an eddy, whose turn by more than a radian in a step the iteration alone would not follow: it would spiral outwards.
-fn extrapolated(x: DVec3, [first, second, third]: [DVec3; 3]) -> DVec3 {
-    let (before, last) = (second - first, third - second);
-    let ratio = DVec2::new(before.dot(last), x.dot(before.cross(last))) / before.length_squared().max(1e-30);
-    // Next to 1 it says nothing.
-    let rest = (DVec2::X - ratio).length_squared().max(0.25);
-    third + ((ratio.x - ratio.length_squared()) * last + ratio.y * x.cross(last)) / rest
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::film::{Push, gained, properties};
+    use crate::physics::film::{Push, gained};
     use crate::physics::flow::{FlowCase, FlowCaseKind, Mode, Oscillation, fit_oscillation, invariants, relative_l2};
 
     fn case(kind: FlowCaseKind, mode: (u32, u32), k: f64) -> FlowCase {
@@ -415,22 +355,6 @@ mod tests {
         }
         let [early, late] = [&fastest[..5], &fastest[50..]].map(|part| part.iter().copied().fold(0.0, f64::max));
         assert!(late < 0.1 * early, "{early} {late}");
-    }
-
-    #[test]
-    fn air_drags_as_a_boundary_layer_does() {
-        let (radius, speed, thickness) = (0.03, 0.2_f64, 4e-7);
-        let ours = AIR_DRAG * (speed / radius).sqrt() / (1e9 * thickness);
-        assert!((ours / properties::air_drag(thickness, speed, radius) - 1.0).abs() < 1e-4);
-    }
-
-    #[test]
-    fn strong_drag_leaves_the_speed_at_which_forces_balance() {
-        let forces = FlowForces { gravity: DVec3::NEG_Z, drag: 500.0, ..FlowForces::default() };
-        let step = HalfStep::new(&forces, 1.0, DVec3::X, (6.0, DVec3::new(0.0, 3.0, -4.0)), 1.0);
-        assert!((step.applied(7.0) - 5.0 / 500.0).abs() < 1e-12);
-        let none = HalfStep::new(&FlowForces { drag: 0.0, ..forces }, 0.1, DVec3::X, (6.0, DVec3::NEG_Z), 0.0);
-        assert_eq!(none.applied(7.0), 7.05);
     }
 
     fn slosh(stratification: f64, drag: f64) -> (FlowCase, Oscillation) {

@@ -12,11 +12,13 @@
 //!
 //! Source of the projection: Ronchi, Iacono & Paolucci 1996, "The cubed sphere", J. Comput. Phys. 124.
 
+mod cap;
 mod grid;
 mod halo;
 mod lagrange;
 mod padded;
 
+pub use cap::Cap;
 pub use grid::{CubedSphere, GridError, HALO, PANELS, PanelPoint};
 pub use halo::{HaloEntry, HaloTable};
 pub use lagrange::{cubic_weights, quintic_weights};

@@ -29,8 +29,7 @@ impl<T: FieldValue> PaddedField<T> {
             values[start..start + grid.n()].copy_from_slice(cells);
         }
         let mut field = Self { grid, values };
-        field.fill(&halo.edges);
-        field.fill(&halo.corners);
+        field.fill(halo, |entry, source| weighted(weights(entry).zip(source)));
         field
     }
 
@@ -51,6 +50,18 @@ impl<T: FieldValue> PaddedField<T> {
     pub fn from_padded(grid: CubedSphere, mut values: Vec<T>) -> Self {
         values.resize(grid.padded_len(), T::default());
         Self { grid, values }
+    }
+
+    /// The field whose value at each place of padded storage that is at least `margin` cells from a panel's outer edge is `value(place)`;
+    /// elsewhere it is zero. A function that reads so many cells around a place stays within storage.
+    pub fn from_places(grid: CubedSphere, margin: usize, value: impl Fn(usize) -> T + Sync) -> Self {
+        let width = grid.padded_width();
+        let inside = |k: usize| (margin..width - margin).contains(&k);
+        let at = |place: usize| {
+            let stored = inside(place % width) && inside(place / width % width);
+            if stored { value(place) } else { T::default() }
+        };
+        Self { grid, values: (0..grid.padded_len()).into_par_iter().map(at).collect() }
     }
 
     /// The grid.
@@ -100,13 +111,55 @@ impl<T: FieldValue> PaddedField<T> {
         weighted(up.into_iter().enumerate().map(|(j, weight)| (weight, row(j))))
     }
 
-    /// Gives each halo cell of one pass its value.
-    fn fill(&mut self, pass: &[HaloEntry]) {
-        for entry in pass {
+    /// Gives each halo cell its value, made of an entry of the table and the four values that it reads.
+    fn fill(&mut self, halo: &HaloTable, value: impl Fn(&HaloEntry, [T; 4]) -> T) {
+        for entry in halo.edges.iter().chain(&halo.corners) {
             let source = entry.sources.map(|index| self.values[index as usize]);
-            self.values[entry.cell as usize] = weighted(entry.weights.map(f64::from).into_iter().zip(source));
+            self.values[entry.cell as usize] = value(entry, source);
         }
     }
+}
+
+impl PaddedField<f64> {
+    /// The same cells, with a halo in which no value leaves the range of the four that it is interpolated from: a thickness must stay
+    /// positive. `halo` is the grid's table.
+    #[must_use]
+    pub fn with_bounded_halo(mut self, halo: &HaloTable) -> Self {
+        self.fill(halo, |entry, source| {
+            let [low, high] = range(source);
+            weighted(weights(entry).zip(source)).clamp(low, high)
+        });
+        self
+    }
+
+    /// [`Self::bicubic`], within the range of the four cells around.
+    pub fn bicubic_limited(&self, direction: DVec3) -> f64 {
+        self.limited(direction, self.bicubic(direction))
+    }
+
+    /// [`Self::biquintic`], within the range of the four cells around.
+    pub fn biquintic_limited(&self, direction: DVec3) -> f64 {
+        self.limited(direction, self.biquintic(direction))
+    }
+
+    /// The nearest number to `value` within the range of the four cells around a direction.
+    fn limited(&self, direction: DVec3, value: f64) -> f64 {
+        let place = self.grid.locate(direction);
+        let first = self.grid.padded_index(place.panel, place.x.floor() as isize, place.y.floor() as isize);
+        let above = first + self.grid.padded_width();
+        let [low, high] = range([first, first + 1, above, above + 1].map(|index| self.values[index]));
+        value.clamp(low, high)
+    }
+}
+
+/// The smallest and the largest of four values.
+fn range(values: [f64; 4]) -> [f64; 2] {
+    values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+}
+
+/// The weights of an entry.
+fn weights(entry: &HaloEntry) -> impl Iterator<Item = f64> {
+    entry.weights.map(f64::from).into_iter()
 }
 
 /// The weighted sum of values.
@@ -173,6 +226,24 @@ mod tests {
     fn bilinear_lookup_converges_at_second_order() {
         let (coarse, fine) = (lookup_error(20, PaddedField::bilinear), lookup_error(40, PaddedField::bilinear));
         assert!(coarse / fine > 3.2, "ideal 4: {coarse:e} / {fine:e}");
+    }
+
+    #[test]
+    fn limited_lookups_and_bounded_halos_make_no_new_extreme() {
+        let grid = CubedSphere::new(9).unwrap();
+        let halo = HaloTable::new(grid);
+        let step = |cell: usize| f64::from(u8::from(grid.cell_direction(cell).dot(DVec3::new(0.5, 0.3, 0.7)) > 0.2));
+        let free = PaddedField::from_cells(grid, &halo, step);
+        let bounded = free.clone().with_bounded_halo(&halo);
+        assert_eq!(free.cells(), bounded.cells());
+        let stays = |values: &[f64]| values.iter().all(|value| (0.0..=1.0).contains(value));
+        assert!(!stays(free.padded()) && stays(bounded.padded()));
+        let probe = CubedSphere::new(31).unwrap();
+        let looked_up = |lookup: fn(&PaddedField<f64>, DVec3) -> f64| -> Vec<f64> {
+            (0..probe.cells()).map(|cell| lookup(&bounded, probe.cell_direction(cell))).collect()
+        };
+        assert!(!stays(&looked_up(PaddedField::bicubic)) && !stays(&looked_up(PaddedField::biquintic)));
+        assert!(stays(&looked_up(PaddedField::bicubic_limited)) && stays(&looked_up(PaddedField::biquintic_limited)));
     }
 
     #[test]

@@ -7,10 +7,9 @@ use glam::DVec3;
 use crate::physics::{
     bubble::CentrePath,
     film::{
-        Cap, Flow, InitialFilm, PATCH_THICKNESS, Patch, PrescribedFlow, Push, Regeneration, patch_speed,
+        Cap, FlowLaw, FreeFlow, InitialFilm, Patch, Push, Regeneration, evaporated_nm, model::MAX_RIM_PATCHES,
         properties::BLACK_FILM_ONSET,
     },
-    flow::FlowForces,
     sphere::CubedSphere,
     transport::Scheme,
 };
@@ -56,115 +55,6 @@ impl fmt::Display for Moment {
             write!(f, " + {:.3}", self.fraction)?;
         }
         Ok(())
-    }
-}
-
-/// How the film's liquid is driven.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FlowLaw {
-    /// Not at all.
-    Rest,
-    /// By a flow in closed form.
-    Prescribed {
-        /// Which.
-        flow: Flow,
-        /// Factor on all speeds.
-        strength: f64,
-        /// Seed: each gives another flow.
-        seed: u32,
-    },
-    /// By gravity and the air: vorticity and stream function are solved for.
-    Free(FreeFlow),
-}
-
-/// What a free film is subject to, on the unit sphere.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FreeFlow {
-    /// Gravity, drag and viscosity.
-    pub forces: FlowForces,
-    /// Diffusion of thickness, rad²/s.
-    pub diffusion: f64,
-    /// Times gravity and the cube of a thickness in nm, the flux of drainage, nm rad/s; 0 for none.
-    pub drainage: f64,
-    /// Factor on the speed of the draught around the film.
-    pub draught: f64,
-    /// Seed: each gives another draught.
-    pub seed: u32,
-}
-
-impl FreeFlow {
-    /// The same in a bubble that is accelerated, by so many radii a second squared: gravity is less by that.
-    #[must_use]
-    pub fn accelerated(self, acceleration: DVec3) -> Self {
-        let gravity = self.forces.gravity - acceleration;
-        Self { forces: FlowForces { gravity, ..self.forces }, ..self }
-    }
-
-    /// How fast patches of a mean thickness rise from a rim, rad/s.
-    #[must_use]
-    pub fn patch_speed(&self, regeneration: &Regeneration) -> f64 {
-        let FlowForces { gravity, drag, viscosity, .. } = self.forces;
-        let lack = 1.0 - 0.5 * (PATCH_THICKNESS[0] + PATCH_THICKNESS[1]);
-        let slope = gravity.z.abs() * regeneration.rim.sin();
-        patch_speed(lack, regeneration.radius, slope, viscosity, drag)
-    }
-
-    /// The longest step of the flow in seconds: a quarter of a radian of the fastest wave of buoyancy in film whose ln h changes by 1 a
-    /// radian, at which film with 60 times as steep changes is still stable.
-    #[must_use]
-    pub fn longest_step_s(&self) -> f64 {
-        const LONGEST_S: f64 = 1.0 / 30.0;
-        (0.25 / self.forces.gravity.length().sqrt()).min(LONGEST_S)
-    }
-
-    /// Ticks in a step of the film.
-    #[must_use]
-    pub fn ticks_a_step(&self, tick_s: f64) -> u64 {
-        (self.longest_step_s() / tick_s).max(1.0) as u64
-    }
-}
-
-impl FlowLaw {
-    /// The law as a velocity field; for a free film that of the air.
-    #[must_use]
-    pub fn prescribed(self) -> PrescribedFlow {
-        match self {
-            Self::Rest => PrescribedFlow::default(),
-            Self::Free(free) => PrescribedFlow::draught(free.seed, free.draught),
-            Self::Prescribed { flow, strength, seed } => flow.prescribed(seed, strength).unwrap_or_default(),
-        }
-    }
-
-    /// How fast thickness spreads, rad²/s.
-    #[must_use]
-    pub fn diffusion(self) -> f64 {
-        if let Self::Free(free) = self { free.diffusion } else { 0.0 }
-    }
-
-    /// Ticks in a step of the film, for a tick's length and the angle between cells: as many as keep the step accurate, and more where
-    /// even those would move nothing by a thousandth of a cell.
-    #[must_use]
-    pub fn ticks_a_step(self, tick_s: f64, cell_angle: f64) -> u64 {
-        let strength = match self {
-            Self::Rest => 0.0,
-            Self::Prescribed { strength, .. } => strength,
-            Self::Free(free) => return free.ticks_a_step(tick_s),
-        };
-        // At strength 1 the fastest vortices turn by a quarter of a radian in 0.1 s, where a Runge-Kutta step errs by 1e-5 of that; the
-        // swings of 2 s and more are followed by its three moments.
-        let accurate_s = (0.1 / strength).min(0.2);
-        (accurate_s.max(self.still_s(cell_angle)) / tick_s).max(1.0) as u64
-    }
-
-    /// Seconds in which the film moves by less than a thousandth of a cell, for the angle between cells: none for a free film, of whose
-    /// speed only the device knows.
-    #[must_use]
-    pub fn still_s(self, cell_angle: f64) -> f64 {
-        match self {
-            Self::Rest => f64::INFINITY,
-            Self::Free(_) => 0.0,
-            _ => 1e-3 * cell_angle / self.prescribed().max_speed_bound(),
-        }
     }
 }
 
@@ -330,18 +220,6 @@ impl FieldKey {
     }
 }
 
-/// What has evaporated since the beginning, in nm, at a time in ticks of a length in seconds, at rates in nm a second that hold from
-/// ticks on, in order.
-#[must_use]
-pub fn evaporated_nm(rates: &[(u64, f64)], tick_s: f64, ticks: f64) -> f64 {
-    let ends = rates.iter().skip(1).map(|(tick, _)| *tick as f64).chain(std::iter::once(f64::INFINITY));
-    let lost = |((from, rate), end): (&(u64, f64), f64)| rate * tick_s * (ticks.min(end) - *from as f64).max(0.0);
-    rates.iter().zip(ends).map(lost).sum()
-}
-
-/// Patches from its rim that a film takes in one step at most.
-pub const MAX_RIM_PATCHES: usize = 64;
-
 /// A hole in a film that bursts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoleKey {
@@ -362,15 +240,6 @@ pub struct OpenHoleKey {
     pub radius_m: f64,
     /// The hole.
     pub hole: HoleKey,
-}
-
-/// Thickness of black film, in nm, at which evaporation ends: common black films are 10 to 30 nm thick.
-pub const BLACK_FILM_NM: f64 = 10.0;
-
-/// What is left of a thickness, in nm, of which so much would have evaporated.
-#[must_use]
-pub fn left_nm(thickness_nm: f64, thinned_nm: f64) -> f64 {
-    (thickness_nm - thinned_nm).max(thickness_nm.min(BLACK_FILM_NM))
 }
 
 /// What a bubble's film is made of.

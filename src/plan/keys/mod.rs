@@ -5,13 +5,17 @@ mod history;
 mod optics;
 mod picture;
 mod rest;
+mod step;
 
-pub use film::{
-    BLACK_FILM_NM, FieldKey, FilmEnd, FilmKey, FlowLaw, FlowSegment, FreeFlow, HoleKey, MAX_RIM_PATCHES, Moment,
-    OpenHoleKey, PushKey, evaporated_nm, left_nm,
-};
+pub use film::{FieldKey, FilmEnd, FilmKey, FlowSegment, HoleKey, Moment, OpenHoleKey, PushKey};
 pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
 pub use picture::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey, exposed_ev,
 };
 pub use rest::RestingFilm;
+
+pub use crate::physics::film::{
+    FlowLaw, FreeFlow, evaporated_nm,
+    model::{MAX_RIM_PATCHES, left_nm},
+    properties::BLACK_FILM_NM,
+};

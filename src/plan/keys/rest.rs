@@ -3,9 +3,7 @@
 use std::ops::Range;
 
 use super::{FieldKey, FlowLaw, FreeFlow};
-
-/// Seconds of film time from one question for its speed to the next.
-const ASKING_S: f64 = 2.0;
+use crate::physics::film::{ASKING_S, STEADY, resting_speed};
 
 /// A film that moved by itself and has come to rest: it stays as it is until something else than the same law acts on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,8 +20,6 @@ impl FieldKey {
     /// the flow.
     #[must_use]
     pub fn undisturbed(&self, step: &Range<u64>) -> Option<FreeFlow> {
-        // In radii a second squared: less than what rounding does to gravity.
-        const STEADY: f64 = 1e-6;
         let FlowLaw::Free(free) = self.law(step.start) else { return None };
         let (from, to) = (step.start as f64, step.end as f64);
         let is_left_alone = free.draught == 0.0
@@ -42,10 +38,9 @@ impl FieldKey {
         step.start / ticks < step.end / ticks
     }
 
-    /// Speed in rad/s at which the film moves by less than a hundredth of a cell in the two seconds from one answer to the next: less than a
-    /// thousandth in any step, and about three times what rounding leaves of the flow in a sorted film.
+    /// Speed in rad/s below which the film rests.
     #[must_use]
     pub fn resting_speed(&self) -> f64 {
-        1e-2 * self.cell_angle() / ASKING_S
+        resting_speed(self.cell_angle())
     }
 }

@@ -6,6 +6,8 @@
 
 use glam::DVec3;
 
+use super::CubedSphere;
+
 /// The part of the unit sphere above a circle of latitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cap {
@@ -57,12 +59,18 @@ impl Cap {
         let across = (1.0 - x.z * x.z).sqrt().max(1e-9) * cell_angle;
         (0.5 + (x.z - self.rim_z) / across).clamp(0.0, 1.0)
     }
+
+    /// Solid angles of film in all cells of a grid, in its order, sr.
+    #[must_use]
+    pub fn areas(&self, grid: CubedSphere) -> Vec<f64> {
+        let part = |cell| self.part_of_cell(grid.cell_direction(cell), grid.cell_angle());
+        grid.areas().iter().enumerate().map(|(cell, area)| area * part(cell)).collect()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::sphere::CubedSphere;
 
     #[test]
     fn the_image_of_an_image_is_the_point_and_the_rim_stays() {
@@ -95,8 +103,7 @@ mod tests {
         let grid = CubedSphere::new(48).unwrap();
         for rim in [1.0, std::f64::consts::FRAC_PI_2, 2.2] {
             let cap = Cap::above(rim);
-            let part = |cell| cap.part_of_cell(grid.cell_direction(cell), grid.cell_angle());
-            let area: f64 = grid.areas().iter().enumerate().map(|(cell, area)| area * part(cell)).sum();
+            let area: f64 = cap.areas(grid).iter().sum();
             let exact = std::f64::consts::TAU * (1.0 - rim.cos());
             assert!((area / exact - 1.0).abs() < 1e-3, "{area} {exact}");
         }

@@ -1,0 +1,214 @@
+//! The collapse of thin film to black film: the twin of `shaders/pass/blacken.wgsl`.
+//!
+//! Film whose surfaces attract each other thins to black film of thickness h_b within a fraction of a second. Where the mean thickness h̄ around a
+//! cell is below the onset h_c, the difference to black film decays for a time t at a rate k, which sets in within a tenth of the onset:
+//!
+//! ```text
+//! lost = max(h − h_b, 0) (1 − e^(−k r t)),     r = clamp((h_c − h̄) / 0.1 h_c, 0, 1)                  (B1)
+//! ```
+//!
+//! What a cell loses goes to the thicker film within three cells, as the rim of a black spot gathers it; where there is none the film as a whole
+//! gets it, when its liquid is restored. It is the film *around* a cell that must be thin, and no cell counts there for more than makes a straight
+//! border stand still: borders then straighten, as a line under tension does (Merriman, Bence & Osher 1992), and black spots are round.
+
+use crate::physics::{
+    film::properties::{BLACK_FILM_COLLAPSE, BLACK_FILM_NM, BLACK_FILM_ONSET},
+    sphere::{HALO, HaloTable, PaddedField},
+};
+
+/// Cells on each side that a cell's liquid goes to, and that count for its mean.
+const REACH: usize = 3;
+/// Part of the onset within which the collapse sets in: borders are smooth, and some cells wide.
+const ONSET_WIDTH: f64 = 0.1;
+
+/// How film collapses, now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlackeningLaw {
+    /// What has evaporated from the film, nm.
+    pub thinned_nm: f64,
+    /// Thickness of black film, at which evaporation ends, h_b, nm.
+    pub black_nm: f64,
+    /// Thickness below which film collapses, h_c, nm.
+    pub onset_nm: f64,
+    /// Rate at which the difference to black film decays, k, 1/tick.
+    pub rate: f64,
+}
+
+impl BlackeningLaw {
+    /// The law of [`BLACK_FILM_NM`], [`BLACK_FILM_ONSET`] and [`BLACK_FILM_COLLAPSE`] for a film from which so much has evaporated, in ticks of a
+    /// length in seconds.
+    #[must_use]
+    pub fn new(thinned_nm: f64, tick_s: f64) -> Self {
+        Self {
+            thinned_nm,
+            black_nm: BLACK_FILM_NM,
+            onset_nm: 1e9 * BLACK_FILM_ONSET,
+            rate: BLACK_FILM_COLLAPSE * tick_s,
+        }
+    }
+}
+
+/// Thickness in nm that is left of film from which so much would have evaporated: evaporation ends at black film, and what is thinner stays
+/// as it is.
+#[must_use]
+pub fn left_nm(thickness_nm: f64, thinned_nm: f64) -> f64 {
+    (thickness_nm - thinned_nm).max(thickness_nm.min(BLACK_FILM_NM))
+}
+
+/// A tracer, which departs from a level in nm, with what did not evaporate of film that was black already given back to it.
+#[must_use]
+pub fn stop_evaporation(tracer: &PaddedField<f64>, law: &BlackeningLaw, level_nm: f64) -> PaddedField<f64> {
+    let thinned_level_nm = level_nm - law.thinned_nm;
+    let spared = |departure: &f64| {
+        let left = (departure + thinned_level_nm).max((departure + level_nm).min(law.black_nm));
+        departure.max(left - thinned_level_nm)
+    };
+    PaddedField::from_padded(tracer.grid(), tracer.padded().iter().map(spared).collect())
+}
+
+/// A film before it collapses.
+struct Collapse<'a> {
+    law: &'a BlackeningLaw,
+    tracer: &'a PaddedField<f64>,
+    /// Means of the tracer around cells.
+    means: PaddedField<f64>,
+    /// What the tracer departs from, less what has evaporated, nm.
+    level_nm: f64,
+    /// Ticks since the last remap.
+    ticks: u32,
+}
+
+/// A tracer, which departs from a level in nm, after it has collapsed for some ticks (B1). `halo` is the grid's table. The liquid that found no
+/// thicker film is missing: restore it.
+#[must_use]
+pub fn collapse(
+    tracer: &PaddedField<f64>,
+    law: &BlackeningLaw,
+    level_nm: f64,
+    ticks: u32,
+    halo: &HaloTable,
+) -> PaddedField<f64> {
+    let (grid, level_nm) = (tracer.grid(), level_nm - law.thinned_nm);
+    let film = Collapse {
+        law,
+        tracer,
+        means: means(tracer, 2.0 * law.onset_nm - law.black_nm - level_nm, halo),
+        level_nm,
+        ticks,
+    };
+    let shed = PaddedField::from_places(grid, HALO, |place| film.share_nm(place)).with_bounded_halo(halo);
+    let gathered = |place: usize| {
+        let is_thick = !film.is_thin(place);
+        let gained: f64 = if is_thick { around(&shed, place).map(|near| shed.padded()[near]).sum() } else { 0.0 };
+        tracer.padded()[place] - film.lost_nm(place) + gained
+    };
+    PaddedField::from_places(grid, HALO, gathered).with_bounded_halo(halo)
+}
+
+/// Means of a tracer around cells, no value counting for more than a limit.
+fn means(tracer: &PaddedField<f64>, limit: f64, halo: &HaloTable) -> PaddedField<f64> {
+    let (grid, width) = (tracer.grid(), tracer.grid().padded_width());
+    let is_inside = |column: usize| (HALO..width - HALO).contains(&column);
+    // Along rows, those of the halo included, then along columns.
+    let along_row = |place: usize| {
+        if is_inside(place % width) { mean_along(tracer.padded(), place, 1, limit) } else { 0.0 }
+    };
+    let rows = PaddedField::from_places(grid, 0, along_row);
+    let along_column = |place: usize| mean_along(rows.padded(), place, width, limit);
+    PaddedField::from_places(grid, HALO, along_column).with_bounded_halo(halo)
+}
+
+/// The mean over the cells before and after one that are so far apart in storage, nearer ones counting more.
+fn mean_along(values: &[f64], place: usize, stride: usize, limit: f64) -> f64 {
+    let counted = |place: usize| values[place].min(limit);
+    let weight = |k: usize| (REACH + 1 - k) as f64;
+    let pairs = (1..=REACH).map(|k| weight(k) * (counted(place - k * stride) + counted(place + k * stride)));
+    (weight(0) * counted(place) + pairs.sum::<f64>()) / weight(0).powi(2)
+}
+
+/// Places of the cells within reach of one.
+fn around(field: &PaddedField<f64>, place: usize) -> impl Iterator<Item = usize> {
+    let width = field.grid().padded_width();
+    let first = place - REACH * (width + 1);
+    (0..=2 * REACH).flat_map(move |row| (0..=2 * REACH).map(move |column| first + row * width + column))
+}
+
+impl Collapse<'_> {
+    fn mean_nm(&self, place: usize) -> f64 {
+        self.means.padded()[place] + self.level_nm
+    }
+
+    fn is_thin(&self, place: usize) -> bool {
+        self.mean_nm(place) < self.law.onset_nm
+    }
+
+    /// What a cell loses (B1), nm.
+    fn lost_nm(&self, place: usize) -> f64 {
+        let BlackeningLaw { black_nm, onset_nm, rate, .. } = *self.law;
+        let below = (onset_nm - self.mean_nm(place)) / (ONSET_WIDTH * onset_nm);
+        let decayed = -(-below.clamp(0.0, 1.0) * rate * f64::from(self.ticks)).exp_m1();
+        (self.tracer.padded()[place] + self.level_nm - black_nm).max(0.0) * decayed
+    }
+
+    /// What a cell gives to each thicker one around it, nm.
+    fn share_nm(&self, place: usize) -> f64 {
+        let lost = self.lost_nm(place);
+        if lost <= 0.0 {
+            return 0.0;
+        }
+        let thicker = around(self.tracer, place).filter(|near| !self.is_thin(*near)).count();
+        if thicker == 0 { 0.0 } else { lost / thicker as f64 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::sphere::CubedSphere;
+    use glam::DVec3;
+
+    const LEVEL_NM: f64 = 100.0;
+
+    fn law(thinned_nm: f64) -> BlackeningLaw {
+        BlackeningLaw::new(thinned_nm, 1.0 / 60.0)
+    }
+
+    fn film(nm: impl Fn(DVec3) -> f64 + Sync) -> (PaddedField<f64>, HaloTable) {
+        let grid = CubedSphere::new(24).unwrap();
+        (PaddedField::sample(grid, move |x| nm(x) - LEVEL_NM), HaloTable::new(grid))
+    }
+
+    #[test]
+    fn thin_film_becomes_black_and_thick_film_stays() {
+        let (tracer, halo) = film(|x| if x.z > 0.5 { 40.0 } else { 200.0 });
+        let after = (0..50).fold(tracer, |film, _| collapse(&film, &law(0.0), LEVEL_NM, 6, &halo));
+        let at = |x: DVec3| LEVEL_NM + after.bilinear(x);
+        assert!((at(DVec3::Z) - BLACK_FILM_NM).abs() < 0.1, "{}", at(DVec3::Z));
+        assert_eq!(at(DVec3::NEG_Z), 200.0);
+        let rim = after.cells().into_iter().fold(0.0, f64::max);
+        assert!(LEVEL_NM + rim > 200.0, "the rim has what black film lost");
+    }
+
+    #[test]
+    fn what_a_spot_loses_is_found_around_it() {
+        let (tracer, halo) = film(|x| 60.0 - 25.0 * (-(x - DVec3::X).length_squared() / 0.05).exp());
+        let after = collapse(&tracer, &law(0.0), LEVEL_NM, 6, &halo);
+        let areas = tracer.grid().areas();
+        let sum = |field: &PaddedField<f64>| field.cells().iter().zip(&areas).map(|(v, a)| v * a).sum::<f64>();
+        let moved: f64 =
+            after.cells().iter().zip(tracer.cells()).zip(&areas).map(|((a, b), area)| (a - b).abs() * area).sum();
+        // Shares count cells and not areas, which differ by a few per cent across a stencil.
+        assert!(moved > 0.01 && (sum(&after) - sum(&tracer)).abs() < 0.1 * moved, "{moved}");
+    }
+
+    #[test]
+    fn evaporation_ends_at_black_film() {
+        let (tracer, _) = film(|x| 30.0 + 20.0 * x.z);
+        let spared = stop_evaporation(&tracer, &law(25.0), LEVEL_NM);
+        for (before, after) in tracer.padded().iter().zip(spared.padded()) {
+            let [before, after] = [before, after].map(|departure| LEVEL_NM + departure);
+            assert!((left_nm(before, 25.0) - (after - 25.0)).abs() < 1e-12, "{before} {after}");
+        }
+        assert_eq!((left_nm(500.0, 100.0), left_nm(12.0, 100.0), left_nm(4.0, 100.0)), (400.0, 10.0, 4.0));
+    }
+}
