@@ -70,7 +70,7 @@ fn the_one_at_fault_is_named_and_not_a_line() {
         ("version=2", "version 2 cannot be read here; this program reads `version = 1`"),
         (
             "motion.flow=windy",
-            "`flow` in [motion] is wrong: unknown word `windy`, expected one of `free`, `rest`, `sloshing`, `draught`, `stirred`",
+            "`flow` in [motion] is wrong: unknown word `windy`, expected one of `free`, `rest`, `sloshing`, `draught`, `stirred`, `jets`",
         ),
     ] {
         let error = read("version = 1\n[view]\ndither = true\n", &["camera.azimuth_deg=1", setting]).unwrap_err();
