@@ -17,8 +17,9 @@ use crate::{
     scene::Quality,
 };
 
-/// Points of each measurement; fewer have the same mean, and miss some of the worst.
+/// Points of each measurement.
 const POINTS: usize = 20_000;
+/// Points of a short one, of films to 3 µm: they have the same mean, and miss some of the worst.
 const FEW_POINTS: usize = 5_000;
 /// Rays flatter than this count in the mean, but not in the maximum of two walls: films reflect like mirrors there.
 const STEEP_COS: f64 = 0.26;
@@ -95,9 +96,8 @@ fn cases() -> Vec<Case> {
 }
 
 pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
-    let points = run.short_or_full(FEW_POINTS, POINTS);
     for case in cases() {
-        let errors = case.errors(run.gpu, points)?;
+        let errors = case.errors(run.gpu, run.short_or_full(case.few_points(), POINTS))?;
         let steep = |(cos, _): &&(f64, f64)| *cos >= STEEP_COS;
         let max = |errors: &mut dyn Iterator<Item = &(f64, f64)>| errors.map(|(_, e)| *e).fold(0.0, worse);
         let mean = errors.iter().map(|(_, error)| error).sum::<f64>() / errors.len() as f64;
@@ -121,6 +121,11 @@ impl Case {
     fn name(&self) -> String {
         let walls = if self.walls == 1 { "one wall" } else { "two walls" };
         format!("{}, {}, {walls} to {} nm, {}", self.film, self.light, self.thickest_nm, self.quality.name())
+    }
+
+    /// Points of a short measurement: a truth takes as many wavelengths as a film has fringes.
+    fn few_points(&self) -> usize {
+        (FEW_POINTS as f64 * (3000.0 / self.thickest_nm).min(1.0)) as usize
     }
 
     /// The colour difference at each of so many points, and the point's cosine.

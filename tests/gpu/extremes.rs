@@ -14,7 +14,7 @@ use soapfilm::{
     scene::{Backdrop, Bubble, Camera, FilmIndexName, FilmStateName, Flow, Quality},
 };
 
-use crate::support::{display, load, mean_and_max, radiance, renderer, still};
+use crate::support::{display, load, mean_and_max, radiance, renderer, short_or_long, still};
 
 const SIZE: [u32; 2] = [160, 90];
 
@@ -178,12 +178,13 @@ fn hot_lamps() -> CubeMap {
 #[test]
 fn no_light_is_negative_and_qualities_agree_on_dense_films() {
     let Some(mut renderer) = renderer() else { return };
-    let xyz = BT2020.to_xyz();
+    let (xyz, lamps) = (BT2020.to_xyz(), Arc::new(hot_lamps()));
     // What differs is the light of lamps that are seen after more reflections than a quality follows.
-    for (index, fast, standard) in [(4.0, 0.06, 0.001), (2.4, 0.05, 0.004), (1.5, 0.12, 0.04)] {
+    let limits = [(4.0, 0.06, 0.001), (1.5, 0.12, 0.04), (2.4, 0.05, 0.004)];
+    for (index, fast, standard) in limits.into_iter().take(short_or_long(2, 3)) {
         let mut picture = |quality: Quality| {
             let mut loaded = at_rest("windows");
-            loaded.resources.environment = Arc::new(hot_lamps());
+            loaded.resources.environment = lamps.clone();
             loaded.scene.view.quality = quality;
             loaded.scene.bubbles[0].film.index = FilmIndexName::Constant(index);
             radiance(&mut renderer, &still(&loaded, [96, 54], 0.0))
@@ -191,7 +192,7 @@ fn no_light_is_negative_and_qualities_agree_on_dense_films() {
         let truth = picture(Quality::Spectral);
         let scale = mean_and_max(truth.iter().map(|pixel| (xyz * *pixel).y)).0;
         for quality in Quality::ALL {
-            let pixels = picture(quality);
+            let pixels = if quality == Quality::Spectral { truth.clone() } else { picture(quality) };
             let least = pixels.iter().map(|pixel| (xyz * *pixel).min_element()).fold(f64::INFINITY, f64::min);
             let (error, _) =
                 mean_and_max(truth.iter().zip(&pixels).map(|(a, b)| (xyz * (*a - *b)).abs().max_element()));
