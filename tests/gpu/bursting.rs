@@ -96,7 +96,10 @@ fn black_film_grows_as_the_film_evaporates_and_then_evaporates_no_more() {
     for evaporated_nm in [40.0, 80.0, 120.0, 160.0, 360.0] {
         let (grid, values, mean) = shown(&mut renderer, &still(&loaded, SIZE, evaporated_nm / rate_nm_s));
         black.push(black_part(grid, &values));
-        assert!(mean >= 150.0 - evaporated_nm - 1e-3, "no more than what evaporates is lost: {mean} at {evaporated_nm} nm");
+        assert!(
+            mean >= 150.0 - evaporated_nm - 1e-3,
+            "no more than what evaporates is lost: {mean} at {evaporated_nm} nm"
+        );
     }
     assert!(black.windows(2).all(|pair| pair[1] >= pair[0]), "{black:?}");
     let (_, values, _) = shown(&mut renderer, &still(&loaded, SIZE, 640.0 / rate_nm_s));

@@ -89,7 +89,7 @@ fn far_bubbles_do_not_sparkle() {
     for diameter in diameters().iter().copied() {
         let pixel_m = step_back(&mut loaded.scene, diameter);
         let mut errors = Vec::new();
-        for tenths in [0.0, 3.0, 7.0] {
+        for tenths in [3.0, 7.0, 0.0].into_iter().take(short_or_long(2, 3)) {
             loaded.scene.bubbles[0].center_m = [0.0, 0.0, 0.1 * tenths * pixel_m];
             let want = still(&loaded, SIZE, 0.0);
             errors.extend(differences(&want, &truth(&mut renderer, &want), &radiance(&mut renderer, &want)));
@@ -158,7 +158,7 @@ fn far_blown_bubbles_change_as_they_must() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = load("default");
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
-    for time_s in [0.0, 1.0] {
+    for time_s in [0.0, 1.0].into_iter().take(short_or_long(1, 2)) {
         for diameter in diameters().iter().copied() {
             let changes = changes(&mut renderer, &mut loaded, diameter, time_s);
             eprintln!("measured: {time_s} s, {diameter} pixels across: {changes:.3?} from frame to frame");

@@ -32,7 +32,7 @@ use crate::support::{mean_and_max, radiance, renderer};
 /// Scenes of the gate, and frames that they share: a driver compiles the pipelines of each frame for seconds.
 const CASES: u32 = 100;
 const FRAMES: u32 = 5;
-const SIZE: [u32; 2] = [24, 16];
+const SIZE: [u32; 2] = [12, 8];
 /// Steps of films, and cells that they move in all, at most: what a picture may take.
 const MAX_STEPS: usize = 8;
 const MAX_CELLS: u64 = 100_000;
