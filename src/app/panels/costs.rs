@@ -5,7 +5,7 @@ use egui::{Grid, Ui};
 use super::plots;
 use crate::{
     app::model::Model,
-    plan::{FilmKey, Moment, film_key},
+    plan::{FilmKey, Moment},
 };
 
 /// Shows times and counts.
@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
             entry(&pass.name.replace('_', " "), ms(pass.gpu_ms));
         }
         for index in 0..model.scene.bubbles.len() {
-            if let Some(FilmKey::Field(film)) = film_key(&model.scene, index, Moment::default()) {
+            if let Some(FilmKey::Field(film)) = model.scene.film_key(index, Moment::default()) {
                 let flow_cells = film.flow_cells.min(film.cells);
                 entry(&format!("film {}, flow", index + 1), format!("6x{}², 6x{flow_cells}²", film.cells));
             }
