@@ -118,7 +118,7 @@ impl<T: PartialEq> PartialEq for Prefix<T> {
     }
 }
 
-/// What holds from ticks on, in order, each until the next one does, and each other than the one before.
+/// What holds from ticks on, in order, each until the next one does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timeline<T>(Prefix<(u64, T)>);
 
@@ -166,7 +166,17 @@ impl<T> Timeline<T> {
     }
 }
 
-impl<T: Clone + PartialEq> Timeline<T> {
+impl<T: PartialEq> Timeline<T> {
+    /// Without what is the same as before.
+    #[must_use]
+    pub fn of_changes(entries: impl IntoIterator<Item = (u64, T)>) -> Self {
+        let mut entries: Vec<(u64, T)> = entries.into_iter().collect();
+        entries.dedup_by(|later, before| later.1 == before.1);
+        entries.into_iter().collect()
+    }
+}
+
+impl<T: Clone> Timeline<T> {
     /// A history of its own that begins at a tick, with what holds then.
     #[must_use]
     pub fn since(&self, born: u64) -> Self {
@@ -174,10 +184,8 @@ impl<T: Clone + PartialEq> Timeline<T> {
     }
 }
 
-impl<T: PartialEq> FromIterator<(u64, T)> for Timeline<T> {
+impl<T> FromIterator<(u64, T)> for Timeline<T> {
     fn from_iter<I: IntoIterator<Item = (u64, T)>>(entries: I) -> Self {
-        let mut entries: Vec<(u64, T)> = entries.into_iter().collect();
-        entries.dedup_by(|later, before| later.1 == before.1);
         Self(entries.into_iter().collect())
     }
 }
@@ -263,7 +271,7 @@ mod tests {
     use super::*;
 
     fn timeline(entries: &[(u64, char)]) -> Timeline<char> {
-        entries.iter().copied().collect()
+        Timeline::of_changes(entries.iter().copied())
     }
 
     fn entries<'a>(items: impl Iterator<Item = (u64, &'a char)>) -> Vec<(u64, char)> {
@@ -279,6 +287,7 @@ mod tests {
         );
         assert_eq!([0, 2, 5, 9].map(|tick| laws.next_change(tick)), [Some(2), Some(5), Some(9), None]);
         assert_eq!(laws.in_force(6.5), Some((5, &'b')));
+        assert_eq!(laws.iter().count(), 3, "what stays the same is no change");
     }
 
     #[test]

@@ -40,17 +40,19 @@ fn course(
 ) -> Course {
     let (radius_m, film) = (bubble.radius_mm * 1e-3, initial_film(bubble));
     let oscillator = Oscillator::new(radius_m, 1e-9 * film.mean_nm());
-    let of = |law: fn(&Motion, f64) -> f64| motions.iter().map(move |(tick, motion)| (tick, law(motion, radius_m)));
     Course {
         tick_s: turns.tick_s(),
         radius_m,
         film,
         seed: bubble.film.seed,
         stream: index as u32,
-        flows: motions.iter().map(|(tick, motion)| (tick, flow_law(motion, radius_m))).collect(),
-        evaporation_nm_s: of(evaporation_nm_s).collect(),
+        flows: Timeline::of_changes(motions.iter().map(|(tick, motion)| (tick, flow_law(motion, radius_m)))),
+        evaporation_nm_s: Timeline::of_changes(
+            motions.iter().map(|(tick, motion)| (tick, evaporation_nm_s(motion, radius_m))),
+        ),
+        // In other pieces it would round to other ticks.
         thinning: motions.iter().map(|(tick, motion)| (tick, thinning(motion, radius_m))).collect(),
-        bursting: motions.iter().map(|(tick, motion)| (tick, bursting(motion))).collect(),
+        bursting: Timeline::of_changes(motions.iter().map(|(tick, motion)| (tick, bursting(motion)))),
         pushes: pushes(bubble, changes, turns.tick_s()),
         jets: jets(oscillator, changes, turns),
         pricks: changes.iter().filter_map(prick).collect(),
