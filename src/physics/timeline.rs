@@ -211,8 +211,14 @@ impl<T> Spans<T> {
         Self { spans: self.spans.cut(|(ticks, _)| ticks.start < end), longest: self.longest }
     }
 
+    /// How long the longest of the whole history lasts, ticks.
+    #[must_use]
+    pub fn longest(&self) -> u64 {
+        self.longest
+    }
+
     /// All of it, with the ticks during which each lasts.
-    pub fn iter(&self) -> impl Iterator<Item = (&Range<u64>, &T)> {
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = (&Range<u64>, &T)> {
         self.spans.iter().map(|(ticks, value)| (ticks, value))
     }
 

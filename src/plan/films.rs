@@ -1,14 +1,18 @@
 //! From a bubble and its age to its film's key.
 
-use super::{FieldKey, FilmEnd, FilmKey};
+use super::{FieldKey, FilmEnd, FilmKey, laws::initial_film};
 use crate::{
     physics::{
         bubble::{Age, CentrePath},
-        film::{Cap, Evaporation, InitialFilm, Regeneration, fold_seed},
-        timeline::Spans,
+        film::{Cap, Evaporation, InitialFilm, Pushes, Regeneration, fold_seed},
     },
     scene::{Bubble, Motion},
 };
+
+/// Whether the film of a bubble can move: one of a single thickness looks the same however it flows.
+pub(super) fn has_field(bubble: &Bubble) -> bool {
+    !matches!(initial_film(bubble), InitialFilm::Uniform { .. })
+}
 
 /// Where the film of a bubble ends, if anything lies beyond.
 pub(super) fn cap(bubble: &Bubble) -> Option<Cap> {
@@ -47,7 +51,7 @@ pub(super) fn film(bubble: &Bubble, age: &Age, [cells, flow_cells]: [u32; 2], mo
         remap_ticks: motion.remap_ticks,
         evaporation: Evaporation::default(),
         flows: life.flows.clone(),
-        pushes: Spans::default(),
+        pushes: Pushes::default(),
         path: CentrePath::default(),
         moment: age.moment,
     };

@@ -9,7 +9,7 @@ use crate::{
     physics::{
         bubble::{Bursting, Course, Oscillator},
         film::{
-            InitialFilm, Push, Thinning, fold_seed,
+            InitialFilm, Push, Pushes, Thinning, fold_seed,
             properties::{DENSITY, VISCOSITY, air_drag, evaporation_rate},
         },
         flow::{AIR_DRAG, FlowForces},
@@ -123,7 +123,7 @@ fn free_flow(motion: &Motion, radius_m: f64) -> FreeFlow {
 }
 
 /// What pushes the film of a bubble.
-fn pushes(bubble: &Bubble, changes: &[(u64, &Change)], tick_s: f64) -> Spans<Push> {
+fn pushes(bubble: &Bubble, changes: &[(u64, &Change)], tick_s: f64) -> Pushes {
     let push = |(tick, change): &(u64, &Change)| match change {
         Change::Stir(stir) => Some((lasting(*tick, stir.ticks), stir_push(stir, bubble, tick_s))),
         Change::Blow(blow) => Some((lasting(*tick, blow.ticks), blow_push(blow, bubble))),

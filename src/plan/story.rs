@@ -4,7 +4,13 @@ use std::{ops::Deref, sync::OnceLock};
 
 use glam::{DQuat, DVec3};
 
-use super::{FilmKey, Moment, detail::film_grids, films::film, laws::courses, turns::Turns};
+use super::{
+    FilmKey, Moment,
+    detail::film_grids,
+    films::{film, has_field},
+    laws::courses,
+    turns::Turns,
+};
 use crate::{
     physics::{
         bubble::{Age, Lives},
@@ -89,8 +95,17 @@ impl Story {
 
     /// What the film of a bubble of the scene is at an age.
     pub(super) fn film_of_age(&self, index: usize, age: &Age) -> FilmKey {
-        let grids = self.grids.get_or_init(|| (0..self.bubbles.len()).map(|index| film_grids(self, index)).collect());
-        film(&self.bubbles[index], age, grids[index], &self.motion)
+        film(&self.bubbles[index], age, self.grids()[index], &self.motion)
+    }
+
+    /// Cells along a panel's edge of a bubble's film, and of its flow where that is coarser; nothing for a film of one thickness.
+    #[must_use]
+    pub fn field_grids(&self, index: usize) -> Option<[u32; 2]> {
+        self.bubbles.get(index).filter(|bubble| has_field(bubble)).map(|_| self.grids()[index])
+    }
+
+    fn grids(&self) -> &[[u32; 2]] {
+        self.grids.get_or_init(|| (0..self.bubbles.len()).map(|index| film_grids(self, index)).collect())
     }
 
     fn plot(&self) -> &Plot {

@@ -6,14 +6,16 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, LightKey, Lighting, Moment,
-    OpticsKey, Pace, Story, TableKey, TonemapKey, Want, exposed_ev, films::cap, laws::initial_film, range_nm,
+    OpticsKey, Pace, Story, TableKey, TonemapKey, Want, exposed_ev,
+    films::{cap, has_field},
+    range_nm,
 };
 use crate::{
     physics::{
         bubble::reach,
         colour::{Gamut, Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
-        film::{InitialFilm, fold_seed},
+        film::fold_seed,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
     },
     scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Scene},
@@ -173,11 +175,6 @@ fn table(scene: &Scene, lamp: &Lamp, light: &LightKey, bands: &BandsKey) -> Tabl
     };
     let neutral = lamp.environment.is_neutral() && is_grey(light.gain) && backdrop;
     TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full }
-}
-
-/// Whether the film of a bubble can move: one of a single thickness looks the same however it flows.
-fn has_field(bubble: &Bubble) -> bool {
-    !matches!(initial_film(bubble), InitialFilm::Uniform { .. })
 }
 
 /// Whether all films are made of the same. If not, it depends on the moment, by what is seen then, whether a shot is refused.

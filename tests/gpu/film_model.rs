@@ -20,10 +20,10 @@ use soapfilm::{
     },
     physics::{
         bubble::CentrePath,
-        film::{Cap, Evaporation, Flow, FlowLaw, FreeFlow, InitialFilm, Push, Regeneration},
+        film::{Cap, Evaporation, Flow, FlowLaw, FreeFlow, InitialFilm, Push, Pushes, Regeneration},
         flow::FlowForces,
         sphere::CubedSphere,
-        timeline::{Spans, Timeline},
+        timeline::Timeline,
         transport::Scheme,
     },
     plan::{FieldKey, FilmEnd, Moment},
@@ -56,7 +56,7 @@ fn key(cells: u32, seed: u32, law: FlowLaw) -> FieldKey {
         remap_ticks: 10,
         evaporation: Evaporation::default(),
         flows: Timeline::from_iter([(0, law)]),
-        pushes: Spans::default(),
+        pushes: Pushes::default(),
         path: CentrePath::default(),
         moment: Moment::default(),
     }
@@ -258,7 +258,7 @@ fn a_film_that_is_pushed_is_the_f64_one() {
     let push = |at: DVec3, velocity: DVec3, rate: f64, ticks: Range<u64>| {
         (ticks, Push { centre: at.normalize(), sharpness: Push::sharpness_of(0.3), velocity, rate })
     };
-    let pushes = Spans::from_iter([
+    let pushes = Pushes::from_iter([
         push(DVec3::new(0.5, 0.4, 0.3), DVec3::new(-2.0, 2.0, 0.0), 18.0, 0..8),
         push(DVec3::new(-0.3, 0.1, 0.9), DVec3::new(60.0, 0.0, -30.0), 20.0, 5..9),
     ]);

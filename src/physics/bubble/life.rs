@@ -12,7 +12,7 @@ use super::{
 };
 use crate::physics::{
     film::{
-        Evaporation, FlowLaw, InitialFilm, Push, Random, Thinning, burst_s, fold_seed,
+        Evaporation, FlowLaw, InitialFilm, Pushes, Random, Thinning, burst_s, fold_seed,
         properties::{BLACK_FILM_NM, BLACK_FILM_ONSET},
         thins_at_tick,
     },
@@ -44,7 +44,7 @@ pub struct Course {
     /// How bubbles burst.
     pub bursting: Timeline<Bursting>,
     /// What pushes the film, in directions that turn with it.
-    pub pushes: Spans<Push>,
+    pub pushes: Pushes,
     /// What of jets dents the bubble as [`Oscillator::after_push`] has it, 1/s².
     pub jets: Spans<DMat3>,
     /// Ticks at which it is pricked, in order, and the directions in its film, unit vectors.
@@ -106,7 +106,7 @@ pub struct Life {
     /// What evaporates.
     pub evaporation: Evaporation,
     /// What pushes the film.
-    pub pushes: Spans<Push>,
+    pub pushes: Pushes,
     /// Where the centre goes, in radii, from where it was at the very first.
     pub path: CentrePath,
     end: Option<End>,

@@ -85,6 +85,7 @@ pub mod model;
 mod presets;
 pub mod properties;
 mod push;
+mod pushes;
 mod random;
 mod regeneration;
 mod rest;
@@ -100,6 +101,7 @@ pub use flow::{
 pub use law::{FlowLaw, FreeFlow, Split};
 pub use presets::Flow;
 pub use push::{FrozenPush, Push, gained};
+pub use pushes::Pushes;
 pub use random::{Random, fold_seed};
 pub use regeneration::{PATCH_THICKNESS, Patch, Regeneration, patch_speed};
 pub use rest::{ASKING_S, STEADY, resting_speed, rests};

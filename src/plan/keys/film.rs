@@ -1,17 +1,15 @@
 //! Keys of films that move: the moment, the laws until then, and the field.
 
-use std::ops::Range;
-
 use glam::DVec3;
 
 use crate::physics::{
     bubble::{CentrePath, Opening},
     film::{
-        Cap, Evaporation, FlowLaw, FreeFlow, InitialFilm, Patch, Push, Regeneration, model::MAX_RIM_PATCHES,
+        Cap, Evaporation, FlowLaw, FreeFlow, InitialFilm, Patch, Push, Pushes, Regeneration, model::MAX_RIM_PATCHES,
         properties::BLACK_FILM_ONSET,
     },
     sphere::CubedSphere,
-    timeline::{Moment, Spans, Timeline},
+    timeline::{Moment, Timeline},
     transport::Scheme,
 };
 
@@ -48,7 +46,7 @@ pub struct FieldKey {
     /// Laws, as far as the moment has seen them; the first holds from tick 0.
     pub flows: Timeline<FlowLaw>,
     /// What pushes it; empty for films that nothing can push.
-    pub pushes: Spans<Push>,
+    pub pushes: Pushes,
     /// Where the bubble goes, in radii, which a film that moves by itself feels.
     pub path: CentrePath,
     /// The moment.
@@ -121,24 +119,14 @@ impl FieldKey {
     /// What pushes the film in a step between two times in ticks.
     #[must_use]
     pub fn pushes_during(&self, from_ticks: f64, to_ticks: f64) -> Vec<Push> {
-        let acting = self.pushes.during(from_ticks, to_ticks).map(|(during, push)| {
-            let ticks = to_ticks.min(during.end as f64) - from_ticks.max(during.start as f64);
-            push.in_step(ticks * self.tick_s, (to_ticks - from_ticks) * self.tick_s)
-        });
-        acting.collect()
+        self.pushes.in_step(from_ticks, to_ticks, self.tick_s)
     }
 
-    /// How fast what pushes the film until a time in ticks may make it shear and turn then, 1/s: the most that any push did, less what drag
-    /// and viscosity have left of it.
+    /// How fast what pushes the film until a time in ticks may make it shear and turn then, 1/s.
     #[must_use]
     pub fn strain_until(&self, ticks: f64) -> f64 {
         let FlowLaw::Free(FreeFlow { forces, .. }) = self.law(ticks as u64) else { return 0.0 };
-        let of_push = |(during, push): (&Range<u64>, &Push)| {
-            let acting_s = (ticks.min(during.end as f64) - during.start as f64).max(0.0) * self.tick_s;
-            let since_s = (ticks - during.end as f64).max(0.0) * self.tick_s;
-            push.strain(acting_s) * push.left_of_strain(since_s, &forces)
-        };
-        self.pushes.iter().map(of_push).fold(0.0, f64::max)
+        self.pushes.strain_1_s(ticks, self.tick_s, &forces)
     }
 
     /// The bubble's mean acceleration between two times in ticks, over its radius: 1/s².
