@@ -92,7 +92,7 @@ mod tests {
             let push = Push { centre: DVec3::X, sharpness, velocity: speed * DVec3::Y, rate };
             (10 * k..10 * k + 1 + (k * k) % 40, push)
         };
-        (0..count).map(|k| push(k)).collect()
+        (0..count).map(push).collect()
     }
 
     #[test]
