@@ -87,7 +87,7 @@ mod tests {
 
     fn pushes(count: u64) -> Vec<(Range<u64>, Push)> {
         let mut random = Random::new(7, 0);
-        let mut push = |k: u64| {
+        let push = |k: u64| {
             let [sharpness, speed, rate] = [2.0, 0.01, 0.1].map(|low| random.between_log(low, 100.0 * low));
             let push = Push { centre: DVec3::X, sharpness, velocity: speed * DVec3::Y, rate };
             (10 * k..10 * k + 1 + (k * k) % 40, push)
