@@ -1,12 +1,13 @@
-//! Run time against error: lookup tables of several sizes, numbers of bands, the qualities, the schemes of transport, the flow solver, and
-//! going back in time, as tables, and as CSV files and plots in `target/`.
+//! Run time against error: lookup tables of several sizes, numbers of bands, the qualities, the schemes of transport, the flow solver,
+//! going back in time, and planning, as tables, and as CSV files and plots in `target/`.
 //!
 //! `cargo bench --bench error_time -- --smoke` runs the smallest case of each, to see that it works; a name (`tables`, `front`, `transport`,
-//! `flow`, `qualities`, `history`) runs that part alone.
+//! `flow`, `qualities`, `history`, `planning`) runs that part alone.
 
 mod colour;
 mod flow;
 mod history;
+mod planning;
 mod plot;
 mod report;
 mod transport;
@@ -16,7 +17,7 @@ use std::time::Instant;
 use cpu_time::ProcessTime;
 use soapfilm::gpu::{AdapterChoice, Gpu, GpuError};
 
-const PARTS: [&str; 6] = ["tables", "front", "transport", "flow", "qualities", "history"];
+const PARTS: [&str; 7] = ["tables", "front", "transport", "flow", "qualities", "history", "planning"];
 
 fn main() -> anyhow::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -41,6 +42,9 @@ fn main() -> anyhow::Result<()> {
     }
     if runs("qualities") {
         colour::qualities(pollster::block_on(gpu.another())?, smoke)?;
+    }
+    if runs("planning") {
+        planning::run(smoke)?;
     }
     if runs("history") {
         history::run(gpu, smoke)?;

@@ -7,7 +7,7 @@ use crate::{
     gpu::{Gpu, GpuError, Renderer, readback::Readback},
     output::{Metadata, Picture},
     physics::colour::Gamut,
-    plan::{Pace, Shot, want},
+    plan::{Pace, Shot},
 };
 
 /// A picture on its way from the device to a file.
@@ -31,7 +31,7 @@ impl Capture {
         let moment = model.clock.moment(&model.scene.motion);
         let shot =
             Shot { size, moment, full_precision: radiance, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-        let want = want(&model.scene, &model.resources, &shot).map_err(|error| error.to_string())?;
+        let want = model.scene.want(&model.resources, &shot).map_err(|error| error.to_string())?;
         renderer.bring(&want).map_err(|error| error.to_string())?;
         let readback = if radiance { renderer.read_radiance() } else { renderer.read_picture() };
         let readback = readback.ok_or("there is no picture to save yet")?;

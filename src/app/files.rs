@@ -209,7 +209,10 @@ fn load_light(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{app::model::tests::model, scene::Environment};
+    use crate::{
+        app::model::tests::model,
+        scene::{Environment, Scene},
+    };
 
     /// Files that tell by a channel when something has arrived.
     fn files() -> (Files, Receiver<()>) {
@@ -222,13 +225,13 @@ mod tests {
     #[test]
     fn a_file_that_fails_says_so_and_changes_nothing() {
         let ((mut files, arrived), mut model) = (files(), model());
-        let before = model.scene.clone();
+        let before = Scene::clone(&model.scene);
         files.load_scene(&mut model, "/no/such/scene.toml".to_owned());
         assert!(model.loading.is_some());
         arrived.recv_timeout(PATIENCE).unwrap();
         assert_eq!(files.collect(&mut model), []);
         assert!(model.messages.at(0.0)[0].text.contains("/no/such/scene.toml"));
-        assert_eq!((model.scene, model.loading), (before, None));
+        assert_eq!((&*model.scene, model.loading), (&before, None));
     }
 
     #[test]

@@ -22,7 +22,7 @@ use super::{
 use crate::{
     gpu::AdapterChoice,
     physics::colour::Gamut,
-    plan::{FilmKey, Have, Pace, Plan, Shot, Want, want},
+    plan::{FilmKey, Have, Pace, Plan, Shot, Want},
 };
 
 /// Time between two looks at the clock while nothing but its reading changes.
@@ -167,7 +167,7 @@ impl View {
             yardstick: false,
             pace: Pace::Frame,
         };
-        let brought = want(&model.scene, &model.resources, &shot).map_err(|error| error.to_string()).and_then(|want| {
+        let brought = model.scene.want(&model.resources, &shot).map_err(|error| error.to_string()).and_then(|want| {
             let plan = self.stage.renderer.bring(&want).map_err(|error| error.to_string())?;
             Ok((want, plan))
         });

@@ -15,8 +15,8 @@ use super::{
 };
 use crate::{
     input::LoadedScene,
-    plan::{Resources, settle_detail},
-    scene::{Light, Motion, Scene},
+    plan::{Resources, Story, settle_detail},
+    scene::{Light, Motion},
 };
 
 /// What a file is wanted for.
@@ -71,8 +71,8 @@ const TILT_DEG: f64 = 10.0;
 
 /// The window's state.
 pub struct Model {
-    /// The scene as edited.
-    pub scene: Scene,
+    /// The scene as edited, with what follows from it.
+    pub scene: Story,
     /// What it names.
     pub resources: Resources,
     /// A preset's name or a file's path.
@@ -116,7 +116,7 @@ impl Model {
         let mut messages = Messages::default();
         warn(&mut messages, &loaded);
         Self {
-            scene: loaded.scene,
+            scene: Story::new(loaded.scene),
             resources: loaded.resources,
             name: loaded.name,
             folder: loaded.folder,
@@ -140,7 +140,7 @@ impl Model {
     pub fn adopt(&mut self, mut loaded: LoadedScene) {
         settle_detail(&mut loaded.scene);
         warn(&mut self.messages, &loaded);
-        self.scene = loaded.scene;
+        self.scene = Story::new(loaded.scene);
         self.resources = loaded.resources;
         self.name = loaded.name;
         self.folder = loaded.folder;
@@ -166,7 +166,7 @@ impl Model {
     /// The motion that is in force now.
     #[must_use]
     pub fn motion(&self) -> Motion {
-        self.scene.motion_at(self.clock.tick)
+        self.scene.motion_in_force(self.clock.tick).clone()
     }
 
     /// The end of the time line: the last tick that was shown or at which something happens.
@@ -180,9 +180,10 @@ impl Model {
     pub fn edit(&mut self, edit: Edit) -> bool {
         let bubbles =
             matches!(edit, Edit::Bubble(..) | Edit::Bubbles(_) | Edit::Reseed).then(|| self.scene.bubbles.clone());
-        let back = edit.apply(&mut self.scene, self.clock.tick);
+        let tick = self.clock.tick;
+        let back = self.scene.change(|scene| edit.apply(scene, tick));
         if let Err(error) = self.scene.validate() {
-            back.apply(&mut self.scene, self.clock.tick);
+            self.scene.change(|scene| back.apply(scene, tick));
             self.messages.problem(error.to_string());
             return false;
         }
@@ -266,7 +267,7 @@ pub(super) mod tests {
     use crate::{
         input::load_scene,
         plan::film_grids,
-        scene::{Change, Event, FilmIndexName, Flow, MotionChange},
+        scene::{Change, Event, FilmIndexName, Flow, MotionChange, Scene},
     };
 
     /// The preset without an environment to compute.
@@ -301,9 +302,9 @@ pub(super) mod tests {
     #[test]
     fn an_edit_that_no_scene_bears_leaves_the_scene_and_says_why() {
         let mut model = model();
-        let before = model.scene.clone();
+        let before = Scene::clone(&model.scene);
         assert!(!model.edit(Edit::Motion(Motion { strength: 11.0, ..model.motion() }.into())));
-        assert_eq!(model.scene, before);
+        assert_eq!(*model.scene, before);
         assert!(model.messages.at(0.0).iter().any(|message| message.text.contains("`strength`")));
     }
 
@@ -314,11 +315,11 @@ pub(super) mod tests {
         let grids = |model: &Model| film_grids(&model.scene, 0);
         let mut model = Model::new(load_scene("default").unwrap());
         assert_eq!(grids(&model), [256, 64]);
-        model.scene.camera.distance_m = 20.0;
+        model.scene.change(|scene| scene.camera.distance_m = 20.0);
         assert_eq!(grids(&model), [256, 64], "gone away from");
         model.adopt(far);
         assert_eq!(grids(&model), [128, 32]);
-        model.scene.camera.distance_m = 0.24;
+        model.scene.change(|scene| scene.camera.distance_m = 0.24);
         assert_eq!(grids(&model), [128, 32], "come near to");
         let saved = Scene::from_toml(&model.scene.to_toml(), "saved").unwrap();
         assert_eq!(film_grids(&saved, 0), [128, 32], "and read back");

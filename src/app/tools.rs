@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::{
-    plan::{centre_path, film_turn},
+    plan::Story,
     scene::{Blow, Boundary, Bubble, Change, Drag, Prick, Scene, Stir},
 };
 
@@ -105,20 +105,20 @@ impl Aim {
 }
 
 /// Lets the pointer, pressed or not, use a tool at a tick; returns what that does to a film.
-pub fn touch(hand: &mut Hand, tool: Tool, scene: &Scene, tick: u64, pressed: Option<Press>) -> Option<Change> {
+pub fn touch(hand: &mut Hand, tool: Tool, story: &Story, tick: u64, pressed: Option<Press>) -> Option<Change> {
     match (&mut *hand, pressed) {
         (Hand::Free, Some(press)) => {
-            let aim = (tool != Tool::Orbit).then(|| aim(scene, tick, press.from)).flatten();
+            let aim = (tool != Tool::Orbit).then(|| aim(story, tick, press.from)).flatten();
             let prick = aim.as_ref().filter(|_| tool == Tool::Prick).map(prick);
-            *hand = aim.map_or(Hand::Camera, |aim| Hand::Film(Grip::new(tool, scene, tick, &aim, press.at)));
+            *hand = aim.map_or(Hand::Camera, |aim| Hand::Film(Grip::new(tool, story, tick, &aim, press.at)));
             prick
         }
         (Hand::Film(grip), Some(press)) => {
             grip.place = press.at;
-            grip.act(scene, tick, false)
+            grip.act(story, tick, false)
         }
         (Hand::Film(grip), None) => {
-            let last = grip.act(scene, tick, true);
+            let last = grip.act(story, tick, true);
             *hand = Hand::Free;
             last
         }
@@ -144,8 +144,8 @@ impl Grip {
     }
 
     /// What the tool does with what the pointer did since the last event, if it is time for that; the last of it when it lets go.
-    fn act(&mut self, scene: &Scene, tick: u64, lets_go: bool) -> Option<Change> {
-        let tick_s = scene.motion.tick_s;
+    fn act(&mut self, story: &Story, tick: u64, lets_go: bool) -> Option<Change> {
+        let tick_s = story.motion.tick_s;
         let shortest_s = match self.tool {
             _ if lets_go => 0.0,
             Tool::Drag => PULL_S,
@@ -160,12 +160,12 @@ impl Grip {
         }
         self.tick = tick;
         if self.tool == Tool::Drag {
-            let held_m = scene.camera.eye() + self.depth_m * ray(scene, self.place);
-            return Some(drag(scene, self.bubble, held_m + self.to_centre_m));
+            let held_m = story.camera.eye() + self.depth_m * ray(story, self.place);
+            return Some(drag(story, self.bubble, held_m + self.to_centre_m));
         }
-        let aim = aim(scene, tick, self.place).filter(|aim| aim.bubble == self.bubble && tick > since)?;
+        let aim = aim(story, tick, self.place).filter(|aim| aim.bubble == self.bubble && tick > since)?;
         let before = std::mem::replace(&mut self.at, aim.at());
-        let radius_m = scene.bubbles.get(self.bubble)?.radius_mm * 1e-3;
+        let radius_m = story.bubbles.get(self.bubble)?.radius_mm * 1e-3;
         let ticks = (elapsed_s.min(LONGEST_STROKE_S) / tick_s).round().max(1.0) as u64;
         match self.tool {
             Tool::Stir => stroke(self.bubble, before, self.at, radius_m / (ticks as f64 * tick_s), ticks),
@@ -218,15 +218,15 @@ fn ray(scene: &Scene, place: DVec2) -> DVec3 {
 }
 
 /// The film that is met first in the line of sight through a place in the picture; from inside a bubble that is its wall.
-fn aim(scene: &Scene, tick: u64, place: DVec2) -> Option<Aim> {
-    let (eye, ray) = (scene.camera.eye(), ray(scene, place));
-    let met = scene.bubbles.iter().enumerate().filter_map(|(bubble, sphere)| {
-        let centre_m = centre_path(scene, bubble, sphere).at(tick as f64 * scene.motion.tick_s).place_m;
+fn aim(story: &Story, tick: u64, place: DVec2) -> Option<Aim> {
+    let (eye, ray) = (story.camera.eye(), ray(story, place));
+    let met = story.bubbles.iter().enumerate().filter_map(|(bubble, sphere)| {
+        let centre_m = story.centre_m(bubble, tick as f64 * story.motion.tick_s);
         let along = hit(eye - centre_m, ray, sphere.radius_mm * 1e-3)?;
         Some((along, bubble, centre_m))
     });
     let (along, bubble, centre_m) = met.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(Aim { bubble, ray, place_m: eye + along * ray, centre_m, to_film: film_turn(scene, tick as f64).inverse() })
+    Some(Aim { bubble, ray, place_m: eye + along * ray, centre_m, to_film: story.film_turn(tick as f64).inverse() })
 }
 
 /// How far along a ray it meets a sphere around the origin for the first time.
@@ -249,7 +249,7 @@ mod tests {
         let mut hand = Hand::default();
         let pressed = places.iter().map(|place| Some(Press { from: places[0], at: *place }));
         for (k, pressed) in (0..).zip(pressed.chain([None])) {
-            if let Some(change) = touch(&mut hand, tool, scene, ticks * k, pressed) {
+            if let Some(change) = touch(&mut hand, tool, &Story::new(scene.clone()), ticks * k, pressed) {
                 history::insert(scene, Event { tick: ticks * k, change });
             }
         }
@@ -281,7 +281,7 @@ mod tests {
     fn a_turned_film_is_met_where_it_is() {
         let mut scene = seen_from_x();
         scene.motion.spin_deg_s = [0.0, 0.0, 90.0];
-        let aim = aim(&scene, 60, MIDDLE).unwrap();
+        let aim = aim(&Story::new(scene), 60, MIDDLE).unwrap();
         // After a quarter turn the film's -y is where +x was.
         assert!(aim.at().distance(DVec3::NEG_Y) < 1e-12, "{}", aim.at());
     }
@@ -293,7 +293,7 @@ mod tests {
         let Change::Drag(last) = &scene.events.last().unwrap().change else { panic!("a drag") };
         let way = 0.2 * 2.0 * 15f64.to_radians().tan() * 0.19;
         assert!((last.to_m[1] - way).abs() < 0.05 * way && last.to_m[2].abs() < 1e-3, "{last:?}");
-        let there = aim(&scene, 600, MIDDLE).unwrap();
+        let there = aim(&Story::new(scene.clone()), 600, MIDDLE).unwrap();
         assert!(there.centre_m.distance(last.to_m.into()) < 1e-9);
     }
 
@@ -313,10 +313,10 @@ mod tests {
     #[test]
     fn beside_the_bubbles_and_without_a_tool_the_camera_moves() {
         for (tool, place) in [(Tool::Stir, DVec2::new(0.6, 0.0)), (Tool::Orbit, MIDDLE)] {
-            let (mut hand, scene) = (Hand::default(), seen_from_x());
+            let (mut hand, story) = (Hand::default(), Story::new(seen_from_x()));
             for tick in [0, 60] {
                 let press = Some(Press { from: place, at: MIDDLE });
-                assert_eq!(touch(&mut hand, tool, &scene, tick, press), None);
+                assert_eq!(touch(&mut hand, tool, &story, tick, press), None);
             }
             assert_eq!(hand, Hand::Camera);
         }
@@ -324,10 +324,10 @@ mod tests {
 
     #[test]
     fn while_time_stands_nothing_happens() {
-        let (mut hand, scene) = (Hand::default(), seen_from_x());
+        let (mut hand, story) = (Hand::default(), Story::new(seen_from_x()));
         for k in 0..100 {
             let at = DVec2::new(0.003 * f64::from(k), 0.0);
-            assert_eq!(touch(&mut hand, Tool::Stir, &scene, 7, Some(Press { from: MIDDLE, at })), None);
+            assert_eq!(touch(&mut hand, Tool::Stir, &story, 7, Some(Press { from: MIDDLE, at })), None);
         }
     }
 

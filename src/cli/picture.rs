@@ -15,7 +15,7 @@ use crate::{
     input::LoadedScene,
     output::{Metadata, Picture},
     physics::colour::Gamut,
-    plan::{Moment, Pace, Plan, Shot, Want, has_one_film, plan},
+    plan::{Moment, Pace, Plan, Shot, Story, Want, has_one_film, plan},
     studio::MAX_TICKS,
     verify::reference::{MovedFilms, moved_film, needs_device, radiance},
 };
@@ -74,6 +74,8 @@ pub struct Painter<'a> {
     arguments: &'a PictureArguments,
     format: Format,
     loaded: LoadedScene,
+    /// The loaded scene's story, which all pictures share.
+    story: Story,
     /// Opened when it is first needed: the reference may need none.
     renderer: Option<Renderer>,
 }
@@ -85,12 +87,13 @@ impl<'a> Painter<'a> {
         if let Some(parse::Quality::Gpu(quality)) = arguments.quality {
             loaded.scene.view.quality = quality;
         }
-        Ok(Self { arguments, format, loaded, renderer: None })
+        let story = Story::new(loaded.scene.clone());
+        Ok(Self { arguments, format, loaded, story, renderer: None })
     }
 
     /// The film's moment at a time in seconds. `name` is what the time is called in the refusal of one that is too late.
     pub fn moment(&self, time_s: f64, name: &str) -> anyhow::Result<Moment> {
-        let moment = Moment::of_time(time_s, self.loaded.scene.motion.tick_s);
+        let moment = Moment::of_time(time_s, self.story.motion.tick_s);
         if moment.tick > MAX_TICKS {
             bail!("{name} is {} ticks of this scene; at most {MAX_TICKS} can be simulated", moment.tick);
         }
@@ -99,7 +102,7 @@ impl<'a> Painter<'a> {
 
     /// Whether all films of the scene are of one kind, so that a moment that can be drawn shows that all can.
     pub fn has_one_film(&self) -> bool {
-        has_one_film(&self.loaded.scene)
+        has_one_film(&self.story)
     }
 
     /// What a picture of a moment needs.
@@ -112,7 +115,7 @@ impl<'a> Painter<'a> {
             yardstick: false,
             pace: Pace::Whole,
         };
-        Ok(self.loaded.want(&shot)?)
+        Ok(self.story.want(&self.loaded.resources, &shot).map_err(|fault| self.loaded.source.locate(fault))?)
     }
 
     /// What the file says about itself.

@@ -13,4 +13,5 @@ pub mod picture;
 pub mod spectra;
 pub mod sphere;
 pub mod table;
+pub mod timeline;
 pub mod transport;

@@ -27,6 +27,12 @@ impl Checkpoints {
         usable.max_by_key(|(_, kept)| kept.moment.tick)
     }
 
+    /// The same checkpoints, where those that a film can go on from have its histories: then both are compared at once.
+    pub(super) fn sharing(mut self, wanted: &FieldKey) -> Self {
+        self.0.iter_mut().filter(|kept| wanted.continues(kept)).for_each(|kept| *kept = wanted.at(kept.moment));
+        self
+    }
+
     /// Enters the film's state at the end of a step, and returns the slot that it goes to: nothing if it need not be kept.
     pub(super) fn keep(&mut self, state: &FieldKey, step: &Range<u64>) -> Option<usize> {
         let is_due = step.start / SPACING_TICKS < step.end / SPACING_TICKS;

@@ -64,7 +64,7 @@ impl Planner {
     fn start(&mut self, film: usize, wanted: &FieldKey, before: Option<FieldHave>) -> FieldHave {
         let reason = if before.is_none() { Reason::Missing } else { Reason::Changed("the film's history") };
         let same_film = before.as_ref().filter(|before| wanted.is_same_film(&before.state));
-        let checkpoints = same_film.map(|before| before.checkpoints.clone()).unwrap_or_default();
+        let checkpoints = same_film.map(|before| before.checkpoints.clone().sharing(wanted)).unwrap_or_default();
         let here = before.filter(|before| wanted.continues(&before.state));
         let nearer = |key: &FieldKey| here.as_ref().is_none_or(|here| here.state.moment.tick < key.moment.tick);
         if let Some((slot, key)) = checkpoints.latest(wanted).filter(|(_, key)| nearer(key)) {
@@ -72,11 +72,12 @@ impl Planner {
             self.push(Pass::RestoreField { film, slot, key: state.clone() }, Reason::Changed("the moment"));
             return FieldHave { state, shown: None, rest: None, checkpoints };
         }
-        here.unwrap_or_else(|| {
-            let start = wanted.at(Moment::default());
-            self.push(Pass::SeedField { film, key: start.clone() }, reason);
-            FieldHave { state: start, shown: None, rest: None, checkpoints }
-        })
+        if let Some(here) = here {
+            return FieldHave { checkpoints, ..here };
+        }
+        let start = wanted.at(Moment::default());
+        self.push(Pass::SeedField { film, key: start.clone() }, reason);
+        FieldHave { state: start, shown: None, rest: None, checkpoints }
     }
 
     /// Plans a film's steps, with checkpoints on the way for a window, and returns the tick at which they end.

@@ -1,37 +1,76 @@
-//! What a scene says of its films: how each begins, what drives it, and what leaves it.
+//! What a scene says of its bubbles, as their courses: how each film begins, what drives and pushes it, what leaves it, and what ends it.
 
-use glam::DVec3;
+use std::ops::Range;
 
-use super::{FlowLaw, FlowSegment, FreeFlow, thinning::Thinning};
+use glam::{DMat3, DVec3};
+
+use super::{FlowLaw, FreeFlow, turns::Turns};
 use crate::{
     physics::{
+        bubble::{Bursting, Course, Oscillator},
         film::{
-            InitialFilm,
-            properties::{DENSITY, VISCOSITY, evaporation_rate},
+            InitialFilm, Push, Pushes, Thinning, fold_seed,
+            properties::{DENSITY, VISCOSITY, air_drag, evaporation_rate},
         },
         flow::{AIR_DRAG, FlowForces},
+        timeline::{Spans, Timeline},
     },
-    scene::{Bubble, FilmStateName, Flow, Motion, Scene},
+    scene::{Blow, Bubble, Change, FilmStateName, Flow, Motion, Scene, Stir},
 };
 
-/// A bubble's film as it was blown, after so many others.
-pub(super) fn initial_film(bubble: &Bubble, generation: u32) -> InitialFilm {
+/// All that ever happens to the bubbles of a scene, which moves so.
+pub(super) fn courses(scene: &Scene, motions: &Timeline<Motion>, turns: &Turns) -> Vec<Course> {
+    let mut changes = vec![Vec::new(); scene.bubbles.len()];
+    for event in &scene.events {
+        // What happens to bubbles that are not there happens to none.
+        let Some(changes) = event.change.bubble().and_then(|bubble| changes.get_mut(bubble)) else { continue };
+        changes.push((event.tick, &event.change));
+    }
+    let bubbles = scene.bubbles.iter().zip(changes).enumerate();
+    bubbles.map(|(index, (bubble, changes))| course(bubble, index, &changes, motions, turns)).collect()
+}
+
+/// What happens to one bubble.
+fn course(
+    bubble: &Bubble,
+    index: usize,
+    changes: &[(u64, &Change)],
+    motions: &Timeline<Motion>,
+    turns: &Turns,
+) -> Course {
+    let (radius_m, film) = (bubble.radius_mm * 1e-3, initial_film(bubble));
+    let oscillator = Oscillator::new(radius_m, 1e-9 * film.mean_nm());
+    Course {
+        tick_s: turns.tick_s(),
+        radius_m,
+        film,
+        seed: bubble.film.seed,
+        stream: index as u32,
+        flows: Timeline::of_changes(motions.iter().map(|(tick, motion)| (tick, flow_law(motion, radius_m)))),
+        evaporation_nm_s: Timeline::of_changes(
+            motions.iter().map(|(tick, motion)| (tick, evaporation_nm_s(motion, radius_m))),
+        ),
+        // In other pieces it would round to other ticks.
+        thinning: motions.iter().map(|(tick, motion)| (tick, thinning(motion, radius_m))).collect(),
+        bursting: Timeline::of_changes(motions.iter().map(|(tick, motion)| (tick, bursting(motion)))),
+        pushes: pushes(bubble, changes, turns.tick_s()),
+        jets: jets(oscillator, changes, turns),
+        pricks: changes.iter().filter_map(prick).collect(),
+        rest_m: bubble.center_m.into(),
+        drags: changes.iter().filter_map(drag).collect(),
+    }
+}
+
+/// A bubble's first film as it was blown.
+pub(super) fn initial_film(bubble: &Bubble) -> InitialFilm {
     let film = &bubble.film;
     let (thickness_nm, stratification) = (film.thickness_nm, film.stratification);
     match film.state {
         FilmStateName::Uniform => InitialFilm::Uniform { thickness_nm },
         FilmStateName::Rest if stratification == 0.0 => InitialFilm::Uniform { thickness_nm },
         FilmStateName::Rest => InitialFilm::Rest { thickness_nm, stratification },
-        FilmStateName::Blown => {
-            let seed = fold_seed(film.seed.wrapping_add(generation.into()));
-            InitialFilm::Blown { thickness_nm, stratification: 0.0, seed }
-        }
+        FilmStateName::Blown => InitialFilm::Blown { thickness_nm, stratification: 0.0, seed: fold_seed(film.seed) },
     }
-}
-
-/// A scene's seed as the generators take it: seeds below 2³² are themselves.
-pub(super) fn fold_seed(seed: u64) -> u32 {
-    (seed ^ (seed >> 32)) as u32
 }
 
 /// What evaporates from the film of a bubble, nm/s.
@@ -39,44 +78,31 @@ fn evaporation_nm_s(motion: &Motion, radius_m: f64) -> f64 {
     motion.evaporation_nm_s + 1e9 * evaporation_rate(motion.humidity, radius_m, motion.air_speed_m_s)
 }
 
-/// The same, from which tick on, each entry where it differs from the one before.
-pub(super) fn evaporation(scene: &Scene, radius_m: f64) -> Vec<(u64, f64)> {
-    let mut rates: Vec<_> = scene.motions().map(|(tick, motion)| (tick, evaporation_nm_s(&motion, radius_m))).collect();
-    rates.dedup_by_key(|(_, rate)| *rate);
-    rates
-}
-
-/// What the top of a bubble's film thins by once it is sorted, from which tick on.
-pub(super) fn thinning(scene: &Scene, radius_m: f64) -> Vec<(u64, Thinning)> {
-    let law = |(tick, motion): (u64, Motion)| {
-        let free = free_flow(&motion, radius_m);
-        let drains = motion.flow == Flow::Free;
-        let thinning = Thinning {
-            evaporation_nm_s: evaporation_nm_s(&motion, radius_m),
-            // The flux is as sin of the angle from the top, and its divergence there twice that.
-            drainage_1_nm2_s: if drains { 2.0 * free.drainage * free.forces.gravity.length() } else { 0.0 },
-        };
-        (tick, thinning)
-    };
-    scene.motions().map(law).collect()
-}
-
-/// The laws that drive the film of a bubble, in order, each where it differs from the one before.
-pub(super) fn flows(scene: &Scene, radius_m: f64) -> Vec<FlowSegment> {
-    let mut flows: Vec<FlowSegment> = Vec::new();
-    for (from_tick, motion) in scene.motions() {
-        let (strength, seed) = (motion.strength, fold_seed(motion.seed));
-        let law = match motion.flow {
-            Flow::Free => FlowLaw::Free(free_flow(&motion, radius_m)),
-            _ if strength == 0.0 => FlowLaw::Rest,
-            Flow::Rest => FlowLaw::Rest,
-            flow => FlowLaw::Prescribed { flow, strength, seed },
-        };
-        if flows.last().is_none_or(|last| last.law != law) {
-            flows.push(FlowSegment { from_tick, law });
-        }
+/// What the top of a bubble's film thins by once it is sorted.
+fn thinning(motion: &Motion, radius_m: f64) -> Thinning {
+    let free = free_flow(motion, radius_m);
+    let drains = motion.flow == Flow::Free;
+    Thinning {
+        evaporation_nm_s: evaporation_nm_s(motion, radius_m),
+        // The flux is as sin of the angle from the top, and its divergence there twice that.
+        drainage_1_nm2_s: if drains { 2.0 * free.drainage * free.forces.gravity.length() } else { 0.0 },
     }
-    flows
+}
+
+fn bursting(motion: &Motion) -> Bursting {
+    let Motion { black_film_life_s, burst_slowdown: slowdown, renew_s, .. } = *motion;
+    Bursting { black_film_life_s, slowdown, renew_s }
+}
+
+/// The law that drives the film of a bubble.
+fn flow_law(motion: &Motion, radius_m: f64) -> FlowLaw {
+    let (strength, seed) = (motion.strength, fold_seed(motion.seed));
+    match motion.flow {
+        Flow::Free => FlowLaw::Free(free_flow(motion, radius_m)),
+        _ if strength == 0.0 => FlowLaw::Rest,
+        Flow::Rest => FlowLaw::Rest,
+        flow => FlowLaw::Prescribed { flow, strength, seed },
+    }
 }
 
 /// What a free film is subject to, with the radius as the unit of length.
@@ -93,5 +119,66 @@ fn free_flow(motion: &Motion, radius_m: f64) -> FreeFlow {
         drainage: 1e-18 * motion.drainage * DENSITY / (12.0 * VISCOSITY),
         draught: motion.strength,
         seed: fold_seed(motion.seed),
+    }
+}
+
+/// What pushes the film of a bubble.
+fn pushes(bubble: &Bubble, changes: &[(u64, &Change)], tick_s: f64) -> Pushes {
+    let push = |(tick, change): &(u64, &Change)| match change {
+        Change::Stir(stir) => Some((lasting(*tick, stir.ticks), stir_push(stir, bubble, tick_s))),
+        Change::Blow(blow) => Some((lasting(*tick, blow.ticks), blow_push(blow, bubble))),
+        _ => None,
+    };
+    changes.iter().filter_map(push).collect()
+}
+
+fn lasting(tick: u64, ticks: u64) -> Range<u64> {
+    tick..tick.saturating_add(ticks)
+}
+
+/// How jets dent a bubble that oscillates so.
+fn jets(oscillator: Oscillator, changes: &[(u64, &Change)], turns: &Turns) -> Spans<DMat3> {
+    let jet = |(tick, change): &(u64, &Change)| {
+        let Change::Blow(blow) = change else { return None };
+        let to_world = turns.at(*tick as f64);
+        let [at, toward] = [blow.at, blow.toward].map(|vector| to_world * DVec3::from(vector).normalize());
+        let sharpness = Push::sharpness_of(blow.radius_deg.to_radians());
+        Some((lasting(*tick, blow.ticks), oscillator.jet_push(at, sharpness, toward, blow.speed_m_s)))
+    };
+    changes.iter().filter_map(jet).collect()
+}
+
+fn prick((tick, change): &(u64, &Change)) -> Option<(u64, DVec3)> {
+    let Change::Prick(prick) = change else { return None };
+    Some((*tick, DVec3::from(prick.at).normalize()))
+}
+
+fn drag((tick, change): &(u64, &Change)) -> Option<(u64, DVec3)> {
+    let Change::Drag(drag) = change else { return None };
+    Some((*tick, drag.to_m.into()))
+}
+
+/// The rate of a stir times its duration: half of a push is taken up by the film's tension and some is carried away, so that a film at rest
+/// gets four fifths of the velocity in the middle.
+const STIR: f64 = 6.0;
+
+fn stir_push(stir: &Stir, bubble: &Bubble, tick_s: f64) -> Push {
+    Push {
+        centre: DVec3::from(stir.at).normalize(),
+        sharpness: Push::sharpness_of(stir.radius_deg.to_radians()),
+        velocity: DVec3::from(stir.velocity_m_s) / (bubble.radius_mm * 1e-3),
+        rate: STIR / (stir.ticks as f64 * tick_s),
+    }
+}
+
+/// A jet's boundary layer, on one side of the film, as long as the jet is wide; on film of the bubble's mean thickness.
+fn blow_push(blow: &Blow, bubble: &Bubble) -> Push {
+    let radius_m = bubble.radius_mm * 1e-3;
+    let half_angle = blow.radius_deg.to_radians();
+    Push {
+        centre: DVec3::from(blow.at).normalize(),
+        sharpness: Push::sharpness_of(half_angle),
+        velocity: blow.speed_m_s / radius_m * DVec3::from(blow.toward).normalize(),
+        rate: 0.5 * air_drag(1e-9 * bubble.film.thickness_nm, blow.speed_m_s, half_angle * radius_m),
     }
 }

@@ -11,8 +11,8 @@ mod fields;
 mod films;
 pub mod keys;
 mod laws;
-mod lives;
-mod thinning;
+mod story;
+mod turns;
 mod want;
 
 use std::{fmt, ops::Range};
@@ -20,12 +20,12 @@ use std::{fmt, ops::Range};
 pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
-pub use films::{centre_path, film_key, film_turn};
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmEnd, FilmKey,
-    FlowLaw, FlowSegment, FreeFlow, HoleKey, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, OpticsKey,
-    PushKey, RestingFilm, TableKey, TonemapKey, exposed_ev, left_nm, range_nm,
+    FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey, RestingFilm,
+    TableKey, TonemapKey, exposed_ev, left_nm, range_nm,
 };
+pub use story::Story;
 pub use want::{Lamp, Resources, Shot, has_one_film, want};
 
 /// How much may be done before the next picture must be out.

@@ -6,11 +6,8 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, LightKey, Lighting, Moment,
-    OpticsKey, Pace, TableKey, TonemapKey, Want, exposed_ev,
-    films::{cap, centre_path, film, film_turn, has_field, shape},
-    keys::evaporated_nm,
-    laws::{evaporation, fold_seed},
-    lives::{life, since},
+    OpticsKey, Pace, Story, TableKey, TonemapKey, Want, exposed_ev,
+    films::{cap, has_field},
     range_nm,
 };
 use crate::{
@@ -18,6 +15,7 @@ use crate::{
         bubble::reach,
         colour::{Gamut, Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
+        film::fold_seed,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
     },
     scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Scene},
@@ -62,48 +60,61 @@ pub struct Shot {
     pub pace: Pace,
 }
 
-/// What a shot of a scene needs.
+/// What a single shot of a scene needs. Whoever takes several has a [`Story`].
 ///
 /// # Errors
 ///
-/// The key of a scene that cannot be drawn: a camera below the bath, films of different liquids in one picture, an index that no film has.
+/// As [`Story::want`].
 pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, Fault> {
-    let camera = camera(scene, shot.size);
-    let bath_m = scene.bubbles.iter().find(|bubble| bubble.boundary == Boundary::Bath).map(|bubble| bubble.center_m[2]);
-    if bath_m.is_some_and(|height_m| camera.eye_m.z <= height_m) {
-        let reason = "looks from below the bath that the bubbles stand on; raise it, or `target_m`";
-        return Err(Fault::new("elevation_deg", reason).inside("camera"));
+    Story::new(scene.clone()).want(resources, shot)
+}
+
+impl Story {
+    /// What a shot of the scene needs.
+    ///
+    /// # Errors
+    ///
+    /// The key of a scene that cannot be drawn: a camera below the bath, films of different liquids in one picture, an index that no film has.
+    pub fn want(&self, resources: &Resources, shot: &Shot) -> Result<Want, Fault> {
+        let scene: &Scene = self;
+        let camera = camera(scene, shot.size);
+        let bath_m =
+            scene.bubbles.iter().find(|bubble| bubble.boundary == Boundary::Bath).map(|bubble| bubble.center_m[2]);
+        if bath_m.is_some_and(|height_m| camera.eye_m.z <= height_m) {
+            let reason = "looks from below the bath that the bubbles stand on; raise it, or `target_m`";
+            return Err(Fault::new("elevation_deg", reason).inside("camera"));
+        }
+        let mut bubbles: Vec<BubbleKey> = scene
+            .bubbles
+            .iter()
+            .enumerate()
+            .filter_map(|(index, bubble)| visible(self, &camera, shot, index, bubble))
+            .collect();
+        let distance = |bubble: &BubbleKey| bubble.centre_m.distance_squared(camera.eye_m);
+        bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
+        let film = material(scene, resources, &bubbles)?;
+        let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
+        let own = Lamp { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
+        let lighting = |lamp: &Lamp, light: LightKey| lighting(scene, lamp, light, &film, range_nm);
+        let light = light(scene, resources, &camera);
+        let draw = DrawKey {
+            size: shot.size,
+            full_precision: shot.full_precision,
+            exposed_ev: if shot.full_precision { 0 } else { exposed_ev(scene.view.exposure_ev) },
+            yardstick: shot.yardstick,
+            camera,
+            lighting: lighting(&own, light),
+            lamps: resources.lamps.iter().map(|lamp| lighting(lamp, lamp_light(scene, lamp, light))).collect(),
+            bubbles,
+            on_bath: bath_m.is_some(),
+        };
+        let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
+        let balances = scene.view.white_balance && !resources.illuminant.is_monochromatic();
+        let balance = if balances { white_balance(&resources.illuminant) } else { DMat3::IDENTITY };
+        let exposure_ev = scene.view.exposure_ev;
+        let picture = TonemapKey { draw, exposure_ev, balance, gamut: shot.gamut, dither };
+        Ok(Want { picture, has_field: scene.bubbles.iter().map(has_field).collect(), pace: shot.pace })
     }
-    let mut bubbles: Vec<BubbleKey> = scene
-        .bubbles
-        .iter()
-        .enumerate()
-        .filter_map(|(index, bubble)| visible(scene, &camera, shot, index, bubble))
-        .collect();
-    let distance = |bubble: &BubbleKey| bubble.centre_m.distance_squared(camera.eye_m);
-    bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
-    let film = material(scene, resources, &bubbles)?;
-    let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
-    let own = Lamp { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
-    let lighting = |lamp: &Lamp, light: LightKey| lighting(scene, lamp, light, &film, range_nm);
-    let light = light(scene, resources, &camera);
-    let draw = DrawKey {
-        size: shot.size,
-        full_precision: shot.full_precision,
-        exposed_ev: if shot.full_precision { 0 } else { exposed_ev(scene.view.exposure_ev) },
-        yardstick: shot.yardstick,
-        camera,
-        lighting: lighting(&own, light),
-        lamps: resources.lamps.iter().map(|lamp| lighting(lamp, lamp_light(scene, lamp, light))).collect(),
-        bubbles,
-        on_bath: bath_m.is_some(),
-    };
-    let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
-    let balances = scene.view.white_balance && !resources.illuminant.is_monochromatic();
-    let balance = if balances { white_balance(&resources.illuminant) } else { DMat3::IDENTITY };
-    let exposure_ev = scene.view.exposure_ev;
-    let picture = TonemapKey { draw, exposure_ev, balance, gamut: shot.gamut, dither };
-    Ok(Want { picture, has_field: scene.bubbles.iter().map(has_field).collect(), pace: shot.pace })
 }
 
 fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
@@ -214,24 +225,21 @@ fn thickest_nm(bubble: &BubbleKey) -> f64 {
 const SMALLEST_FIELD_PIXELS: f64 = 0.75;
 
 /// A bubble as the picture sees it, if any pixel can.
-fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
-    let ticks = shot.moment.tick as f64 + shot.moment.fraction;
-    let centre_m = centre_path(scene, index, bubble).at(ticks * scene.motion.tick_s).place_m;
+fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
+    let centre_m = story.centre_m(index, shot.moment.ticks() * story.motion.tick_s);
     let radius_m = bubble.radius_mm * 1e-3;
-    let life = life(scene, index, shot.moment)?;
+    let age = story.age(index, shot.moment)?;
     // The bath holds a bubble's foot, and its oscillation is that of no sphere.
     let is_held = bubble.boundary == Boundary::Bath;
-    let stretch = if is_held { DMat3::IDENTITY } else { shape(scene, index, bubble, &life).stretch() };
+    let stretch = if is_held { DMat3::IDENTITY } else { age.life.shape(age.moment).stretch() };
     let bounds = bounds(camera, shot.size, centre_m, radius_m * reach(stretch))?;
     let distance = centre_m.distance(camera.eye_m).max(radius_m);
     let radius_pixels = radius_m / distance / camera.pixel_height_m;
-    let film = match film(scene, index, bubble, &life) {
+    let film = match story.film_of_age(index, &age) {
         FilmKey::Field(_) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(bubble.film.thickness_nm),
         film => film,
     };
-    let ticks = life.moment.tick as f64 + life.moment.fraction;
-    let rates = evaporation(scene, radius_m);
-    let rates: Vec<_> = since(life.born, &rates).collect();
+    let ticks = age.moment.ticks();
     Some(BubbleKey {
         index,
         centre_m,
@@ -241,15 +249,15 @@ fn visible(scene: &Scene, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         // A film of one thickness looks the same however it is turned.
         to_film: match film {
             FilmKey::Uniform(_) => DMat3::IDENTITY,
-            FilmKey::Field(_) => DMat3::from_quat(film_turn(scene, life.born as f64 + ticks).inverse()),
+            FilmKey::Field(_) => DMat3::from_quat(story.film_turn(age.life.born as f64 + ticks).inverse()),
         },
-        thinned_nm: evaporated_nm(&rates, scene.motion.tick_s, ticks),
+        thinned_nm: age.life.evaporation.nm(ticks),
         samples: samples(radius_pixels).max(if bubble.boundary == Boundary::Ring { RING_SAMPLES } else { 1 }),
         // The edge of a hole is no thickness between others.
-        filtered: life.hole.is_none() && is_filtered(&film, radius_pixels),
+        filtered: age.hole.is_none() && is_filtered(&film, radius_pixels),
         magnified: is_magnified(&film, radius_m, radius_pixels, centre_m.distance(camera.eye_m)),
         film,
-        hole: life.hole,
+        hole: age.hole,
         cap: cap(bubble),
     })
 }

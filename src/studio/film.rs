@@ -6,7 +6,7 @@ use super::{Error, Studio, moment, shot};
 use crate::{
     input::LoadedScene,
     physics::sphere::{CubedSphere, HaloTable, PaddedField},
-    plan::{BubbleKey, FilmKey, Want, centre_path, film_grids, settle_detail},
+    plan::{BubbleKey, FilmKey, Story, Want, film_grids, settle_detail},
     scene::{Camera, Scene},
     verify::{
         reference::{MovedFilms, ReferenceError, film_sphere, moved_film},
@@ -106,9 +106,8 @@ impl Asked {
 /// Turns the camera to a bubble. How fine its film is stays as the scene's own camera has it.
 fn look_at(scene: &mut Scene, bubble: usize, time_s: f64) {
     settle_detail(scene);
-    let target = &scene.bubbles[bubble];
-    let centre_m = centre_path(scene, bubble, target).at(time_s).place_m;
-    let distance_m = 4.0 * 1e-3 * target.radius_mm;
+    let centre_m = Story::new(scene.clone()).centre_m(bubble, time_s);
+    let distance_m = 4.0 * 1e-3 * scene.bubbles[bubble].radius_mm;
     // From above, where a camera is never below a bath.
     scene.camera = Camera { target_m: centre_m.into(), distance_m, elevation_deg: 45.0, ..Camera::default() };
 }

@@ -13,6 +13,7 @@ use crate::{
         film::{Push, gained},
         flow::fit_oscillation,
     },
+    plan::Story,
     scene::{Blow, Change, Drag, Event, FilmStateName, MotionChange, Scene, Stir},
 };
 
@@ -52,8 +53,8 @@ fn pushed(run: &mut Run<'_>) -> Result<(), GpuError> {
                 angle(*a).total_cmp(&angle(*b))
             })
             .unwrap_or(0);
-        let at = |tick| key(&scene, tick).map(|key| key.pushes_during(0.0, tick as f64));
-        let push = at(2)?.first().copied().unwrap_or_else(|| unreachable!("a push acts"));
+        let pushes = key(&Story::new(scene.clone()), 2)?.pushes_during(0.0, 2.0);
+        let push = pushes.first().copied().unwrap_or_else(|| unreachable!("a push acts"));
         let dt_s = 2.0 * scene.motion.tick_s;
         let expected = gained(Push::sharpness_of(radius_deg.to_radians())) * push.rate * dt_s * push.velocity;
         let error = played.velocity()?[nearest].distance(expected) / expected.length();

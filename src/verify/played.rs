@@ -11,33 +11,34 @@ use crate::{
         transport_case::values,
     },
     physics::sphere::CubedSphere,
-    plan::{FieldKey, FilmKey, Moment, film_key},
+    plan::{FieldKey, FilmKey, Moment, Story},
     scene::Scene,
 };
 
 /// The first film of a scene, played on the device tick by tick as pictures have it.
 pub struct Played<'a> {
     gpu: &'a Gpu,
-    scene: &'a Scene,
+    story: Story,
     film: MovingFilm,
     tick: u64,
 }
 
 impl<'a> Played<'a> {
     /// The film as it begins. Fails if it is uniform.
-    pub fn new(gpu: &'a Gpu, scene: &'a Scene) -> Result<Self, GpuError> {
-        let key = key(scene, 0)?;
+    pub fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, GpuError> {
+        let story = Story::new(scene.clone());
+        let key = key(&story, 0)?;
         let sphere = CubedSphere::new(key.cells as usize).map_err(|error| GpuError::Refused(error.to_string()))?;
         let mut field = Field::new(gpu, sphere, rules(&key))?;
         field.seed(gpu, key.initial.profile());
-        Ok(Self { gpu, scene, film: MovingFilm::new(field), tick: 0 })
+        Ok(Self { gpu, story, film: MovingFilm::new(field), tick: 0 })
     }
 
     /// Takes the steps that end until a tick.
     pub fn play_to(&mut self, tick: u64) -> Result<(), GpuError> {
         /// Steps in one submission, so that none runs long.
         const STEPS: usize = 8;
-        let key = key(self.scene, tick)?;
+        let key = key(&self.story, tick)?;
         let gpu = self.gpu;
         self.film.play(gpu, &key, self.tick, STEPS, |recorder| {
             recorder.submit(&Default::default());
@@ -82,7 +83,7 @@ impl<'a> Played<'a> {
 
     /// Since when the film rests, if it does, s.
     pub fn rests_since_s(&self) -> Option<f64> {
-        self.film.rest().map(|rest| rest.since_tick as f64 * self.scene.motion.tick_s)
+        self.film.rest().map(|rest| rest.since_tick as f64 * self.story.motion.tick_s)
     }
 
     /// Kinetic energy of the flow over that of a unit of mass a steradian: ½ ∫ u², rad²/s².
@@ -97,8 +98,8 @@ impl<'a> Played<'a> {
     }
 }
 
-pub(super) fn key(scene: &Scene, tick: u64) -> Result<FieldKey, GpuError> {
-    match film_key(scene, 0, Moment::tick(tick)) {
+pub(super) fn key(story: &Story, tick: u64) -> Result<FieldKey, GpuError> {
+    match story.film_key(0, Moment::tick(tick)) {
         Some(FilmKey::Field(key)) => Ok(key),
         _ => Err(GpuError::Refused("a film of one thickness does not move".to_owned())),
     }

@@ -13,7 +13,7 @@ use crate::{
         transport::FlowMap,
     },
     plan::{
-        BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, HoleKey, LightKey, Lighting, Moment,
+        BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey, Lighting, Moment, Opening,
         left_nm,
     },
 };
@@ -49,7 +49,7 @@ pub enum ReferenceError {
 #[must_use]
 pub fn needs_device(bubble: &BubbleKey) -> bool {
     let FilmKey::Field(field) = &bubble.film else { return false };
-    field.moment != Moment::default() && field.flows.iter().any(|segment| matches!(segment.law, FlowLaw::Free(_)))
+    field.moment != Moment::default() && field.flows.iter().any(|(_, law)| matches!(law, FlowLaw::Free(_)))
 }
 
 /// Radiance of each pixel, linear BT.2020. `progress` hears of each finished row, once for each light.
@@ -146,7 +146,7 @@ pub fn film_sphere<'a>(
     };
     let thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match key.hole {
         None => Box::new(move |direction| film_nm(to_film * direction)),
-        Some(HoleKey { at, seconds }) => {
+        Some(Opening { at, seconds }) => {
             let middle = match at {
                 Some(at) => at,
                 None => thinnest(&key.film, &film_nm)?,

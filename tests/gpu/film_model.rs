@@ -20,12 +20,13 @@ use soapfilm::{
     },
     physics::{
         bubble::CentrePath,
-        film::{Cap, Flow, FlowLaw, FreeFlow, InitialFilm, Push, Regeneration},
+        film::{Cap, Evaporation, Flow, FlowLaw, FreeFlow, InitialFilm, Push, Pushes, Regeneration},
         flow::FlowForces,
         sphere::CubedSphere,
+        timeline::Timeline,
         transport::Scheme,
     },
-    plan::{FieldKey, FilmEnd, FlowSegment, Moment, PushKey},
+    plan::{FieldKey, FilmEnd, Moment},
     verify::reference_film::ReferenceFilm,
 };
 
@@ -53,9 +54,9 @@ fn key(cells: u32, seed: u32, law: FlowLaw) -> FieldKey {
         tick_s: TICK_S,
         scheme: Scheme::Map,
         remap_ticks: 10,
-        evaporation: Vec::new(),
-        flows: vec![FlowSegment { from_tick: 0, law }],
-        pushes: Vec::new(),
+        evaporation: Evaporation::default(),
+        flows: Timeline::from_iter([(0, law)]),
+        pushes: Pushes::default(),
         path: CentrePath::default(),
         moment: Moment::default(),
     }
@@ -225,7 +226,7 @@ fn a_film_that_spreads_is_the_f64_one() {
 fn a_film_that_thins_and_turns_black_is_the_f64_one() {
     let Some(gpu) = gpu() else { return };
     let initial = InitialFilm::Blown { thickness_nm: 120.0, stratification: 0.0, seed: 6 };
-    let evaporation = vec![(0, 100.0), (9, 400.0)];
+    let evaporation = Evaporation::new(&Timeline::from_iter([(0, 100.0), (9, 400.0)]), TICK_S);
     let black = FieldKey { initial, evaporation, ..key(24, 0, FlowLaw::Free(FREE)) };
     let end = hold(&gpu, "black", &black, 20);
     assert!(end.spared_nm > 1.0, "{}", end.spared_nm);
@@ -254,14 +255,13 @@ fn a_film_that_drains_and_regenerates_is_the_f64_one() {
 #[test]
 fn a_film_that_is_pushed_is_the_f64_one() {
     let Some(gpu) = gpu() else { return };
-    let push = |at: DVec3, velocity: DVec3, rate: f64, ticks: Range<u64>| PushKey {
-        push: Push { centre: at.normalize(), sharpness: Push::sharpness_of(0.3), velocity, rate },
-        ticks,
+    let push = |at: DVec3, velocity: DVec3, rate: f64, ticks: Range<u64>| {
+        (ticks, Push { centre: at.normalize(), sharpness: Push::sharpness_of(0.3), velocity, rate })
     };
-    let pushes = vec![
+    let pushes = Pushes::from_iter([
         push(DVec3::new(0.5, 0.4, 0.3), DVec3::new(-2.0, 2.0, 0.0), 18.0, 0..8),
         push(DVec3::new(-0.3, 0.1, 0.9), DVec3::new(60.0, 0.0, -30.0), 20.0, 5..9),
-    ];
+    ]);
     let path = CentrePath::new(DVec3::ZERO, [(0.05, DVec3::new(0.4, 0.0, 0.2))]);
     let pushed = FieldKey { pushes, path, ..key(20, 9, FlowLaw::Free(FREE)) };
     hold(&gpu, "pushed", &pushed, 16);
@@ -273,12 +273,12 @@ fn a_film_in_a_flow_in_closed_form_is_the_f64_one() {
     let stirred = FlowLaw::Prescribed { flow: Flow::Stirred, strength: 1.0, seed: 2 };
     hold(&gpu, "stirred", &key(24, 1, stirred), 60);
     let changing = FieldKey {
-        flows: vec![
-            FlowSegment { from_tick: 0, law: FlowLaw::Free(FREE) },
-            FlowSegment { from_tick: 8, law: FlowLaw::Prescribed { flow: Flow::Sloshing, strength: 2.0, seed: 3 } },
-            FlowSegment { from_tick: 30, law: FlowLaw::Rest },
-            FlowSegment { from_tick: 40, law: FlowLaw::Free(FREE) },
-        ],
+        flows: Timeline::from_iter([
+            (0, FlowLaw::Free(FREE)),
+            (8, FlowLaw::Prescribed { flow: Flow::Sloshing, strength: 2.0, seed: 3 }),
+            (30, FlowLaw::Rest),
+            (40, FlowLaw::Free(FREE)),
+        ]),
         ..key(16, 2, stirred)
     };
     hold(&gpu, "laws in turn", &changing, 50);

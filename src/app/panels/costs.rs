@@ -3,10 +3,7 @@
 use egui::{Grid, Ui};
 
 use super::plots;
-use crate::{
-    app::model::Model,
-    plan::{FilmKey, Moment, film_key},
-};
+use crate::app::model::Model;
 
 /// Shows times and counts.
 pub fn show(ui: &mut Ui, model: &mut Model) {
@@ -25,9 +22,8 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
             entry(&pass.name.replace('_', " "), ms(pass.gpu_ms));
         }
         for index in 0..model.scene.bubbles.len() {
-            if let Some(FilmKey::Field(film)) = film_key(&model.scene, index, Moment::default()) {
-                let flow_cells = film.flow_cells.min(film.cells);
-                entry(&format!("film {}, flow", index + 1), format!("6x{}², 6x{flow_cells}²", film.cells));
+            if let Some([cells, flow_cells]) = model.scene.field_grids(index) {
+                entry(&format!("film {}, flow", index + 1), format!("6x{cells}², 6x{}²", flow_cells.min(cells)));
             }
         }
         entry("draws", costs.counts.draws.to_string());

@@ -29,7 +29,7 @@ fn harness(model: Model, size: egui::Vec2) -> Harness<'static, State> {
 fn window() -> Harness<'static, State> {
     let mut model = model();
     model.clock.running = false;
-    model.scene.bubbles[0].film.state = FilmStateName::Blown;
+    model.scene.change(|scene| scene.bubbles[0].film.state = FilmStateName::Blown);
     let mut window = harness(model, vec2(1280.0, 1200.0));
     window.run();
     window
@@ -151,7 +151,7 @@ fn a_change_after_going_back_stands_before_what_came_later() {
     set_slider(&mut window, "Spin", 90.0);
     set_slider(&mut window, "Time", 2.0);
     set_slider(&mut window, "Evaporation", 5.0);
-    let scene = &window.state().model.scene;
+    let scene: &Scene = &window.state().model.scene;
     assert_eq!(scene.events.iter().map(|event| event.tick).collect::<Vec<_>>(), [120, 300]);
     assert_eq!((scene.motion_at(299).spin_deg_s[2], scene.motion_at(300).spin_deg_s[2]), (0.0, 90.0));
     assert_eq!(scene.motion_at(120).evaporation_nm_s, 5.0);
@@ -306,7 +306,7 @@ fn a_tool_in_hand_works_on_the_film_and_beside_it_the_view_turns() {
         window.drop_at(from + vec2(90.0, 0.0));
         window.step();
     }
-    let scene = &window.state().model.scene;
+    let scene: &Scene = &window.state().model.scene;
     assert!(scene.events.iter().all(|event| matches!(event.change, Change::Stir(_))));
     assert_eq!(Scene::from_toml(&scene.to_toml(), "saved").as_ref(), Ok(scene));
 }
@@ -320,8 +320,8 @@ fn keys_take_tools_and_tilt_gravity() {
         assert_eq!(window.state().model.tool, tool);
     }
     window.state_mut().model.clock.tick = 60;
-    (window.state_mut().model.scene.camera.azimuth_deg, window.state_mut().model.scene.camera.elevation_deg) =
-        (0.0, 0.0);
+    let from_x = |scene: &mut Scene| (scene.camera.azimuth_deg, scene.camera.elevation_deg) = (0.0, 0.0);
+    window.state_mut().model.scene.change(from_x);
     (0..9).for_each(|_| {
         window.key_press(Key::ArrowRight);
         window.run();
@@ -352,7 +352,7 @@ fn every_size_of_window_has_a_layout() {
 #[test]
 fn a_scene_without_bubbles_has_panels_too() {
     let mut model = model();
-    model.scene.bubbles.clear();
+    model.scene.change(|scene| scene.bubbles.clear());
     let mut window = harness(model, vec2(1280.0, 800.0));
     window.run();
     window.get_by_label("This scene has no bubble.");

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::physics::timeline::Prefix;
+
 /// Time constant τ of the critically damped motion `c″ = (target − c)/τ² − 2c′/τ`, s: a hand's. The centre comes within 4 % in 5 τ, and a jump
 /// of the target by d accelerates it by up to d/τ², which for a radius of 5 cm is half of gravity.
 pub const SETTLING_S: f64 = 0.1;
@@ -10,7 +12,7 @@ pub const SETTLING_S: f64 = 0.1;
 #[derive(Clone, Debug, PartialEq)]
 pub struct CentrePath {
     /// From when on, in seconds, each target holds, and where the centre is and how fast at that time.
-    legs: Vec<Leg>,
+    legs: Prefix<Leg>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,12 +52,13 @@ impl CentrePath {
     #[must_use]
     pub fn new(rest_m: DVec3, jumps: impl IntoIterator<Item = (f64, DVec3)>) -> Self {
         let start = State { place_m: rest_m, velocity_m_s: DVec3::ZERO };
-        let mut path = Self { legs: vec![Leg { from_s: 0.0, target_m: rest_m, start }] };
+        let mut leg = Leg { from_s: 0.0, target_m: rest_m, start };
+        let mut legs = vec![leg];
         for (from_s, target_m) in jumps {
-            let start = path.at(from_s);
-            path.legs.push(Leg { from_s, target_m, start });
+            leg = Leg { from_s, target_m, start: leg.at(from_s) };
+            legs.push(leg);
         }
-        path
+        Self { legs: legs.into_iter().collect() }
     }
 
     /// Where the centre is and how fast it moves at a time in seconds.
@@ -68,7 +71,13 @@ impl CentrePath {
     /// What of the path was decided before a time in seconds.
     #[must_use]
     pub fn until(&self, end_s: f64) -> Self {
-        Self { legs: self.legs.iter().filter(|leg| leg.from_s < end_s || leg.from_s == 0.0).copied().collect() }
+        Self { legs: self.legs.cut(|leg| leg.from_s < end_s || leg.from_s == 0.0) }
+    }
+
+    /// Whether both are parts of one path, which takes no look at its legs.
+    #[must_use]
+    pub fn shares(&self, other: &Self) -> bool {
+        self.legs.shares(&other.legs)
     }
 
     /// Whether the centre never moves.

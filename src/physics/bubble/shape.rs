@@ -105,19 +105,19 @@ impl Oscillator {
         traceless(axis) * (-1.5 * pressure / self.inertia)
     }
 
-    /// The shape at a time in seconds of a bubble that follows a path in metres, from round at time 0.
+    /// The shape of a bubble that follows a path in metres, from round at time 0.
     ///
     /// Air that streams past with u has the pressure `ρₐ u²/2 (1 − 9/4 sin² ϑ)` on a sphere (Lamb § 95), whose second degree is
     /// `3/4 ρₐ u² P₂`: a bubble is flattened along its way. The path's u is `(b + c s) e^(−s)` on each leg, and so the shape is in closed form.
     #[must_use]
-    pub fn along(&self, path: &CentrePath, time_s: f64) -> Shape {
-        let (from_s, shape, leg) = path.motions().fold((0.0, Shape::ROUND, None), |(from_s, shape, before), motion| {
-            if motion.from_s > time_s {
-                return (from_s, shape, before);
-            }
-            (motion.from_s, self.on_leg(before, shape, motion.from_s - from_s), Some(motion))
+    pub fn along(&self, path: &CentrePath) -> DraggedShape {
+        let mut last = ShapeLeg { from_s: 0.0, start: Shape::ROUND, motion: None };
+        let legs = path.motions().map(|motion| {
+            let start = last.at(self, motion.from_s);
+            last = ShapeLeg { from_s: motion.from_s, start, motion: Some(motion) };
+            last
         });
-        self.on_leg(leg, shape, time_s - from_s)
+        DraggedShape { oscillator: *self, legs: legs.collect() }
     }
 
     /// The shape some seconds into a leg that began with another.
@@ -147,6 +147,36 @@ impl Oscillator {
         let decay = (-2.0 * s).exp();
         let value = q0 + q1 * s + q2 * (s * s);
         Shape { shape: value * decay, rate: (q1 + q2 * (2.0 * s) + value * -2.0) * (decay / settling_s) }
+    }
+}
+
+/// The shape of a bubble that is dragged along a path, ready for any time.
+#[derive(Clone, Debug)]
+pub struct DraggedShape {
+    oscillator: Oscillator,
+    legs: Vec<ShapeLeg>,
+}
+
+/// The shape on a leg of the path: how it is at first, and what then moves the bubble.
+#[derive(Clone, Copy, Debug)]
+struct ShapeLeg {
+    from_s: f64,
+    start: Shape,
+    motion: Option<LegMotion>,
+}
+
+impl DraggedShape {
+    /// The shape at a time in seconds.
+    #[must_use]
+    pub fn at(&self, time_s: f64) -> Shape {
+        let begun = self.legs.partition_point(|leg| leg.from_s <= time_s);
+        self.legs[..begun].last().map_or(Shape::ROUND, |leg| leg.at(&self.oscillator, time_s))
+    }
+}
+
+impl ShapeLeg {
+    fn at(&self, oscillator: &Oscillator, time_s: f64) -> Shape {
+        oscillator.on_leg(self.motion, self.start, time_s - self.from_s)
     }
 }
 
@@ -260,14 +290,14 @@ mod tests {
         let bubble = bubble();
         let path = CentrePath::new(DVec3::ZERO, [(0.2, DVec3::new(0.2, 0.1, 0.0)), (0.33, DVec3::Z * 0.1)]);
         for time in [0.1, 0.25, 0.32, 0.34, 0.5, 1.0] {
-            let found = law(&bubble, |time| bubble.along(&path, time), time);
+            let found = law(&bubble, |time| bubble.along(&path).at(time), time);
             let wind = path.at(time).velocity_m_s;
             let expected = bubble.push(0.75 * AIR_DENSITY * wind.length_squared(), wind.normalize_or(DVec3::X));
             assert!(norm(found - expected) < 1e-3 * norm(expected).max(0.1), "{time}: {found} {expected}");
         }
-        let most = (0..100).map(|k| norm(bubble.along(&path, 0.01 * f64::from(k)).shape)).fold(0.0, f64::max);
+        let most = (0..100).map(|k| norm(bubble.along(&path).at(0.01 * f64::from(k)).shape)).fold(0.0, f64::max);
         assert!((0.01..0.5).contains(&most), "seen, and not torn: {most}");
-        assert!(norm(bubble.along(&path, 20.0).shape) < 1e-4 * most);
+        assert!(norm(bubble.along(&path).at(20.0).shape) < 1e-4 * most);
     }
 
     #[test]

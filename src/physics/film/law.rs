@@ -114,15 +114,6 @@ impl FlowLaw {
     }
 }
 
-/// What has evaporated since the beginning, in nm, at a time in ticks of a length in seconds, at rates in nm a second that hold from
-/// ticks on, in order.
-#[must_use]
-pub fn evaporated_nm(rates: &[(u64, f64)], tick_s: f64, ticks: f64) -> f64 {
-    let ends = rates.iter().skip(1).map(|(tick, _)| *tick as f64).chain(std::iter::once(f64::INFINITY));
-    let lost = |((from, rate), end): (&(u64, f64), f64)| rate * tick_s * (ticks.min(end) - *from as f64).max(0.0);
-    rates.iter().zip(ends).map(lost).sum()
-}
-
 /// Steps of a flow in one step of its film at most: enough for 250 times the gravity of the Earth, or a stir of 10 m/s and 8°, on a bubble
 /// of 5 cm.
 const MAX_PARTS_PER_STEP: f64 = 16.0;

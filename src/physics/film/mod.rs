@@ -77,6 +77,7 @@
 
 mod boundary;
 mod burst;
+mod evaporation;
 mod flow;
 mod law;
 mod marble;
@@ -84,22 +85,27 @@ pub mod model;
 mod presets;
 pub mod properties;
 mod push;
+mod pushes;
 mod random;
 mod regeneration;
 mod rest;
 mod states;
+mod thinning;
 
 pub use boundary::Boundary;
 pub use burst::{HOLE_MERIDIANS, HOLE_PARTS, Hole, Rim, burst_s, rim_delay};
+pub use evaporation::Evaporation;
 pub use flow::{
     FlowError, FrozenFlow, FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Vortex, Wave,
 };
-pub use law::{FlowLaw, FreeFlow, Split, evaporated_nm};
+pub use law::{FlowLaw, FreeFlow, Split};
 pub use presets::Flow;
 pub use push::{FrozenPush, Push, gained};
-pub use random::Random;
+pub use pushes::Pushes;
+pub use random::{Random, fold_seed};
 pub use regeneration::{PATCH_THICKNESS, Patch, Regeneration, patch_speed};
 pub use rest::{ASKING_S, STEADY, resting_speed, rests};
 pub use states::{InitialFilm, Profile};
+pub use thinning::{Thinning, thins_at_tick};
 
 pub use crate::physics::sphere::Cap;

@@ -13,6 +13,12 @@ pub fn pcg3d(words: [u32; 3]) -> [u32; 3] {
     mix(v.map(|word| word ^ (word >> 16)))
 }
 
+/// A seed of 64 bits as the generators take it: seeds below 2³² are themselves.
+#[must_use]
+pub fn fold_seed(seed: u64) -> u32 {
+    (seed ^ (seed >> 32)) as u32
+}
+
 /// A sequence of random numbers that depends on a seed and on what it is for.
 #[derive(Clone, Debug)]
 pub struct Random {

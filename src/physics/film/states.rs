@@ -42,6 +42,16 @@ impl InitialFilm {
         self.profile()(direction)
     }
 
+    /// The mean thickness that was asked for, nm.
+    #[must_use]
+    pub fn mean_nm(&self) -> f64 {
+        match *self {
+            Self::Uniform { thickness_nm } | Self::Rest { thickness_nm, .. } | Self::Blown { thickness_nm, .. } => {
+                thickness_nm
+            }
+        }
+    }
+
     /// Bounds of the thickness in nm: no direction is thinner or thicker.
     pub fn range_nm(&self) -> (f64, f64) {
         let rest = |a: f64| (rest_profile(a, a.signum()), rest_profile(a, -a.signum()));

@@ -1,88 +1,17 @@
 //! Keys of films that move: the moment, the laws until then, and the field.
 
-use std::{fmt, ops::Range};
-
 use glam::DVec3;
 
 use crate::physics::{
-    bubble::CentrePath,
+    bubble::{CentrePath, Opening},
     film::{
-        Cap, FlowLaw, FreeFlow, InitialFilm, Patch, Push, Regeneration, evaporated_nm, model::MAX_RIM_PATCHES,
+        Cap, Evaporation, FlowLaw, FreeFlow, InitialFilm, Patch, Push, Pushes, Regeneration, model::MAX_RIM_PATCHES,
         properties::BLACK_FILM_ONSET,
     },
     sphere::CubedSphere,
+    timeline::{Moment, Timeline},
     transport::Scheme,
 };
-
-/// A moment of a film: a tick, and how far towards the next one.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Moment {
-    /// Whole ticks.
-    pub tick: u64,
-    /// Part of the next tick, in [0, 1).
-    pub fraction: f64,
-}
-
-impl Moment {
-    /// The moment of a tick.
-    #[must_use]
-    pub fn tick(tick: u64) -> Self {
-        Self { tick, fraction: 0.0 }
-    }
-
-    /// The first tick that has no part in this moment.
-    #[must_use]
-    pub fn end_tick(&self) -> u64 {
-        self.tick + u64::from(self.fraction > 0.0)
-    }
-
-    /// The moment of a time, for a tick's length. A time within a billionth of a tick counts as the tick.
-    #[must_use]
-    pub fn of_time(time_s: f64, tick_s: f64) -> Self {
-        let ticks = (time_s / tick_s).max(0.0);
-        let nearest = ticks.round();
-        if (ticks - nearest).abs() < 1e-9 * nearest.max(1.0) {
-            return Self::tick(nearest as u64);
-        }
-        Self { tick: ticks.floor() as u64, fraction: ticks - ticks.floor() }
-    }
-}
-
-impl fmt::Display for Moment {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "tick {}", self.tick)?;
-        if self.fraction > 0.0 {
-            write!(f, " + {:.3}", self.fraction)?;
-        }
-        Ok(())
-    }
-}
-
-/// A law, and the tick from which it holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FlowSegment {
-    /// First tick.
-    pub from_tick: u64,
-    /// The law from there on.
-    pub law: FlowLaw,
-}
-
-/// A push on a film, and when it acts.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PushKey {
-    /// The push.
-    pub push: Push,
-    /// The ticks during which it acts.
-    pub ticks: Range<u64>,
-}
-
-impl PushKey {
-    /// What the push is for a step between two times in ticks of a length in seconds, if it acts in it.
-    fn in_step(&self, tick_s: f64, from_ticks: f64, to_ticks: f64) -> Option<Push> {
-        let acting = to_ticks.min(self.ticks.end as f64) - from_ticks.max(self.ticks.start as f64);
-        (acting > 0.0).then(|| self.push.in_step(acting * tick_s, (to_ticks - from_ticks) * tick_s))
-    }
-}
 
 /// What a film ends at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,12 +41,12 @@ pub struct FieldKey {
     pub scheme: Scheme,
     /// The most ticks from one remap of the flow map to the next.
     pub remap_ticks: u32,
-    /// What evaporates from a tick on, in nm a second, in the order of ticks; empty for films whose motion does not depend on it.
-    pub evaporation: Vec<(u64, f64)>,
-    /// Laws in the order of their ticks, as far as the moment has seen them; the first holds from tick 0.
-    pub flows: Vec<FlowSegment>,
-    /// What pushes it, in the order of first ticks; empty for films that nothing can push.
-    pub pushes: Vec<PushKey>,
+    /// What evaporates; empty for films whose motion does not depend on it.
+    pub evaporation: Evaporation,
+    /// Laws, as far as the moment has seen them; the first holds from tick 0.
+    pub flows: Timeline<FlowLaw>,
+    /// What pushes it; empty for films that nothing can push.
+    pub pushes: Pushes,
     /// Where the bubble goes, in radii, which a film that moves by itself feels.
     pub path: CentrePath,
     /// The moment.
@@ -158,14 +87,13 @@ impl FieldKey {
     /// The law that holds during a tick.
     #[must_use]
     pub fn law(&self, tick: u64) -> FlowLaw {
-        let begun = self.flows.partition_point(|segment| segment.from_tick <= tick);
-        self.flows[..begun].last().map_or(FlowLaw::Rest, |segment| segment.law)
+        self.flows.at(tick).copied().unwrap_or(FlowLaw::Rest)
     }
 
     /// What has evaporated since the beginning, in nm, at a time in ticks.
     #[must_use]
     pub fn thinned_nm(&self, ticks: f64) -> f64 {
-        evaporated_nm(&self.evaporation, self.tick_s, ticks)
+        self.evaporation.nm(ticks)
     }
 
     /// Whether any of the film may be thin enough to collapse to black film, at a time in ticks.
@@ -191,20 +119,14 @@ impl FieldKey {
     /// What pushes the film in a step between two times in ticks.
     #[must_use]
     pub fn pushes_during(&self, from_ticks: f64, to_ticks: f64) -> Vec<Push> {
-        self.pushes.iter().filter_map(|push| push.in_step(self.tick_s, from_ticks, to_ticks)).collect()
+        self.pushes.in_step(from_ticks, to_ticks, self.tick_s)
     }
 
-    /// How fast what pushes the film until a time in ticks may make it shear and turn then, 1/s: the most that any push did, less what drag
-    /// and viscosity have left of it.
+    /// How fast what pushes the film until a time in ticks may make it shear and turn then, 1/s.
     #[must_use]
     pub fn strain_until(&self, ticks: f64) -> f64 {
         let FlowLaw::Free(FreeFlow { forces, .. }) = self.law(ticks as u64) else { return 0.0 };
-        let of_push = |PushKey { push, ticks: during }: &PushKey| {
-            let acting_s = (ticks.min(during.end as f64) - during.start as f64).max(0.0) * self.tick_s;
-            let since_s = (ticks - during.end as f64).max(0.0) * self.tick_s;
-            push.strain(acting_s) * push.left_of_strain(since_s, &forces)
-        };
-        self.pushes.iter().map(of_push).fold(0.0, f64::max)
+        self.pushes.strain_1_s(ticks, self.tick_s, &forces)
     }
 
     /// The bubble's mean acceleration between two times in ticks, over its radius: 1/s².
@@ -220,15 +142,6 @@ impl FieldKey {
     }
 }
 
-/// A hole in a film that bursts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HoleKey {
-    /// Direction of its middle in the film; nothing where the film is thinnest.
-    pub at: Option<DVec3>,
-    /// For how long it has opened, s.
-    pub seconds: f64,
-}
-
 /// A hole, and the film that it opens in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenHoleKey {
@@ -239,7 +152,7 @@ pub struct OpenHoleKey {
     /// Radius of the bubble, m.
     pub radius_m: f64,
     /// The hole.
-    pub hole: HoleKey,
+    pub hole: Opening,
 }
 
 /// What a bubble's film is made of.

@@ -33,14 +33,13 @@ impl FieldKey {
 
     /// The step that a tick lies in. Steps begin with each law and are cut where the next one comes into force; a law of rest is one step.
     fn step_at(&self, tick: u64) -> Range<u64> {
-        let after = self.flows.partition_point(|segment| segment.from_tick <= tick);
-        let end = self.flows.get(after).map_or(u64::MAX, |next| next.from_tick);
-        let Some(segment) = self.flows[..after].last() else { return 0..end };
-        if segment.law == FlowLaw::Rest {
-            return segment.from_tick..end;
+        let end = self.flows.next_change(tick).unwrap_or(u64::MAX);
+        let Some((from, law)) = self.flows.in_force(tick as f64) else { return 0..end };
+        if *law == FlowLaw::Rest {
+            return from..end;
         }
-        let length = segment.law.ticks_a_step(self.tick_s, self.cell_angle());
-        let start = tick - (tick - segment.from_tick) % length;
+        let length = law.ticks_a_step(self.tick_s, self.cell_angle());
+        let start = tick - (tick - from) % length;
         start..start.saturating_add(length).min(end)
     }
 
@@ -71,13 +70,11 @@ impl FieldKey {
     #[must_use]
     pub fn law_differs_until(&self, other: &Self) -> bool {
         let end = other.moment.end_tick();
-        let past = |key: &Self| key.flows.iter().filter(|segment| segment.from_tick < end).copied().collect::<Vec<_>>();
-        let pushes = |key: &Self| key.pushes.iter().filter(|push| push.ticks.start < end).cloned().collect::<Vec<_>>();
-        let thinning = |key: &Self| key.evaporation.iter().filter(|(tick, _)| *tick < end).copied().collect::<Vec<_>>();
+        let end_s = end as f64 * self.tick_s;
         !self.is_same_film(other)
-            || past(self) != past(other)
-            || thinning(self) != thinning(other)
-            || pushes(self) != pushes(other)
-            || self.path.until(end as f64 * self.tick_s) != other.path.until(end as f64 * self.tick_s)
+            || self.flows.until(end) != other.flows.until(end)
+            || self.evaporation.until(end) != other.evaporation.until(end)
+            || self.pushes.until(end) != other.pushes.until(end)
+            || self.path.until(end_s) != other.path.until(end_s)
     }
 }

@@ -7,15 +7,19 @@ mod picture;
 mod rest;
 mod step;
 
-pub use film::{FieldKey, FilmEnd, FilmKey, FlowSegment, HoleKey, Moment, OpenHoleKey, PushKey};
+pub use film::{FieldKey, FilmEnd, FilmKey, OpenHoleKey};
 pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
 pub use picture::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey, exposed_ev,
 };
 pub use rest::RestingFilm;
 
-pub use crate::physics::film::{
-    FlowLaw, FreeFlow, evaporated_nm,
-    model::{MAX_RIM_PATCHES, left_nm},
-    properties::BLACK_FILM_NM,
+pub use crate::physics::{
+    bubble::Opening,
+    film::{
+        FlowLaw, FreeFlow,
+        model::{MAX_RIM_PATCHES, left_nm},
+        properties::BLACK_FILM_NM,
+    },
+    timeline::Moment,
 };

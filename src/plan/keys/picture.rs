@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{BandsKey, FilmKey, HoleKey, OpenHoleKey, TableKey};
+use super::{BandsKey, FilmKey, OpenHoleKey, Opening, TableKey};
 use crate::physics::{colour::Gamut, environment::CubeMap, film::Cap};
 
 /// The light around the bubbles.
@@ -52,7 +52,7 @@ pub struct BubbleKey {
     /// The film.
     pub film: FilmKey,
     /// The hole in it, while it bursts.
-    pub hole: Option<HoleKey>,
+    pub hole: Option<Opening>,
     /// Where the film ends, if it does: on a bath, beside its image in the bath.
     pub cap: Option<Cap>,
 }

@@ -411,7 +411,7 @@ fn the_smallest_patches_are_no_more_than_a_step_takes() {
     let bubble = &mut scene.bubbles[0];
     (bubble.radius_mm, bubble.patch_mm, bubble.regeneration) = (5000.0, 0.1, 10.0);
     scene.motion.gravity_m_s2 = [0.0, 0.0, -1000.0];
-    let Some(FilmKey::Field(film)) = film_key(&scene, 0, Moment::tick(1000)) else {
+    let Some(FilmKey::Field(film)) = Story::new(scene).film_key(0, Moment::tick(1000)) else {
         panic!("a ring's film has a field")
     };
     assert_eq!(film.patches_during(0.0, 1000.0).len(), MAX_RIM_PATCHES);

@@ -2,6 +2,8 @@
 
 mod events;
 mod films;
+mod lives;
+mod story;
 
 use std::{
     collections::{BTreeMap, BTreeSet},

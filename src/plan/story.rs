@@ -1,0 +1,138 @@
+//! A scene with all that follows from it before a moment is named: its motions and the lives of its bubbles.
+
+use std::{ops::Deref, sync::OnceLock};
+
+use glam::{DQuat, DVec3};
+
+use super::{
+    FilmKey, Moment,
+    detail::film_grids,
+    films::{film, has_field},
+    laws::courses,
+    turns::Turns,
+};
+use crate::{
+    physics::{
+        bubble::{Age, Lives},
+        timeline::Timeline,
+    },
+    scene::{Bubble, Event, Motion, Scene},
+};
+
+/// A scene and its story. It reads as the scene, and changes by [`Story::change`] alone, so that both always agree. What follows from the scene
+/// is found when it is first asked for, and once: a moment an hour into a story of thousands of events costs no more than its first.
+#[derive(Debug)]
+pub struct Story {
+    scene: Scene,
+    plot: OnceLock<Plot>,
+    grids: OnceLock<Vec<[u32; 2]>>,
+}
+
+/// What follows from the parts of a scene that shape its films.
+#[derive(Debug)]
+struct Plot {
+    /// The parts that it follows from.
+    source: (Motion, Vec<Bubble>, Vec<Event>),
+    motions: Timeline<Motion>,
+    turns: Turns,
+    lives: Vec<Lives>,
+}
+
+impl Story {
+    /// The story of a scene.
+    #[must_use]
+    pub fn new(scene: Scene) -> Self {
+        Self { scene, plot: OnceLock::new(), grids: OnceLock::new() }
+    }
+
+    /// Changes the scene, and returns what the change does.
+    pub fn change<T>(&mut self, change: impl FnOnce(&mut Scene) -> T) -> T {
+        let result = change(&mut self.scene);
+        self.grids.take();
+        // A camera that moves leaves what happens as it is, and lives that were found stay found.
+        if self.plot.get().is_some_and(|plot| !plot.is_of(&self.scene)) {
+            self.plot.take();
+        }
+        result
+    }
+
+    /// The motion in force at a tick.
+    #[must_use]
+    pub fn motion_in_force(&self, tick: u64) -> &Motion {
+        // There is one from tick 0 on.
+        self.plot().motions.at(tick).unwrap_or(&self.scene.motion)
+    }
+
+    /// How far all films have turned as a whole at a time in ticks.
+    #[must_use]
+    pub fn film_turn(&self, ticks: f64) -> DQuat {
+        self.plot().turns.at(ticks)
+    }
+
+    /// Where the centre of a bubble is at a time in seconds, m; the origin for a bubble that there is not.
+    #[must_use]
+    pub fn centre_m(&self, index: usize, time_s: f64) -> DVec3 {
+        self.lives(index).map_or(DVec3::ZERO, |lives| lives.path().at(time_s).place_m)
+    }
+
+    /// A bubble at a moment; nothing between two lives, or if there is no such bubble.
+    #[must_use]
+    pub fn age(&self, index: usize, moment: Moment) -> Option<Age> {
+        self.lives(index)?.at(moment)
+    }
+
+    /// The lives of a bubble; nothing if there is no such bubble.
+    #[must_use]
+    pub fn lives(&self, index: usize) -> Option<&Lives> {
+        self.plot().lives.get(index)
+    }
+
+    /// What the film of a bubble is at a moment; nothing if there is no such bubble then.
+    #[must_use]
+    pub fn film_key(&self, index: usize, moment: Moment) -> Option<FilmKey> {
+        self.age(index, moment).map(|age| self.film_of_age(index, &age))
+    }
+
+    /// What the film of a bubble of the scene is at an age.
+    pub(super) fn film_of_age(&self, index: usize, age: &Age) -> FilmKey {
+        film(&self.bubbles[index], age, self.grids()[index], &self.motion)
+    }
+
+    /// Cells along a panel's edge of a bubble's film, and of its flow where that is coarser; nothing for a film of one thickness.
+    #[must_use]
+    pub fn field_grids(&self, index: usize) -> Option<[u32; 2]> {
+        self.bubbles.get(index).filter(|bubble| has_field(bubble)).map(|_| self.grids()[index])
+    }
+
+    fn grids(&self) -> &[[u32; 2]] {
+        self.grids.get_or_init(|| (0..self.bubbles.len()).map(|index| film_grids(self, index)).collect())
+    }
+
+    fn plot(&self) -> &Plot {
+        self.plot.get_or_init(|| Plot::new(&self.scene))
+    }
+}
+
+impl Deref for Story {
+    type Target = Scene;
+
+    fn deref(&self) -> &Scene {
+        &self.scene
+    }
+}
+
+impl Plot {
+    fn new(scene: &Scene) -> Self {
+        let motions = scene.motions().collect();
+        let turns = Turns::new(&motions, scene.motion.tick_s);
+        let lives = courses(scene, &motions, &turns).into_iter().map(Lives::new).collect();
+        let source = (scene.motion.clone(), scene.bubbles.clone(), scene.events.clone());
+        Self { source, motions, turns, lives }
+    }
+
+    /// Whether it follows from a scene.
+    fn is_of(&self, scene: &Scene) -> bool {
+        let (motion, bubbles, events) = &self.source;
+        (motion, bubbles, events) == (&scene.motion, &scene.bubbles, &scene.events)
+    }
+}
