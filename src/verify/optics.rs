@@ -35,18 +35,25 @@ struct Case {
     limits: [Option<f64>; 3],
 }
 
+fn water(light: &'static str, quality: Quality, thickest_nm: f64, walls: u32, limits: [Option<f64>; 3]) -> Case {
+    Case { film: FilmIndex::Water, light, quality, thickest_nm, walls, limits }
+}
+
+/// Fringes of dense films are as narrow at grazing as the table's samples of the spectrum are apart.
+fn dense_cases(index: f64) -> [Case; 3] {
+    let film = FilmIndex::Constant(index);
+    let case = |quality, walls, limits| Case { film: film.clone(), ..water("D65", quality, 1500.0, walls, limits) };
+    [
+        case(Quality::Standard, 1, [Some(0.021), None, Some(1.0)]),
+        case(Quality::Fast, 2, [Some(1.0), Some(15.0), None]),
+        case(Quality::Standard, 2, [Some(0.15), None, None]),
+    ]
+}
+
 /// Under white light: the table alone for one wall, the table and products of few wavelengths for two, many wavelengths. The limits hold
 /// to 3 µm, where halves of floats and f32's phases cost a little more in the mean.
 fn cases() -> Vec<Case> {
     use Quality::{Fast, Spectral, Standard};
-    let water = |light, quality, thickest_nm, walls, limits| Case {
-        film: FilmIndex::Water,
-        light,
-        quality,
-        thickest_nm,
-        walls,
-        limits,
-    };
     let (table, table_thick) = ([Some(0.013), None, Some(0.1)], [Some(0.018), None, Some(0.1)]);
     let spectral = [Some(0.012), Some(0.12), Some(2.0)];
     let standard = [Some(0.15), Some(1.5), None];
@@ -77,19 +84,7 @@ fn cases() -> Vec<Case> {
         cases.push(water("D65", quality, 30_000.0, 2, standard));
     }
     cases.push(water("D65", Spectral, 6000.0, 2, standard));
-    // Fringes of dense films are as narrow at grazing as the table's samples of the spectrum are apart.
-    let dense_table = [Some(0.021), None, Some(1.0)];
-    for index in [2.0, 4.0] {
-        let dense = |quality, walls, limits| Case {
-            film: FilmIndex::Constant(index),
-            ..water("D65", quality, 1500.0, walls, limits)
-        };
-        cases.extend([
-            dense(Standard, 1, dense_table),
-            dense(Fast, 2, fast),
-            dense(Standard, 2, [Some(0.15), None, None]),
-        ]);
-    }
+    cases.extend([2.0, 4.0].into_iter().flat_map(dense_cases));
     let glycerol = FilmIndex::Glycerol(40.0);
     cases.push(Case { film: glycerol, ..water("D65", Standard, 1500.0, 2, standard) });
     cases
