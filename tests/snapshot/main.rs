@@ -22,8 +22,19 @@ use soapfilm::{
 use compare::Comparison;
 
 /// Presets, and moments in seconds at which each shows what it is for.
-const GOLDENS: [(&str, f64); 7] =
-    [("default", 0.4), ("windows", 0.0), ("fresh", 0.9), ("black", 0.0), ("trio", 0.0), ("inside", 0.0), ("bath", 0.5)];
+const GOLDENS: [(&str, f64); 11] = [
+    ("default", 0.4),
+    ("windows", 0.0),
+    ("fresh", 0.9),
+    ("black", 0.0),
+    ("trio", 0.0),
+    ("inside", 0.0),
+    ("bath", 0.5),
+    ("ring", 0.4),
+    ("drop", 0.4),
+    ("polarised", 0.0),
+    ("two_lights", 0.0),
+];
 const SIZE: [u32; 2] = [320, 180];
 /// Limits where another adapter or driver draws.
 const MAX_STEPS: u8 = 1;
