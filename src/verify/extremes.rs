@@ -44,12 +44,12 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
         film(run, &format!("gravity of {gravities} g"), &scene, seconds)?;
     }
     let radii_mm = [(0.1, 100.0, 0.3), (1000.0, 1.0, 14.0), (0.1, 1.0, 0.3), (10.0, 1.0, 2.0)];
-    for (radius_mm, gravities, seconds) in radii_mm.into_iter().take(run.short_or_full(2, 4)) {
+    for (radius_mm, gravities, seconds) in radii_mm.into_iter().take(run.short_or_full(1, 4)) {
         let mut scene = blown_with(|motion| motion.gravity_m_s2 = down(gravities));
         scene.bubbles[0].radius_mm = radius_mm;
         film(run, &format!("a radius of {radius_mm} mm in {gravities} g"), &scene, seconds)?;
     }
-    for pa_s in [1e-4, 10.0] {
+    for pa_s in [1e-4, 10.0].into_iter().take(run.short_or_full(1, 2)) {
         let scene = blown_with(|motion| motion.viscosity_mm2_s = 1e6 * pa_s / DENSITY_KG_M3);
         film(run, &format!("a viscosity of {pa_s} Pa s"), &scene, 6.0)?;
     }

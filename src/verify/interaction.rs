@@ -23,9 +23,9 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     undriven(run)?;
     sloshing(run)?;
     creeping(run)?;
-    anything(run, "", run.short_or_full(100, 3000), 0.5)?;
+    anything(run, "", run.short_or_full(60, 3000), 0.5)?;
     // Accelerated as no bubble could bear.
-    anything(run, ", dragged by kilometres", run.short_or_full(100, 200), 1000.0)
+    anything(run, ", dragged by kilometres", run.short_or_full(30, 200), 1000.0)
 }
 
 /// A film without weight in air at rest.
