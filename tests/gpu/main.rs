@@ -5,6 +5,7 @@ mod support;
 
 mod backends;
 mod boundaries;
+mod breaking;
 mod bursting;
 mod extremes;
 mod far;

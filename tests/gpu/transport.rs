@@ -148,8 +148,3 @@ fn a_stirred_film_follows_its_trajectories() {
 fn published_tests_keep_to_their_limits() {
     hold(Part::Transport, 10);
 }
-
-#[test]
-fn what_breaks_solvers_does_not_break_this_one() {
-    hold(Part::Stability, 10);
-}
