@@ -28,7 +28,7 @@ pub enum Edit {
     Happens(Change),
     /// Another beginning of the motion, and other events.
     History(Box<Motion>, Vec<Event>),
-    /// An event that has not happened, by its index.
+    /// The history without an event, by its index.
     Forget(usize),
 }
 
@@ -90,12 +90,10 @@ pub fn new_seed() -> u64 {
     RandomState::new().hash_one(0) % 100_000
 }
 
-/// Makes a motion that in force at a tick: what can change while time runs changes from then on, the rest for the whole history.
+/// Puts a motion in force at a tick: what can change while time runs changes from then on, the rest for the whole history.
 fn move_by(scene: &mut Scene, tick: u64, motion: Motion) {
-    let now = scene.motion_at(tick);
-    let Motion { tick_s, scheme, remap_ticks, speed, .. } = motion;
-    let change = MotionChange::between(&now, &motion);
-    scene.motion = Motion { tick_s, scheme, remap_ticks, speed, ..scene.motion.clone() };
+    let change = MotionChange::between(&scene.motion_at(tick), &motion);
+    scene.motion = MotionChange::all_of(&scene.motion).applied_to(motion);
     if change != MotionChange::default() {
         history::record(scene, tick, change);
     }

@@ -16,7 +16,7 @@ use super::{
 use crate::{
     input::LoadedScene,
     plan::{Resources, Story, settle_detail},
-    scene::{Light, Motion},
+    scene::{Light, Motion, MotionChange},
 };
 
 /// What a file is wanted for.
@@ -85,8 +85,8 @@ pub struct Model {
     pub selected: usize,
     /// The last tick that was ever shown of this history: how far its time line reaches.
     pub furthest_tick: u64,
-    /// The motion while a slider of it is being dragged: it counts once the slider is let go.
-    pub motion_draft: Option<Motion>,
+    /// What a slider of the motion has changed while it is being dragged: it counts once the slider is let go.
+    pub motion_draft: Option<MotionChange>,
     /// What the pointer is used for.
     pub tool: Tool,
     /// What the pointer does with it.
@@ -178,8 +178,6 @@ impl Model {
 
     /// Makes a change of the scene, or says why there can be no such scene; tells whether it was made. The only way to change a scene.
     pub fn edit(&mut self, edit: Edit) -> bool {
-        let bubbles =
-            matches!(edit, Edit::Bubble(..) | Edit::Bubbles(_) | Edit::Reseed).then(|| self.scene.bubbles.clone());
         let tick = self.clock.tick;
         let back = self.scene.change(|scene| edit.apply(scene, tick));
         if let Err(error) = self.scene.validate() {
@@ -187,7 +185,7 @@ impl Model {
             self.messages.problem(error.to_string());
             return false;
         }
-        if bubbles.is_some_and(|before| begins_anew(&before, &self.scene.bubbles)) {
+        if matches!(&back, Edit::Bubbles(before) if begins_anew(before, &self.scene.bubbles)) {
             self.clock.reset();
         }
         true
@@ -267,7 +265,7 @@ pub(super) mod tests {
     use crate::{
         input::load_scene,
         plan::film_grids,
-        scene::{Change, Event, FilmIndexName, Flow, MotionChange, Scene},
+        scene::{Change, Event, FilmIndexName, Flow, Scene},
     };
 
     /// The preset without an environment to compute.

@@ -4,7 +4,7 @@
 //! kind has, an item of [`Change::every_key`], and its heading on the format's page.
 
 use super::{
-    Flow, MotionChange,
+    Flow, Motion, MotionChange,
     check::{Checked, Fault},
     motion::with_changing_keys,
     section::section,
@@ -74,7 +74,7 @@ impl Change {
     /// One of each kind, with no key left out.
     pub(super) fn every_key() -> [Self; 5] {
         [
-            Self::Motion(MotionChange::of_every_key()),
+            Self::Motion(MotionChange::all_of(&Motion::default())),
             Self::Stir(Stir::default()),
             Self::Blow(Blow::default()),
             Self::Drag(Drag::default()),
@@ -215,7 +215,7 @@ impl From<Entry> for Event {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Motion, Scene};
+    use super::super::Scene;
     use super::*;
 
     fn at(tick: u64, change: MotionChange) -> Event {

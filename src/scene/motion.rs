@@ -75,10 +75,10 @@ macro_rules! change {
                 Self { $($name: (before.$name != after.$name).then_some(after.$name),)+ }
             }
 
-            /// One that changes every key, to its default.
-            pub(super) fn of_every_key() -> Self {
-                let all = Motion::default();
-                Self { $($name: Some(all.$name),)+ }
+            /// All keys that can change, as a motion has them.
+            #[must_use]
+            pub fn all_of(motion: &Motion) -> Self {
+                Self { $($name: Some(motion.$name),)+ }
             }
         }
     };

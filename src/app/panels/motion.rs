@@ -5,7 +5,7 @@ use egui::{Response, Ui};
 use super::widgets::{choice, group, number, number_within, seed, slider};
 use crate::{
     app::{edit::Edit, history, model::Model},
-    scene::Motion,
+    scene::{Motion, MotionChange},
 };
 
 /// Shows and edits the motion that is in force now.
@@ -13,12 +13,14 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     clock(ui, model);
     time_line(ui, model);
     let now = model.motion();
-    let mut motion = model.motion_draft.take().unwrap_or_else(|| now.clone());
+    let mut motion = model.motion_draft.take().unwrap_or_default().applied_to(now.clone());
     let is_dragged = flow(ui, &mut motion) | film(ui, &mut motion) | life(ui, &mut motion) | method(ui, &mut motion);
     if is_dragged {
-        // It counts once it is let go: each value on the way would be an event of its own.
-        model.motion_draft = Some(motion);
-    } else if motion != now {
+        // Events count once the slider is let go, or each value on the way would be one. What else happens meanwhile stays.
+        model.motion_draft = Some(MotionChange::between(&now, &motion));
+        motion = MotionChange::all_of(&now).applied_to(motion);
+    }
+    if motion != now {
         model.edit(Edit::Motion(motion.into()));
     }
     events(ui, model);
@@ -124,7 +126,7 @@ fn life(ui: &mut Ui, motion: &mut Motion) -> bool {
     drying.dragged() | others
 }
 
-/// How the film is computed, and how fast the clock runs: the same for the whole history.
+/// The scheme and the speed of the clock, which hold for the whole history.
 fn method(ui: &mut Ui, motion: &mut Motion) -> bool {
     let keys = Motion::KEYS;
     let speed = number(ui, &keys.speed, &mut motion.speed, |slider| slider.logarithmic(true).max_decimals(2));

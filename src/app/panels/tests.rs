@@ -9,7 +9,7 @@ use crate::{
         model::{Model, Request, Target, tests::model},
         tools::Tool,
     },
-    scene::{Backdrop, Boundary, Change, FilmStateName, Flow, Scene, Scheme},
+    scene::{Backdrop, Boundary, Change, Event, FilmStateName, Flow, MotionChange, Scene, Scheme},
 };
 
 struct State {
@@ -156,6 +156,28 @@ fn a_change_after_going_back_stands_before_what_came_later() {
     assert_eq!((scene.motion_at(299).spin_deg_s[2], scene.motion_at(300).spin_deg_s[2]), (0.0, 90.0));
     assert_eq!(scene.motion_at(120).evaporation_nm_s, 5.0);
     assert_eq!(Scene::from_toml(&scene.to_toml(), "saved").as_ref(), Ok(scene));
+}
+
+/// A slider that is held while an event passes changes its own key alone.
+#[test]
+fn what_happens_while_a_slider_is_dragged_stays() {
+    let mut window = window();
+    let stronger = MotionChange { strength: Some(3.0), ..MotionChange::default() };
+    let event = Event { tick: 10, change: Change::Motion(stronger) };
+    window.state_mut().model.scene.change(|scene| scene.events = vec![event]);
+    let start = window.get_by_role_and_label(Role::Slider, "Evaporation").rect().center();
+    window.drag_at(start);
+    window.step();
+    window.hover_at(start + vec2(10.0, 0.0));
+    window.step();
+    window.state_mut().model.clock.tick = 20;
+    window.hover_at(start + vec2(20.0, 0.0));
+    window.step();
+    window.drop_at(start + vec2(20.0, 0.0));
+    window.run();
+    let motion = window.state().model.motion();
+    assert!(motion.evaporation_nm_s > 0.0, "the slider was moved");
+    assert_eq!((motion.strength, window.state().model.scene.events.len()), (3.0, 2));
 }
 
 #[test]
