@@ -35,7 +35,7 @@ fn film_end(bubble: &Bubble, generation: u32) -> Option<FilmEnd> {
     })
 }
 
-/// The film of a bubble of an age, on grids of so many cells an edge, followed by the clock and the method of a motion.
+/// The film of a bubble at an age, on grids of the given sizes, with the clock and the scheme of a motion.
 pub(super) fn film(bubble: &Bubble, age: &Age, [cells, flow_cells]: [u32; 2], motion: &Motion) -> FilmKey {
     let life = &age.life;
     if let InitialFilm::Uniform { thickness_nm } = life.film {

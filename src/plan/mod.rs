@@ -11,11 +11,12 @@ mod fields;
 mod films;
 pub mod keys;
 mod laws;
+mod pass;
 mod story;
 mod turns;
 mod want;
 
-use std::{fmt, ops::Range};
+use std::fmt;
 
 pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
@@ -25,6 +26,7 @@ pub use keys::{
     FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey, RestingFilm,
     TableKey, TonemapKey, exposed_ev, left_nm, range_nm,
 };
+pub use pass::{Pass, Reason};
 pub use story::Story;
 pub use want::{Lamp, Resources, Shot, has_one_film, want};
 
@@ -88,127 +90,6 @@ pub struct FieldHave {
     pub rest: Option<RestingFilm>,
     /// States to go back to.
     pub checkpoints: Checkpoints,
-}
-
-/// One pass, with all that it reads.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Pass {
-    /// Sends the faces and levels of a light's environment.
-    UploadEnvironment {
-        /// Index of the light.
-        light: usize,
-        /// The environment.
-        key: EnvironmentKey,
-    },
-    /// Bakes some rows of a lookup table.
-    BakeTable {
-        /// Index of the light.
-        light: usize,
-        /// The table.
-        key: TableKey,
-        /// Rows to bake.
-        rows: Range<u32>,
-    },
-    /// Fits and sends the bands.
-    FitBands {
-        /// Index of the light.
-        light: usize,
-        /// The bands.
-        key: BandsKey,
-    },
-    /// Sets a film to its initial thickness.
-    SeedField {
-        /// Index of the film.
-        film: usize,
-        /// The field at tick 0.
-        key: FieldKey,
-    },
-    /// Makes a checkpoint a film's state again.
-    RestoreField {
-        /// Index of the film.
-        film: usize,
-        /// Slot of the checkpoint.
-        slot: usize,
-        /// The field at the checkpoint's tick.
-        key: FieldKey,
-    },
-    /// Keeps a copy of a film's state.
-    SaveField {
-        /// Index of the film.
-        film: usize,
-        /// Slot that the copy goes to; what it holds is lost.
-        slot: usize,
-        /// The field at the state's tick.
-        key: FieldKey,
-    },
-    /// Moves a film through whole ticks.
-    StepField {
-        /// Index of the film.
-        film: usize,
-        /// The field's law; its moment is where the steps end.
-        key: FieldKey,
-        /// Ticks to take.
-        ticks: Range<u64>,
-    },
-    /// Makes a film's thickness at a moment, which may lie between two ticks, ready to be drawn.
-    ShowField {
-        /// Index of the film.
-        film: usize,
-        /// The field at the moment to show.
-        key: FieldKey,
-    },
-    /// Finds the rim of the hole in a film that bursts.
-    OpenHole {
-        /// Index of the film.
-        film: usize,
-        /// The hole and its film.
-        key: OpenHoleKey,
-    },
-    /// Draws backdrop and bubbles into the linear picture.
-    Draw(DrawKey),
-    /// Makes the finished picture from the linear one.
-    Tonemap(TonemapKey),
-}
-
-impl Pass {
-    /// The pass's name, as reports print it.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::UploadEnvironment { .. } => "upload_environment",
-            Self::BakeTable { .. } => "bake_table",
-            Self::FitBands { .. } => "fit_bands",
-            Self::SeedField { .. } => "seed_field",
-            Self::RestoreField { .. } => "restore_field",
-            Self::SaveField { .. } => "save_field",
-            Self::StepField { .. } => "step_field",
-            Self::ShowField { .. } => "show_field",
-            Self::OpenHole { .. } => "open_hole",
-            Self::Draw(_) => "draw",
-            Self::Tonemap(_) => "tonemap",
-        }
-    }
-}
-
-/// Why a pass runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reason {
-    /// Its product is not there at all.
-    Missing,
-    /// What it reads has changed.
-    Changed(&'static str),
-    /// A part of its product was left for later.
-    Unfinished,
-}
-
-impl fmt::Display for Reason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Missing => f.write_str("nothing there yet"),
-            Self::Changed(what) => write!(f, "{what} changed"),
-            Self::Unfinished => f.write_str("continued from the last frame"),
-        }
-    }
 }
 
 /// The passes to run, in order, and what will be there afterwards.

@@ -1,7 +1,7 @@
 //! How the films move, and what changes on the way.
 //!
 //! What moves a film may change while time runs: those keys of `[motion]` are also keys of an event, and a change of theirs in the window is
-//! an event from then on. The clock and the method are the same for the whole history; to change them is to change the past.
+//! an event from then on. The clock and the scheme hold for the whole history; to change them is to change the past.
 
 use super::{
     check::{Checked, Fault},

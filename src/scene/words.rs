@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// A text of so many characters at most, for messages: a longer one loses its middle.
+/// A text cut to a number of characters, for messages: a longer one loses its middle.
 #[must_use]
 pub fn shorten(text: &str, max: usize) -> Cow<'_, str> {
     let count = text.chars().count();

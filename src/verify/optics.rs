@@ -123,7 +123,7 @@ impl Case {
         (FEW_POINTS as f64 * (3000.0 / self.thickest_nm).min(1.0)) as usize
     }
 
-    /// The colour difference at each of so many points, and the point's cosine.
+    /// The colour difference at each of a number of points, and the point's cosine.
     fn errors(&self, gpu: &Gpu, count: usize) -> Result<Vec<(f64, f64)>, GpuError> {
         let key = optics(self.film.clone(), self.light)?;
         let points = points(count, self.thickest_nm, self.walls);

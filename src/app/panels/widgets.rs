@@ -96,7 +96,7 @@ pub fn choice<T: Words>(ui: &mut Ui, key: &Key, value: &mut T) -> bool {
     choice_of(ui, key.label, value, T::CHOICES)
 }
 
-/// The same with some of the words.
+/// A row of some of the words of a key, of which one is chosen.
 pub fn choice_of<T: Words>(ui: &mut Ui, name: &str, value: &mut T, choices: &[T]) -> bool {
     let options: Vec<_> = choices.iter().map(|choice| (*choice, choice.name(), choice.help())).collect();
     options_of(ui, name, value, &options)

@@ -19,7 +19,7 @@ use crate::{
 };
 
 impl FlowSolver {
-    /// Takes a step, after so many that are tried.
+    /// Takes a step after a number of trial steps, which improve the velocity that it is taken with.
     pub(super) fn take(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -153,7 +153,7 @@ impl FlowSolver {
         fill.halo_of_velocities(recorder, STEP_FLOW, [1; 3])
     }
 
-    /// A sum of up to three fields with factors, and so many times the mean of the guess, halos included.
+    /// The weighted sum of up to three fields and of the guess's mean, halos included.
     fn combine(
         &self,
         recorder: &mut Recorder<'_>,

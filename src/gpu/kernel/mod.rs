@@ -125,7 +125,7 @@ impl Drawable {
         Ok(Self { pipeline, bindings })
     }
 
-    /// Draws so many vertices.
+    /// Draws a number of vertices.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, vertices: u32) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.bindings, &[]);

@@ -13,7 +13,7 @@ shader_struct! {
     pub struct ComposeUniform {
         /// Cells along a panel's edge.
         pub cells: u32,
-        /// The same of the grid that the step was traced on.
+        /// Cells along a panel's edge of the grid that the step was traced on.
         pub step_cells: u32,
         /// Cells that the first two by two begin before storage does.
         pub quad_skew: u32,

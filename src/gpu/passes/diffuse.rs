@@ -19,7 +19,7 @@ shader_struct! {
         pub stage: u32,
         /// Squared cell angles a tick and part, times the stage's weight.
         pub rate: f32,
-        /// The same in any one part at most.
+        /// Largest rate that one part of the diffusion can take.
         pub most: f32,
         /// Factor of the stage before.
         pub before: f32,
@@ -52,7 +52,7 @@ pub struct Diffusion {
 }
 
 impl Diffusion {
-    /// Diffusion of so many rad²/s on a grid, for ticks of a length in seconds; nothing if nothing spreads.
+    /// Diffusion on a grid at a rate in rad²/s, for ticks of a length in seconds; none if the rate is 0.
     #[must_use]
     pub fn new(gpu: &Gpu, grid: &Grid, rad2_s: f64, tick_s: f64) -> Option<Self> {
         let plan = DiffusionPlan::new(rad2_s, tick_s, grid.sphere.cell_angle())?;

@@ -20,7 +20,7 @@ shader_struct! {
 kernels! {
     pass flow_combine;
 
-    /// A sum of three fields with factors, and so many times the mean of the guess, halos included.
+    /// The weighted sum of three fields and of the guess's mean, halos included.
     struct FlowCombine {
         @0 combine: Uniform<CombineUniform>;
         @1 measures: Read<FlowMeasures>;

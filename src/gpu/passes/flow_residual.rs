@@ -18,7 +18,7 @@ shader_struct! {
         pub cell_angle: f32,
         /// Cells along a panel's edge.
         pub cells: u32,
-        /// The same of the next grid.
+        /// Cells along a panel's edge of the next grid.
         pub coarse_cells: u32,
         /// Where the corrections of the next grid start.
         pub coarse_field: u32,

@@ -10,9 +10,9 @@ shader_struct! {
     pub struct ThicknessUniform {
         /// Cells along a panel's edge of the flow.
         pub cells: u32,
-        /// The same of the map.
+        /// Cells along a panel's edge of the map.
         pub map_cells: u32,
-        /// The same of the tracer.
+        /// Cells along a panel's edge of the tracer.
         pub tracer_cells: u32,
         /// Thickness that the logarithm is relative to, nm.
         pub reference_nm: f32,

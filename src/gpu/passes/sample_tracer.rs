@@ -30,9 +30,9 @@ shader_struct! {
     pub struct SampleUniform {
         /// Cells along a panel's edge of what is written.
         pub cells: u32,
-        /// The same of the map.
+        /// Cells along a panel's edge of the map.
         pub map_cells: u32,
-        /// The same of the tracer.
+        /// Cells along a panel's edge of the tracer.
         pub tracer_cells: u32,
         /// Height of the rim that the film ends at.
         pub rim_z: f32,

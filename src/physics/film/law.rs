@@ -39,7 +39,7 @@ pub struct FreeFlow {
 }
 
 impl FreeFlow {
-    /// The same in a bubble that is accelerated, by so many radii a second squared: gravity is less by that.
+    /// The law in an accelerated bubble: gravity is less by the acceleration, in radii per second squared.
     #[must_use]
     pub fn accelerated(self, acceleration: DVec3) -> Self {
         let gravity = self.forces.gravity - acceleration;
