@@ -291,21 +291,6 @@ impl Gpu {
         buffer
     }
 
-    /// A bind group of resources, each with its number.
-    #[must_use]
-    pub fn bind(
-        &self,
-        layout: &wgpu::BindGroupLayout,
-        resources: &[(u32, wgpu::BindingResource<'_>)],
-    ) -> wgpu::BindGroup {
-        let entry = |(binding, resource): &(u32, _)| wgpu::BindGroupEntry {
-            binding: *binding,
-            resource: wgpu::BindingResource::clone(resource),
-        };
-        let entries: Vec<_> = resources.iter().map(entry).collect();
-        self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
-    }
-
     /// Waits until the device has done all that was submitted. Not for browsers, where nothing may block.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn wait(&self) -> Result<(), GpuError> {

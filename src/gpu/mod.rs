@@ -27,6 +27,8 @@ pub mod renderer;
 pub mod rings;
 pub mod shaders;
 pub mod shown_film;
+#[cfg(not(target_arch = "wasm32"))]
+mod specialise;
 pub mod timing;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod transport_case;

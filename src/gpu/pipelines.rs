@@ -1,5 +1,9 @@
 //! Pipelines, made on first use and kept: a pass, an entry point, the constants it was specialised for, and the target's format.
+//!
+//! Outside browsers, shaders get their constants here and not from the driver: see `specialise.rs`.
 
+#[cfg(not(target_arch = "wasm32"))]
+use std::borrow::Cow;
 use std::{
     collections::HashMap,
     sync::{
@@ -8,7 +12,10 @@ use std::{
     },
 };
 
+#[cfg(not(target_arch = "wasm32"))]
+use super::specialise::specialised;
 use super::{
+    device::Gpu,
     late_errors::LateErrors,
     shaders::{Composed, Library, ShaderError},
 };
@@ -43,6 +50,33 @@ pub struct RenderKey {
     pub constants: Vec<(&'static str, u32)>,
 }
 
+/// A pipeline, and what to bind for it.
+#[derive(Clone, Debug)]
+pub struct Ready<P> {
+    /// The pipeline.
+    pub pipeline: P,
+    layout: wgpu::BindGroupLayout,
+    /// Numbers of the bindings that its constants leave a use for; all, if nothing is known of that.
+    bindings: Option<Vec<u32>>,
+}
+
+impl<P> Ready<P> {
+    /// Binds resources by their numbers, but for those that the pipeline has no use for.
+    pub fn bind(&self, gpu: &Gpu, resources: &[(u32, wgpu::BindingResource<'_>)]) -> wgpu::BindGroup {
+        let is_used = |number: &u32| self.bindings.as_ref().is_none_or(|bindings| bindings.contains(number));
+        let entry = |(binding, resource): &(u32, _)| wgpu::BindGroupEntry {
+            binding: *binding,
+            resource: wgpu::BindingResource::clone(resource),
+        };
+        let entries: Vec<_> = resources.iter().filter(|(number, _)| is_used(number)).map(entry).collect();
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &self.layout,
+            entries: &entries,
+        })
+    }
+}
+
 /// All pipelines of a device.
 pub struct Pipelines {
     library: Mutex<Library>,
@@ -53,8 +87,8 @@ pub struct Pipelines {
 
 #[derive(Default)]
 struct Made {
-    compute: HashMap<ComputeKey, wgpu::ComputePipeline>,
-    render: HashMap<RenderKey, wgpu::RenderPipeline>,
+    compute: HashMap<ComputeKey, Ready<wgpu::ComputePipeline>>,
+    render: HashMap<RenderKey, Ready<wgpu::RenderPipeline>>,
 }
 
 impl Pipelines {
@@ -79,7 +113,11 @@ impl Pipelines {
     }
 
     /// The compute pipeline of a key, made now if need be.
-    pub fn compute(&self, device: &wgpu::Device, key: &ComputeKey) -> Result<wgpu::ComputePipeline, ShaderError> {
+    pub fn compute(
+        &self,
+        device: &wgpu::Device,
+        key: &ComputeKey,
+    ) -> Result<Ready<wgpu::ComputePipeline>, ShaderError> {
         if let Some(pipeline) = self.made().compute.get(key) {
             return Ok(pipeline.clone());
         }
@@ -90,7 +128,7 @@ impl Pipelines {
     }
 
     /// The render pipeline of a key, made now if need be.
-    pub fn render(&self, device: &wgpu::Device, key: &RenderKey) -> Result<wgpu::RenderPipeline, ShaderError> {
+    pub fn render(&self, device: &wgpu::Device, key: &RenderKey) -> Result<Ready<wgpu::RenderPipeline>, ShaderError> {
         if let Some(pipeline) = self.made().render.get(key) {
             return Ok(pipeline.clone());
         }
@@ -127,80 +165,136 @@ impl Pipelines {
 
 fn make_compute(
     device: &wgpu::Device,
-    source: (&Library, &LateErrors),
+    (library, late): (&Library, &LateErrors),
     key: &ComputeKey,
-) -> Result<wgpu::ComputePipeline, ShaderError> {
-    make(device, source, key.pass, &key.constants, |module, compilation_options| {
-        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(key.entry),
-            layout: None,
-            module,
-            entry_point: Some(key.entry),
-            compilation_options,
-            cache: None,
-        })
-    })
+) -> Result<Ready<wgpu::ComputePipeline>, ShaderError> {
+    let source = PassSource::new(device, library, key.pass, &key.constants)?;
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let shader = source.stage(key.entry)?;
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(key.entry),
+        layout: None,
+        module: &shader.module,
+        entry_point: Some(key.entry),
+        compilation_options: shader.options(),
+        cache: None,
+    });
+    let layout = pipeline.get_bind_group_layout(0);
+    source.ready(scope, late, [shader], (pipeline, layout))
 }
 
 fn make_render(
     device: &wgpu::Device,
-    source: (&Library, &LateErrors),
+    (library, late): (&Library, &LateErrors),
     key: &RenderKey,
-) -> Result<wgpu::RenderPipeline, ShaderError> {
-    make(device, source, key.pass, &key.constants, |module, compilation_options| {
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(key.fragment),
-            layout: None,
-            vertex: wgpu::VertexState {
-                module,
-                entry_point: Some(key.vertex),
-                compilation_options: compilation_options.clone(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState { topology: wgpu::PrimitiveTopology::TriangleStrip, ..Default::default() },
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module,
-                entry_point: Some(key.fragment),
-                compilation_options,
-                targets: &[Some(key.format.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
-    })
+) -> Result<Ready<wgpu::RenderPipeline>, ShaderError> {
+    let source = PassSource::new(device, library, key.pass, &key.constants)?;
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let vertex = source.stage(key.vertex)?;
+    let fragment = source.stage(key.fragment)?;
+    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(key.fragment),
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &vertex.module,
+            entry_point: Some(key.vertex),
+            compilation_options: vertex.options(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState { topology: wgpu::PrimitiveTopology::TriangleStrip, ..Default::default() },
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &fragment.module,
+            entry_point: Some(key.fragment),
+            compilation_options: fragment.options(),
+            targets: &[Some(key.format.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    });
+    let layout = pipeline.get_bind_group_layout(0);
+    source.ready(scope, late, [vertex, fragment], (pipeline, layout))
 }
 
-/// Composes a pass and builds a pipeline of it. What the compiler or the driver refuses comes back as an error, here or later from
-/// [`Pipelines::late_error`].
-fn make<P>(
-    device: &wgpu::Device,
-    (library, late): (&Library, &LateErrors),
+/// A composed pass, and a value for each of its constants.
+struct PassSource<'a> {
+    device: &'a wgpu::Device,
     pass: &'static str,
-    constants: &[(&'static str, u32)],
-    build: impl FnOnce(&wgpu::ShaderModule, wgpu::PipelineCompilationOptions<'_>) -> P,
-) -> Result<P, ShaderError> {
-    let composed = library.compose(pass)?;
-    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(pass),
-        source: wgpu::ShaderSource::Wgsl(composed.wgsl.as_str().into()),
-    });
-    // Shared constants only where the text declares them: an unknown name would be refused.
-    let shared = SHARED_CONSTANTS.iter().filter(|(name, _)| composed.declares(name));
-    let constants: Vec<(&str, f64)> =
-        constants.iter().chain(shared).map(|(name, value)| (*name, f64::from(*value))).collect();
-    let pipeline = build(&module, wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() });
-    let errors = scope.pop();
-    let answer = async move {
-        let error = errors.await?;
-        let messages = module.get_compilation_info().await.messages;
-        Some(shader_error(pass, &composed, messages, &error))
-    };
-    match late.ask(Box::pin(answer)) {
-        Some(error) => Err(error),
-        None => Ok(pipeline),
+    composed: Composed,
+    constants: Vec<(&'static str, f64)>,
+}
+
+/// The shader of one stage of a pipeline.
+struct StageShader {
+    module: wgpu::ShaderModule,
+    /// Constants that are left to the driver.
+    constants: Vec<(&'static str, f64)>,
+    /// As in [`Ready`].
+    bindings: Option<Vec<u32>>,
+}
+
+impl StageShader {
+    fn options(&self) -> wgpu::PipelineCompilationOptions<'_> {
+        wgpu::PipelineCompilationOptions { constants: &self.constants, ..Default::default() }
+    }
+}
+
+impl<'a> PassSource<'a> {
+    fn new(
+        device: &'a wgpu::Device,
+        library: &Library,
+        pass: &'static str,
+        constants: &[(&'static str, u32)],
+    ) -> Result<Self, ShaderError> {
+        let composed = library.compose(pass)?;
+        // Shared constants only where the text declares them: an unknown name would be refused.
+        let shared = SHARED_CONSTANTS.iter().filter(|(name, _)| composed.declares(name));
+        let constants = constants.iter().chain(shared).map(|(name, value)| (*name, f64::from(*value))).collect();
+        Ok(Self { device, pass, composed, constants })
+    }
+
+    fn module(&self, source: wgpu::ShaderSource<'_>) -> wgpu::ShaderModule {
+        self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(self.pass), source })
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    fn stage(&self, entry: &str) -> Result<StageShader, ShaderError> {
+        let shader = specialised(&self.composed, entry, &self.constants)?;
+        let module = self.module(wgpu::ShaderSource::Naga(Cow::Owned(shader.module)));
+        Ok(StageShader { module, constants: Vec::new(), bindings: Some(shader.bindings) })
+    }
+
+    /// Browsers compile the text themselves.
+    #[cfg(target_arch = "wasm32")]
+    fn stage(&self, _: &str) -> Result<StageShader, ShaderError> {
+        let module = self.module(wgpu::ShaderSource::Wgsl(self.composed.wgsl.as_str().into()));
+        Ok(StageShader { module, constants: self.constants.clone(), bindings: None })
+    }
+
+    /// A pipeline, if nothing was refused since an error scope was opened. What the compiler or the driver refuses comes back as an error, here
+    /// or later from [`Pipelines::late_error`].
+    fn ready<P, const STAGES: usize>(
+        self,
+        scope: wgpu::ErrorScopeGuard,
+        late: &LateErrors,
+        shaders: [StageShader; STAGES],
+        (pipeline, layout): (P, wgpu::BindGroupLayout),
+    ) -> Result<Ready<P>, ShaderError> {
+        let bindings = shaders.iter().map(|shader| shader.bindings.clone()).collect::<Option<Vec<_>>>();
+        let (Self { pass, composed, .. }, errors) = (self, scope.pop());
+        let answer = async move {
+            let error = errors.await?;
+            let mut messages = Vec::new();
+            for shader in shaders {
+                messages.extend(shader.module.get_compilation_info().await.messages);
+            }
+            Some(shader_error(pass, &composed, messages, &error))
+        };
+        match late.ask(Box::pin(answer)) {
+            Some(error) => Err(error),
+            None => Ok(Ready { pipeline, layout, bindings: bindings.map(|stages| stages.concat()) }),
+        }
     }
 }
 

@@ -63,6 +63,8 @@ pub struct Recorder<'g> {
     /// Counts so far.
     pub counts: Counts,
     encoder: wgpu::CommandEncoder,
+    /// The compute pass that is still open: dispatches of one name in a row share it, for opening a pass costs more than a small dispatch.
+    open: Option<(&'static str, wgpu::ComputePass<'static>)>,
     queries: Vec<wgpu::QuerySet>,
     names: Vec<&'static str>,
 }
@@ -76,6 +78,7 @@ impl<'g> Recorder<'g> {
             gpu,
             counts: Counts { submissions: 1, ..Counts::default() },
             encoder,
+            open: None,
             queries: Vec::new(),
             names: Vec::new(),
         }
@@ -108,9 +111,9 @@ impl<'g> Recorder<'g> {
         groups: Groups<'_>,
     ) -> Result<(), GpuError> {
         let gpu = self.gpu;
-        let pipeline = gpu.pipelines.compute(&gpu.device, key)?;
-        let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), resources);
-        self.dispatch(name, &pipeline, &bindings, groups);
+        let ready = gpu.pipelines.compute(&gpu.device, key)?;
+        let bindings = ready.bind(gpu, resources);
+        self.dispatch(name, &ready.pipeline, &bindings, groups);
         Ok(())
     }
 
@@ -122,14 +125,7 @@ impl<'g> Recorder<'g> {
         bindings: &wgpu::BindGroup,
         groups: Groups<'_>,
     ) {
-        let timestamps = self.next_timestamps(name);
-        let timestamp_writes = timestamps.as_ref().map(|(query_set, first)| wgpu::ComputePassTimestampWrites {
-            query_set,
-            beginning_of_pass_write_index: Some(*first),
-            end_of_pass_write_index: Some(*first + 1),
-        });
-        let mut pass =
-            self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes });
+        let pass = self.compute_pass(name);
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, bindings, &[]);
         match groups {
@@ -137,6 +133,28 @@ impl<'g> Recorder<'g> {
             Groups::From(arguments, offset) => pass.dispatch_workgroups_indirect(arguments, offset),
         }
         self.counts.dispatches += 1;
+    }
+
+    /// The compute pass of a name: the open one, or a new one.
+    fn compute_pass(&mut self, name: &'static str) -> &mut wgpu::ComputePass<'static> {
+        // Another pass ends here: an encoder has one at a time.
+        let open = self.open.take().filter(|(open, _)| *open == name);
+        let pass = match open {
+            Some(open) => open,
+            None => (name, self.begin_compute_pass(name)),
+        };
+        &mut self.open.insert(pass).1
+    }
+
+    fn begin_compute_pass(&mut self, name: &'static str) -> wgpu::ComputePass<'static> {
+        let timestamps = self.next_timestamps(name);
+        let timestamp_writes = timestamps.as_ref().map(|(query_set, first)| wgpu::ComputePassTimestampWrites {
+            query_set,
+            beginning_of_pass_write_index: Some(*first),
+            end_of_pass_write_index: Some(*first + 1),
+        });
+        let descriptor = wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes };
+        self.encoder.begin_compute_pass(&descriptor).forget_lifetime()
     }
 
     /// A render pass into one target, which keeps what it holds.
@@ -158,7 +176,7 @@ impl<'g> Recorder<'g> {
             resolve_target: None,
             ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
         };
-        let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        let mut pass = self.encoder().begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(name),
             color_attachments: &[Some(attachment)],
             timestamp_writes,
@@ -167,8 +185,9 @@ impl<'g> Recorder<'g> {
         draw(&mut pass);
     }
 
-    /// The encoder, for copies.
+    /// The encoder, for copies and passes.
     pub fn encoder(&mut self) -> &mut wgpu::CommandEncoder {
+        self.open = None;
         &mut self.encoder
     }
 
@@ -190,6 +209,7 @@ impl<'g> Recorder<'g> {
 
     /// Submits what was recorded. Times arrive in `times` once the device has done it and was polled.
     pub fn submit(mut self, times: &TimeLog) -> Counts {
+        self.open = None;
         let readable = (!self.queries.is_empty()).then(|| self.resolve_timestamps());
         self.gpu.queue.submit([self.encoder.finish()]);
         match readable {

@@ -120,9 +120,9 @@ impl Drawable {
         format: wgpu::TextureFormat,
     ) -> Result<Self, GpuError> {
         let key = RenderKey { pass: pass_of(kernel), vertex, fragment, format, constants: kernel.constants() };
-        let pipeline = gpu.pipelines.render(&gpu.device, &key)?;
-        let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &kernel.resources());
-        Ok(Self { pipeline, bindings })
+        let ready = gpu.pipelines.render(&gpu.device, &key)?;
+        let bindings = ready.bind(gpu, &kernel.resources());
+        Ok(Self { pipeline: ready.pipeline, bindings })
     }
 
     /// Draws a number of vertices.
