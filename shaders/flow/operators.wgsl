@@ -26,7 +26,7 @@ fn turned_gradient(panel: u32, tangent: vec2f, slope: vec2f) -> vec3f {
     return panel_vector(panel, slope.x * by_alpha + slope.y * by_beta);
 }
 
-// Solid angle of a cell over the square of the cell angle, by the metric at its centre.
+// Solid angle of a cell over the square of the cell angle, by the metric at its center.
 fn area_density(tangent: vec2f) -> f32 {
     let s = 1.0 + tangent * tangent;
     let delta2 = s.x + s.y - 1.0;

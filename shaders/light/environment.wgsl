@@ -5,7 +5,7 @@
 struct Light {
     // Factor on the environment's radiance.
     gain: vec3f,
-    // Angle between neighbouring texels at the centre of a face of the environment's finest level.
+    // Angle between neighbouring texels at the center of a face of the environment's finest level.
     texel_angle: f32,
     // Radiance of the backdrop where it is a colour.
     backdrop: vec3f,

@@ -1,4 +1,4 @@
-// The surface of a bath, a level mirror at the height of the bubbles' centres. It turns up what would go down, and dims it: a ray that goes
+// The surface of a bath, a level mirror at the height of the bubbles' centers. It turns up what would go down, and dims it: a ray that goes
 // on straight into the mirrored world sees the same. The water itself is dark. The f64 truth is src/physics/picture/bath.rs.
 
 import package::optics::airy::surface_reflectance;

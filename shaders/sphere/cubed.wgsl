@@ -1,4 +1,4 @@
-// The equiangular cubed sphere: six panels of cells x cells values at cell centres, stored with a halo around each panel.
+// The equiangular cubed sphere: six panels of cells x cells values at cell centers, stored with a halo around each panel.
 // The f64 truth, and the table of panel axes that this file mirrors, is src/physics/sphere.
 
 // Cells of halo on each side of a panel: a quintic stencil reaches three beyond the edge.
@@ -6,7 +6,7 @@ override HALO: u32;
 
 const QUARTER_PI: f32 = 0.785398163;
 
-// Place of a direction on the cube: panel, and cell coordinates in which cell (i, j) has its centre at (i, j).
+// Place of a direction on the cube: panel, and cell coordinates in which cell (i, j) has its center at (i, j).
 struct CubePoint {
     panel: u32,
     cell: vec2f,

@@ -13,7 +13,7 @@ override TAPS: u32;
 // 1: looked-up tracers stay within the range of the four cells around them.
 override LIMITER: u32;
 
-// A place between cells: the padded index of the cell below it in both directions, the fractions beyond that cell's centre, and the
+// A place between cells: the padded index of the cell below it in both directions, the fractions beyond that cell's center, and the
 // distance of rows in storage.
 struct CellPoint {
     place: u32,
@@ -61,18 +61,18 @@ fn map_at(map: u32, direction: vec3f, cells: u32) -> vec4f {
     return map_between(map, cell_point(direction, cells), direction);
 }
 
-// Where the centre of a cell of another grid is, beyond the panel's edge or within: on all grids of the same panels its place is known.
+// Where the center of a cell of another grid is, beyond the panel's edge or within: on all grids of the same panels its place is known.
 // Cells of a halo may not be those of a coarser grid than the one looked up.
-fn centre_of(cell: vec2i, panel: u32, other_cells: u32, cells: u32) -> CellPoint {
+fn center_of(cell: vec2i, panel: u32, other_cells: u32, cells: u32) -> CellPoint {
     let at = (vec2f(cell) + 0.5) * f32(cells) / f32(other_cells) - 0.5;
     // No stencil reaches beyond the halo.
     let base = clamp(floor(at), vec2f(1.0 - f32(HALO)), vec2f(f32(cells + HALO) - 3.0));
     return CellPoint(padded_index(panel, i32(base.x), i32(base.y), cells), cells + 2u * HALO, at - base);
 }
 
-// A map at the centre of a cell of another grid, numbered like an invocation of a pass over `other_cells` with the halo included.
+// A map at the center of a cell of another grid, numbered like an invocation of a pass over `other_cells` with the halo included.
 fn map_at_cell(map: u32, id: vec3u, other_cells: u32, direction: vec3f, cells: u32) -> vec4f {
-    return map_between(map, centre_of(vec2i(id.xy) - i32(HALO), id.z, other_cells, cells), direction);
+    return map_between(map, center_of(vec2i(id.xy) - i32(HALO), id.z, other_cells, cells), direction);
 }
 
 fn map_between(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
@@ -118,7 +118,7 @@ fn map_quad_row(map: u32, place: u32, first: vec4f, second: vec4f) -> QuadRow {
 // A map at two by two cells of a finer grid that share a stencil: a quarter of the loads do. The first may be numbered -1, the halo's
 // neighbour; the direction may be that of any of them, for all it does is to stand in for what is lost.
 fn map_at_quad(map: u32, first_id: vec2i, panel: u32, other_cells: u32, direction: vec3f, cells: u32) -> array<vec4f, 4> {
-    let at = centre_of(first_id - i32(HALO), panel, other_cells, cells);
+    let at = center_of(first_id - i32(HALO), panel, other_cells, cells);
     let next = at.t + f32(cells) / f32(other_cells);
     let left = cubic_weights(at.t.x);
     let right = cubic_weights(next.x);

@@ -19,7 +19,7 @@ use crate::{
 /// Write the thickness of a bubble's film, cell by cell
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  soapfilm film default --time 0.5 -o film.csv\n  soapfilm film default --time 0.2 --reference --set bubble.0.film.cells=32\n\nThe file has a row for each cell of the film's grid: x, y and z of the unit vector from the bubble's centre, the cell's solid angle in\nsteradians, and the thickness in nm, which is 0 where there is no film. With --reference the film is moved by the model in f64 on the CPU,\nand no adapter is used: that is slow, and takes a film of at most 64 cells along an edge."
+    after_help = "Examples:\n  soapfilm film default --time 0.5 -o film.csv\n  soapfilm film default --time 0.2 --reference --set bubble.0.film.cells=32\n\nThe file has a row for each cell of the film's grid: x, y and z of the unit vector from the bubble's center, the cell's solid angle in\nsteradians, and the thickness in nm, which is 0 where there is no film. With --reference the film is moved by the model in f64 on the CPU,\nand no adapter is used: that is slow, and takes a film of at most 64 cells along an edge."
 )]
 pub struct Arguments {
     /// A scene file, or the name of a preset

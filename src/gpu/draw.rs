@@ -257,7 +257,7 @@ fn bubble_uniform(
     };
     let [x, y, z] = DVec3::AXES.map(|axis| bubble.to_film * axis);
     BubbleUniform {
-        to_centre_m: floats(bubble.centre_m - key.camera.eye_m),
+        to_center_m: floats(bubble.center_m - key.camera.eye_m),
         radius_m: bubble.radius_m as f32,
         inner,
         outer,

@@ -98,7 +98,7 @@ impl Grid {
     }
 
     /// Cells that the first two by two begin before storage does, halo included: 0 or 1. Of the other grid's cells, which are an even number
-    /// of this one's wide, the first one's centre lies half that number from the edge.
+    /// of this one's wide, the first one's center lies half that number from the edge.
     #[must_use]
     pub fn quad_skew(&self, other_cells: u32) -> u32 {
         (HALO as u32 + self.cells / (2 * other_cells)) % 2

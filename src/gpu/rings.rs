@@ -16,7 +16,7 @@ pub const SIDES: u32 = 96;
 /// A part of a bubble's picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
-    /// Inner and outer edge: angle from the direction of the bubble's centre, in radians, where the bubble is round. None: the whole picture.
+    /// Inner and outer edge: angle from the direction of the bubble's center, in radians, where the bubble is round. None: the whole picture.
     pub edges_rad: Option<[f64; 2]>,
     /// Inner reflections whose films are looked up: 3, 7 or 11. After eleven, light is followed on: see `shaders/optics/walls.wgsl`.
     pub inner_reflections: u32,
@@ -43,7 +43,7 @@ struct Care {
 
 /// Width of the outermost ring, in pixels: beyond it the cosine of incidence changes by less than a fifth from pixel to pixel.
 const RIM_PIXELS: f64 = 3.0;
-/// How far outside the outline a pixel may have its centre and still be crossed by it, in pixels.
+/// How far outside the outline a pixel may have its center and still be crossed by it, in pixels.
 const MARGIN_PIXELS: f64 = 1.0;
 
 impl Care {
@@ -75,7 +75,7 @@ impl Ring {
         Self { edges_rad: None, inner_reflections, samples, outline: false }
     }
 
-    /// For the inner and the outer edge, a corner of the polygon around it: parts along the direction of the centre and across.
+    /// For the inner and the outer edge, a corner of the polygon around it: parts along the direction of the center and across.
     #[must_use]
     pub fn corners(&self) -> [[f32; 2]; 2] {
         let half_side = std::f64::consts::PI / f64::from(SIDES);
@@ -83,12 +83,12 @@ impl Ring {
     }
 }
 
-/// Distance of the eye from a bubble's centre in radii, in the space in which the bubble is round.
+/// Distance of the eye from a bubble's center in radii, in the space in which the bubble is round.
 fn eye_radii(camera: &CameraKey, bubble: &BubbleKey) -> f64 {
-    (bubble.stretch.inverse() * (camera.eye_m - bubble.centre_m)).length() / bubble.radius_m
+    (bubble.stretch.inverse() * (camera.eye_m - bubble.center_m)).length() / bubble.radius_m
 }
 
-/// Angle from a bubble's centre to its outline, in radians and in the space in which it is round; none from inside.
+/// Angle from a bubble's center to its outline, in radians and in the space in which it is round; none from inside.
 fn limb_rad(camera: &CameraKey, bubble: &BubbleKey) -> Option<f64> {
     let sine = eye_radii(camera, bubble).recip();
     (sine < 1.0).then(|| sine.asin())

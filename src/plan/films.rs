@@ -3,7 +3,7 @@
 use super::{FieldKey, FilmEnd, FilmKey, laws::initial_film};
 use crate::{
     physics::{
-        bubble::{Age, CentrePath},
+        bubble::{Age, CenterPath},
         film::{Cap, Evaporation, InitialFilm, Pushes, Regeneration, fold_seed},
     },
     scene::{Bubble, Motion},
@@ -52,7 +52,7 @@ pub(super) fn film(bubble: &Bubble, age: &Age, [cells, flow_cells]: [u32; 2], mo
         evaporation: Evaporation::default(),
         flows: life.flows.clone(),
         pushes: Pushes::default(),
-        path: CentrePath::default(),
+        path: CenterPath::default(),
         moment: age.moment,
     };
     key.moment = key.last_moved();

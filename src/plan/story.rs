@@ -69,9 +69,9 @@ impl Story {
         self.plot().turns.at(ticks)
     }
 
-    /// Where the centre of a bubble is at a time in seconds, m; the origin for a bubble that there is not.
+    /// Where the center of a bubble is at a time in seconds, m; the origin for a bubble that there is not.
     #[must_use]
-    pub fn centre_m(&self, index: usize, time_s: f64) -> DVec3 {
+    pub fn center_m(&self, index: usize, time_s: f64) -> DVec3 {
         self.lives(index).map_or(DVec3::ZERO, |lives| lives.path().at(time_s).place_m)
     }
 

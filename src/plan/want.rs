@@ -90,7 +90,7 @@ impl Story {
             .enumerate()
             .filter_map(|(index, bubble)| visible(self, &camera, shot, index, bubble))
             .collect();
-        let distance = |bubble: &BubbleKey| bubble.centre_m.distance_squared(camera.eye_m);
+        let distance = |bubble: &BubbleKey| bubble.center_m.distance_squared(camera.eye_m);
         bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
         let film = material(scene, resources, &bubbles)?;
         let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
@@ -226,14 +226,14 @@ const SMALLEST_FIELD_PIXELS: f64 = 0.75;
 
 /// A bubble as the picture sees it, if any pixel can.
 fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
-    let centre_m = story.centre_m(index, shot.moment.ticks() * story.motion.tick_s);
+    let center_m = story.center_m(index, shot.moment.ticks() * story.motion.tick_s);
     let radius_m = bubble.radius_mm * 1e-3;
     let age = story.age(index, shot.moment)?;
     // The bath holds a bubble's foot, and its oscillation is that of no sphere.
     let is_held = bubble.boundary == Boundary::Bath;
     let stretch = if is_held { DMat3::IDENTITY } else { age.life.shape(age.moment).stretch() };
-    let bounds = bounds(camera, shot.size, centre_m, radius_m * reach(stretch))?;
-    let distance = centre_m.distance(camera.eye_m).max(radius_m);
+    let bounds = bounds(camera, shot.size, center_m, radius_m * reach(stretch))?;
+    let distance = center_m.distance(camera.eye_m).max(radius_m);
     let radius_pixels = radius_m / distance / camera.pixel_height_m;
     let film = match story.film_of_age(index, &age) {
         FilmKey::Field(_) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(bubble.film.thickness_nm),
@@ -242,7 +242,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     let ticks = age.moment.ticks();
     Some(BubbleKey {
         index,
-        centre_m,
+        center_m,
         radius_m,
         stretch,
         bounds,
@@ -255,7 +255,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         samples: samples(radius_pixels).max(if bubble.boundary == Boundary::Ring { RING_SAMPLES } else { 1 }),
         // The edge of a hole is no thickness between others.
         filtered: age.hole.is_none() && is_filtered(&film, radius_pixels),
-        magnified: is_magnified(&film, radius_m, radius_pixels, centre_m.distance(camera.eye_m)),
+        magnified: is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m)),
         film,
         hole: age.hole,
         cap: cap(bubble),
@@ -267,7 +267,7 @@ const MAGNIFIED_CELL_PIXELS: f64 = 3.0;
 
 fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f64) -> bool {
     let FilmKey::Field(field) = film else { return false };
-    // From inside, and for the nearest point from outside, the film is nearer than the centre.
+    // From inside, and for the nearest point from outside, the film is nearer than the center.
     let nearest_m = (distance_m - radius_m).abs().max(1e-3 * radius_m);
     let magnification = (distance_m.max(radius_m) / nearest_m).min(16.0);
     field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
@@ -299,8 +299,8 @@ fn samples(radius_pixels: f64) -> u32 {
 }
 
 /// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; nothing if it is outside.
-fn bounds(camera: &CameraKey, size: [u32; 2], centre_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
-    let offset = centre_m - camera.eye_m;
+fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
+    let offset = center_m - camera.eye_m;
     let depth = offset.dot(camera.forward);
     if depth < -radius_m {
         return None;

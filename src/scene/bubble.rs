@@ -22,7 +22,7 @@ section! {
     pub struct Bubble, BubbleKeys: [
         film: Film = Film::default(), "The film at tick 0";
     ]
-    center_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "Center", " m", "centre, m";
+    center_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "Center", " m", "center, m";
     radius_mm: f64 = 50.0, [0.1 ..= 5000.0], "Radius", " mm", "radius, mm";
     boundary: Boundary = Boundary::Free, [word], "Boundary", "", "what the film ends at";
     rim_deg: f64 = 120.0, [30.0 ..= 175.0], "Rim", "°", "colatitude of the ring (150 at most) or of the drop's rim; that of a bath is 90";

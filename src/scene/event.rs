@@ -122,10 +122,10 @@ impl Blow {
 }
 
 section! {
-    /// The bubble's centre goes to another place, as quickly as it can without passing it; a free film feels the acceleration.
+    /// The bubble's center goes to another place, as quickly as it can without passing it; a free film feels the acceleration.
     pub struct Drag, DragKeys:
     bubble: usize = 0, [whole], "Bubble", "", "index of the bubble, in the order of the file";
-    to_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "To", " m", "where the centre goes, m";
+    to_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "To", " m", "where the center goes, m";
 }
 
 section! {

@@ -17,7 +17,7 @@ use crate::{
 /// One cell of a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmCell {
-    /// Unit vector from the bubble's centre to the cell's middle, in the world's axes: +z is up.
+    /// Unit vector from the bubble's center to the cell's middle, in the world's axes: +z is up.
     pub direction: DVec3,
     /// The cell's solid angle in steradians; those of all cells add up to 4π.
     pub solid_angle_sr: f64,
@@ -106,10 +106,10 @@ impl Asked {
 /// Turns the camera to a bubble. How fine its film is stays as the scene's own camera has it.
 fn look_at(scene: &mut Scene, bubble: usize, time_s: f64) {
     settle_detail(scene);
-    let centre_m = Story::new(scene.clone()).centre_m(bubble, time_s);
+    let center_m = Story::new(scene.clone()).center_m(bubble, time_s);
     let distance_m = 4.0 * 1e-3 * scene.bubbles[bubble].radius_mm;
     // From above, where a camera is never below a bath.
-    scene.camera = Camera { target_m: centre_m.into(), distance_m, elevation_deg: 45.0, ..Camera::default() };
+    scene.camera = Camera { target_m: center_m.into(), distance_m, elevation_deg: 45.0, ..Camera::default() };
 }
 
 /// The film as pictures see it: thinned by evaporation, with its hole, and with nothing beyond its rim.

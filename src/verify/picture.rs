@@ -155,7 +155,7 @@ fn is_covered(key: &DrawKey, pixel: usize) -> bool {
     let [column, row] = [pixel % SIZE[0] as usize, pixel / SIZE[0] as usize].map(|k| k as f64 + 0.5);
     let ray = reference::camera(&key.camera).ray(SIZE, DVec2::new(column, row));
     key.bubbles.iter().any(|bubble| {
-        let offset = bubble.centre_m - key.camera.eye_m;
+        let offset = bubble.center_m - key.camera.eye_m;
         offset.reject_from_normalized(ray).length() < bubble.radius_m
     })
 }

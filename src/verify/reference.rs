@@ -155,7 +155,7 @@ pub fn film_sphere<'a>(
             Box::new(move |direction| hole.pierced(to_film * direction, film_nm(to_film * direction)))
         }
     };
-    Ok(FilmSphere { centre_m: key.centre_m, radius_m: key.radius_m, stretch: key.stretch, thickness_nm })
+    Ok(FilmSphere { center_m: key.center_m, radius_m: key.radius_m, stretch: key.stretch, thickness_nm })
 }
 
 /// Direction of the thinnest cell of a film; the top of one that is as thin everywhere.

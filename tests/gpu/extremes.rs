@@ -81,18 +81,18 @@ fn no_sample_of_a_small_bubble_of_thick_film_is_lost() {
 #[test]
 fn a_small_bubble_far_from_the_origin_looks_the_same() {
     let Some(mut renderer) = renderer() else { return };
-    let place = |centre_m: [f64; 3]| {
+    let place = |center_m: [f64; 3]| {
         let mut loaded = at_rest("windows");
-        loaded.scene.bubbles[0] = Bubble { radius_mm: 1.0, center_m: centre_m, ..loaded.scene.bubbles[0].clone() };
-        loaded.scene.camera = Camera { target_m: centre_m, distance_m: 0.005, ..Camera::default() };
+        loaded.scene.bubbles[0] = Bubble { radius_mm: 1.0, center_m: center_m, ..loaded.scene.bubbles[0].clone() };
+        loaded.scene.camera = Camera { target_m: center_m, distance_m: 0.005, ..Camera::default() };
         loaded
     };
     let near = radiance(&mut renderer, &still_image(&place([0.0; 3])));
     // Places are given in binary fractions, for f64 itself holds 1000.001 only to 1e-13.
-    for centre_m in [[1000.0; 3], [-1000.0, 512.0, 0.25]] {
-        let far = radiance(&mut renderer, &still_image(&place(centre_m)));
+    for center_m in [[1000.0; 3], [-1000.0, 512.0, 0.25]] {
+        let far = radiance(&mut renderer, &still_image(&place(center_m)));
         let (_, error) = mean_and_max(near.iter().zip(&far).map(|(a, b)| (*a - *b).abs().max_element()));
-        assert!(error < 1e-4, "{centre_m:?}: {error}");
+        assert!(error < 1e-4, "{center_m:?}: {error}");
     }
 }
 
@@ -138,9 +138,9 @@ fn the_brightest_light_is_shown_without_holes() {
     assert!(pixels.chunks(4).all(|rgba| rgba[..3].iter().all(|value| value.abs_diff(level) <= 1)), "{level} expected");
 }
 
-/// From a bubble's centre no direction leads to its centre; through the middle of its outline none leads away from it.
+/// From a bubble's center no direction leads to its center; through the middle of its outline none leads away from it.
 #[test]
-fn an_eye_at_the_centre_or_on_the_axis_sees_as_one_beside_it() {
+fn an_eye_at_the_center_or_on_the_axis_sees_as_one_beside_it() {
     let Some(mut renderer) = renderer() else { return };
     for distance_m in [0.0, 0.24] {
         let mut loaded = at_rest("default");

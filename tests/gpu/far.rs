@@ -38,7 +38,7 @@ fn truth(renderer: &mut Renderer, want: &Want) -> Vec<DVec3> {
 fn covered(want: &Want) -> Vec<usize> {
     let key = &want.picture.draw;
     let bubble = &key.bubbles[0];
-    let offset = bubble.centre_m - key.camera.eye_m;
+    let offset = bubble.center_m - key.camera.eye_m;
     let is_covered = |k: &usize| {
         let position = DVec2::new((*k as u32 % SIZE[0]) as f64 + 0.5, (*k as u32 / SIZE[0]) as f64 + 0.5);
         let ray = reference::camera(&key.camera).ray(SIZE, position);

@@ -3,7 +3,7 @@
 //! Both are driven by one key and take the same steps, so what is between them is rounding: f32 has 24 bits, and a value is off by up to
 //! ε = 6e-8 of itself after each operation.
 //!
-//! One thing is not: a limited lookup keeps within the range of the four cells around, and where a place lies on a line through cell centres to
+//! One thing is not: a limited lookup keeps within the range of the four cells around, and where a place lies on a line through cell centers to
 //! within rounding, rounding decides which cells those are. Then one cell differs by as much as an interpolation overshoots, some nm. Of
 //! random places one in several hundred thousand does, and the seeds here are such that none does.
 
@@ -19,7 +19,7 @@ use soapfilm::{
         transport_case::values,
     },
     physics::{
-        bubble::CentrePath,
+        bubble::CenterPath,
         film::{Cap, Evaporation, Flow, FlowLaw, FreeFlow, InitialFilm, Push, Pushes, Regeneration},
         flow::FlowForces,
         sphere::CubedSphere,
@@ -34,7 +34,7 @@ use crate::support::gpu;
 
 const TICK_S: f64 = 1.0 / 60.0;
 
-/// What a free film of 5 cm is subject to. Gravity is tilted: a film that drains straight down is looked up exactly on lines through cell centres,
+/// What a free film of 5 cm is subject to. Gravity is tilted: a film that drains straight down is looked up exactly on lines through cell centers,
 /// where rounding decides which cells are those around that limit the lookup.
 const FREE: FreeFlow = FreeFlow {
     forces: FlowForces { gravity: DVec3::new(50.0, -30.0, -190.0), drag: 2.0, air_drag: 1e4, viscosity: 0.04 },
@@ -57,7 +57,7 @@ fn key(cells: u32, seed: u32, law: FlowLaw) -> FieldKey {
         evaporation: Evaporation::default(),
         flows: Timeline::from_iter([(0, law)]),
         pushes: Pushes::default(),
-        path: CentrePath::default(),
+        path: CenterPath::default(),
         moment: Moment::default(),
     }
 }
@@ -207,7 +207,7 @@ fn a_film_that_ends_somewhere_is_the_f64_one() {
     for (name, end) in ends {
         hold(&gpu, name, &FieldKey { end, ..key(20, 3, FlowLaw::Free(FREE)) }, 16);
     }
-    // The images in a ring lie exactly on lines through cell centres: no lookup there may be limited, and a smooth film has none that is.
+    // The images in a ring lie exactly on lines through cell centers: no lookup there may be limited, and a smooth film has none that is.
     let initial = InitialFilm::Rest { thickness_nm: 700.0, stratification: 0.6 };
     let end = ending(Some(Cap::above(2.0)), None, None);
     hold(&gpu, "ring", &FieldKey { end, initial, ..key(24, 3, FlowLaw::Free(FREE)) }, 16);
@@ -256,13 +256,13 @@ fn a_film_that_drains_and_regenerates_is_the_f64_one() {
 fn a_film_that_is_pushed_is_the_f64_one() {
     let Some(gpu) = gpu() else { return };
     let push = |at: DVec3, velocity: DVec3, rate: f64, ticks: Range<u64>| {
-        (ticks, Push { centre: at.normalize(), sharpness: Push::sharpness_of(0.3), velocity, rate })
+        (ticks, Push { center: at.normalize(), sharpness: Push::sharpness_of(0.3), velocity, rate })
     };
     let pushes = Pushes::from_iter([
         push(DVec3::new(0.5, 0.4, 0.3), DVec3::new(-2.0, 2.0, 0.0), 18.0, 0..8),
         push(DVec3::new(-0.3, 0.1, 0.9), DVec3::new(60.0, 0.0, -30.0), 20.0, 5..9),
     ]);
-    let path = CentrePath::new(DVec3::ZERO, [(0.05, DVec3::new(0.4, 0.0, 0.2))]);
+    let path = CenterPath::new(DVec3::ZERO, [(0.05, DVec3::new(0.4, 0.0, 0.2))]);
     let pushed = FieldKey { pushes, path, ..key(20, 9, FlowLaw::Free(FREE)) };
     hold(&gpu, "pushed", &pushed, 16);
 }

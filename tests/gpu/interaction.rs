@@ -31,7 +31,7 @@ fn twin(steps: u32) -> Vec<f64> {
     let (stir, blow) = events();
     let (radius_m, stir_s) = (0.05, 20.0 / 60.0);
     let push = |at: [f64; 3], radius_deg: f64, velocity: DVec3, rate: f64| Push {
-        centre: DVec3::from(at).normalize(),
+        center: DVec3::from(at).normalize(),
         sharpness: Push::sharpness_of(radius_deg.to_radians()),
         velocity: velocity / radius_m,
         rate,

@@ -88,12 +88,12 @@ fn a_bubble_vanishes_in_even_light() {
 }
 
 /// Where a bubble shows a lamp, by plane geometry alone. With the angle α of the ray and ψ of the lamp, both from the direction to the
-/// centre, and sin θ = (D / R) sin α: the outer reflection turns the ray by π − 2θ away from the centre, so α + π − 2θ = ψ on the lamp's
+/// center, and sin θ = (D / R) sin α: the outer reflection turns the ray by π − 2θ away from the center, so α + π − 2θ = ψ on the lamp's
 /// own side; one inner reflection turns it as far the other way, so π − 2θ − α = ψ on the opposite side.
 fn seen_at(camera: &PictureCamera, size: [u32; 2], radius_m: f64, lamp: DVec3, inner: bool) -> DVec2 {
-    let to_centre = -camera.eye_m.normalize();
+    let to_center = -camera.eye_m.normalize();
     let ratio = camera.eye_m.length() / radius_m;
-    let psi = to_centre.angle_between(lamp);
+    let psi = to_center.angle_between(lamp);
     let turned = |alpha: f64| std::f64::consts::PI - 2.0 * (ratio * alpha.sin()).min(1.0).asin();
     let misses = |alpha: f64| turned(alpha) + if inner { -alpha } else { alpha } - psi;
     let (mut low, mut high) = (0.0, (1.0 / ratio).asin());
@@ -102,8 +102,8 @@ fn seen_at(camera: &PictureCamera, size: [u32; 2], radius_m: f64, lamp: DVec3, i
         let middle = 0.5 * (low + high);
         if misses(middle) > 0.0 { low = middle } else { high = middle }
     }
-    let side = lamp.reject_from_normalized(to_centre).normalize() * if inner { -1.0 } else { 1.0 };
-    camera.position(size, low.cos() * to_centre + low.sin() * side).unwrap()
+    let side = lamp.reject_from_normalized(to_center).normalize() * if inner { -1.0 } else { 1.0 };
+    camera.position(size, low.cos() * to_center + low.sin() * side).unwrap()
 }
 
 /// Front highlights upright, back ones inverted, each within half a pixel of where exact perspective puts it.

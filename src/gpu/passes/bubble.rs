@@ -18,11 +18,11 @@ use crate::{
 shader_struct! {
     /// One ring of a bubble: see `shaders/pass/bubble.wgsl`.
     pub struct BubbleUniform {
-        /// From the eye to the centre: the difference of two places in f64, so that a scene looks the same wherever it stands.
-        pub to_centre_m: [f32; 3],
+        /// From the eye to the center: the difference of two places in f64, so that a scene looks the same wherever it stands.
+        pub to_center_m: [f32; 3],
         /// Radius.
         pub radius_m: f32,
-        /// Inner edge of the ring: cos and sin of the angle to the direction of the centre.
+        /// Inner edge of the ring: cos and sin of the angle to the direction of the center.
         pub inner: [f32; 2],
         /// Outer edge.
         pub outer: [f32; 2],

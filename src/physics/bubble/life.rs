@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::{DMat3, DVec3};
 
 use super::{
-    centre::CentrePath,
+    center::CenterPath,
     shape::{DraggedShape, Oscillator, Shape},
 };
 use crate::physics::{
@@ -49,9 +49,9 @@ pub struct Course {
     pub jets: Spans<DMat3>,
     /// Ticks at which it is pricked, in order, and the directions in its film, unit vectors.
     pub pricks: Vec<(u64, DVec3)>,
-    /// Where the centre is at first, m.
+    /// Where the center is at first, m.
     pub rest_m: DVec3,
-    /// Ticks from which on the centre goes elsewhere, in order, and where to, m.
+    /// Ticks from which on the center goes elsewhere, in order, and where to, m.
     pub drags: Vec<(u64, DVec3)>,
 }
 
@@ -107,8 +107,8 @@ pub struct Life {
     pub evaporation: Evaporation,
     /// What pushes the film.
     pub pushes: Pushes,
-    /// Where the centre goes, in radii, from where it was at the very first.
-    pub path: CentrePath,
+    /// Where the center goes, in radii, from where it was at the very first.
+    pub path: CenterPath,
     end: Option<End>,
     tick_s: f64,
     oscillator: Oscillator,
@@ -131,7 +131,7 @@ pub struct Age {
 #[derive(Debug)]
 pub struct Lives {
     course: Course,
-    path: CentrePath,
+    path: CenterPath,
     found: Mutex<Found>,
 }
 
@@ -152,9 +152,9 @@ impl Lives {
         Self { course, path, found: Mutex::default() }
     }
 
-    /// Where the centre goes in all lives, m.
+    /// Where the center goes in all lives, m.
     #[must_use]
-    pub fn path(&self) -> &CentrePath {
+    pub fn path(&self) -> &CenterPath {
         &self.path
     }
 
@@ -221,8 +221,8 @@ impl Life {
 }
 
 impl Course {
-    /// A life that begins at a tick after so many others and has an end, of a bubble whose centre goes along a path.
-    fn life(&self, path: &CentrePath, born: u64, generation: u32, end: Option<End>) -> Life {
+    /// A life that begins at a tick after so many others and has an end, of a bubble whose center goes along a path.
+    fn life(&self, path: &CenterPath, born: u64, generation: u32, end: Option<End>) -> Life {
         let gone = end.map_or(u64::MAX, |end| end.tick);
         let start_m = path.at(born as f64 * self.tick_s).place_m;
         let oscillator = self.oscillator();
@@ -245,14 +245,14 @@ impl Course {
         }
     }
 
-    /// Where the centre goes from a tick on, at which it rests at a place, until another: seen from an origin, in a unit of length in metres.
-    fn path(&self, born: u64, gone: u64, start_m: DVec3, origin_m: DVec3, unit_m: f64) -> CentrePath {
+    /// Where the center goes from a tick on, at which it rests at a place, until another: seen from an origin, in a unit of length in metres.
+    fn path(&self, born: u64, gone: u64, start_m: DVec3, origin_m: DVec3, unit_m: f64) -> CenterPath {
         let in_units = |place_m: DVec3| (place_m - origin_m) / unit_m;
         let time_s = |tick: u64| tick as f64 * self.tick_s;
         let first = self.drags.partition_point(|(tick, _)| *tick < born);
         let drags = self.drags[first..].iter().take_while(|(tick, _)| *tick < gone);
         let jumps = drags.map(|(tick, place_m)| (time_s(*tick) - time_s(born), in_units(*place_m)));
-        CentrePath::new(in_units(start_m), jumps)
+        CenterPath::new(in_units(start_m), jumps)
     }
 
     /// What evaporates from a bubble between two ticks.

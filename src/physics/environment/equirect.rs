@@ -10,7 +10,7 @@ use super::Repairs;
 
 /// The direction that a point of an equirectangular picture shows, a unit vector.
 ///
-/// `uv` runs over [0, 1) from the picture's top left. The centre looks along +x, up is +z, and moving right turns clockwise
+/// `uv` runs over [0, 1) from the picture's top left. The center looks along +x, up is +z, and moving right turns clockwise
 /// seen from above: azimuth = (1/2 − u) 2π, elevation = (1/2 − v) π.
 pub fn direction_of_uv(uv: DVec2) -> DVec3 {
     let (sin_azimuth, cos_azimuth) = ((0.5 - uv.x) * TAU).sin_cos();
@@ -85,7 +85,7 @@ impl Equirect {
         self.repairs
     }
 
-    /// Radiance from `direction` (of any length but zero), interpolated between the four nearest pixel centres.
+    /// Radiance from `direction` (of any length but zero), interpolated between the four nearest pixel centers.
     pub fn radiance(&self, direction: DVec3) -> DVec3 {
         let uv = uv_of_direction(direction);
         let position = DVec2::new(uv.x * self.width as f64, uv.y * self.height as f64) - 0.5;
@@ -124,7 +124,7 @@ mod tests {
     fn the_picture_looks_where_the_convention_says() {
         let cases = [
             ((0.5, 0.5), DVec3::X),
-            ((0.25, 0.5), DVec3::Y), // left of the centre is anticlockwise from +x
+            ((0.25, 0.5), DVec3::Y), // left of the center is anticlockwise from +x
             ((0.75, 0.5), DVec3::NEG_Y),
             ((0.0, 0.5), DVec3::NEG_X),
             ((0.3, 0.0), DVec3::Z),
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn interpolates_between_pixel_centres() {
+    fn interpolates_between_pixel_centers() {
         let panorama = ruler(16, 8);
         let radiance = panorama.radiance(direction_of_uv(DVec2::new(5.75 / 16.0, 3.25 / 8.0)));
         assert!(radiance.distance(DVec3::new(5.25, 2.75, 1.0)) < 1e-12, "{radiance}");

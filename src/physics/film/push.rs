@@ -11,10 +11,10 @@ use crate::physics::flow::FlowForces;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
     /// The point c, a unit vector.
-    pub centre: DVec3,
+    pub center: DVec3,
     /// Sharpness κ; see [`Push::sharpness_of`].
     pub sharpness: f64,
-    /// The velocity V, rad/s. Its part along the centre pushes nothing.
+    /// The velocity V, rad/s. Its part along the center pushes nothing.
     pub velocity: DVec3,
     /// Rate in the middle, 1/s.
     pub rate: f64,
@@ -24,8 +24,8 @@ pub struct Push {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct FrozenPush {
-    /// Centre.
-    pub centre: [f32; 3],
+    /// Center.
+    pub center: [f32; 3],
     /// Sharpness.
     pub sharpness: f32,
     /// Velocity, rad/s.
@@ -35,7 +35,7 @@ pub struct FrozenPush {
 }
 
 impl Push {
-    /// The κ of a push that is half as strong at an angle in radians from its centre.
+    /// The κ of a push that is half as strong at an angle in radians from its center.
     #[must_use]
     pub fn sharpness_of(half_angle: f64) -> f64 {
         std::f64::consts::LN_2 / (1.0 - half_angle.cos())
@@ -45,8 +45,8 @@ impl Push {
     /// `n·curl` of the force, `rate g (κ x·(c × (V − u)) − ζ)`.
     #[must_use]
     pub fn source(&self, x: DVec3, u: DVec3, zeta: f64) -> f64 {
-        let strength = self.rate * (self.sharpness * (self.centre.dot(x) - 1.0)).exp();
-        strength * (self.sharpness * x.dot(self.centre.cross(self.velocity - u)) - zeta)
+        let strength = self.rate * (self.sharpness * (self.center.dot(x) - 1.0)).exp();
+        strength * (self.sharpness * x.dot(self.center.cross(self.velocity - u)) - zeta)
     }
 
     /// The same push for a step of `dt_s` seconds in which it acts for `acting_s`: the rate that an explicit step must have for a push alone
@@ -60,7 +60,7 @@ impl Push {
     /// come. The largest vorticity of a film that was pushed from rest is 0.4 to 1 times this.
     #[must_use]
     pub fn strain(&self, acting_s: f64) -> f64 {
-        let along = self.velocity.reject_from(self.centre).length();
+        let along = self.velocity.reject_from(self.center).length();
         along * self.sharpness.sqrt() * -(-self.rate * acting_s).exp_m1()
     }
 
@@ -75,7 +75,7 @@ impl Push {
     #[must_use]
     pub fn frozen(&self) -> FrozenPush {
         FrozenPush {
-            centre: self.centre.as_vec3().to_array(),
+            center: self.center.as_vec3().to_array(),
             sharpness: self.sharpness as f32,
             velocity: self.velocity.as_vec3().to_array(),
             rate: self.rate as f32,
@@ -102,9 +102,9 @@ mod tests {
     };
 
     fn push(half_angle_deg: f64, rate: f64) -> Push {
-        let centre = DVec3::new(0.2, 0.7, 0.5).normalize();
-        let velocity = centre.cross(DVec3::X).normalize();
-        Push { centre, sharpness: Push::sharpness_of(half_angle_deg.to_radians()), velocity, rate }
+        let center = DVec3::new(0.2, 0.7, 0.5).normalize();
+        let velocity = center.cross(DVec3::X).normalize();
+        Push { center, sharpness: Push::sharpness_of(half_angle_deg.to_radians()), velocity, rate }
     }
 
     #[test]
@@ -119,11 +119,11 @@ mod tests {
         // A solid rotation about an axis: its vorticity is twice its part along n.
         let turn = DVec3::new(0.4, -0.3, 0.8);
         let force = |x: DVec3| {
-            let strength = push.rate * (push.sharpness * (push.centre.dot(x) - 1.0)).exp();
+            let strength = push.rate * (push.sharpness * (push.center.dot(x) - 1.0)).exp();
             strength * (push.velocity - turn.cross(x))
         };
         let d = 1e-5;
-        for x in [push.centre, DVec3::X, DVec3::new(0.1, 0.8, 0.3).normalize(), -push.centre] {
+        for x in [push.center, DVec3::X, DVec3::new(0.1, 0.8, 0.3).normalize(), -push.center] {
             let (e1, e2) = x.any_orthonormal_pair();
             let across = |e: DVec3, along: DVec3| {
                 let at = |s: f64| force((x + s * e).normalize()).dot(along);
@@ -149,7 +149,7 @@ mod tests {
             solver.stir(forcing);
             solver.step(dt, &FlowForces { viscosity, ..FlowForces::default() }, &still);
         }
-        solver.velocity().bicubic(push.centre)
+        solver.velocity().bicubic(push.center)
     }
 
     /// The largest vorticity of a film that was pushed from rest for so many steps of 1/60 s, and went on for so many more.

@@ -89,7 +89,7 @@ mod tests {
         let mut random = Random::new(7, 0);
         let push = |k: u64| {
             let [sharpness, speed, rate] = [2.0, 0.01, 0.1].map(|low| random.between_log(low, 100.0 * low));
-            let push = Push { centre: DVec3::X, sharpness, velocity: speed * DVec3::Y, rate };
+            let push = Push { center: DVec3::X, sharpness, velocity: speed * DVec3::Y, rate };
             (10 * k..10 * k + 1 + (k * k) % 40, push)
         };
         (0..count).map(push).collect()

@@ -150,7 +150,7 @@ impl Level {
         (0..f.len()).map(|cell| f[cell] - laplacian(psi, cell, self.order).0 + shift * at[cell]).collect()
     }
 
-    /// Bilinear samples of a finer grid's cells at this one's centres, within each panel: where grids nest, means of four.
+    /// Bilinear samples of a finer grid's cells at this one's centers, within each panel: where grids nest, means of four.
     fn averaged(&self, fine: usize, values: &[f64]) -> Vec<f64> {
         let ratio = fine as f64 / self.grid.n() as f64;
         let pair = |k: usize| {

@@ -309,10 +309,10 @@ mod tests {
     /// Energy of a weightless vortex pair, which no force drives, over that at the start: the most in steps in which it turns by so much.
     fn most_energy(turn: f64, is_corrected: bool) -> f64 {
         let grid = CubedSphere::new(24).unwrap();
-        let centre = DVec3::new(0.2, 0.7, 0.5).normalize();
+        let center = DVec3::new(0.2, 0.7, 0.5).normalize();
         let sharpness = Push::sharpness_of(0.3);
-        let velocity = centre.cross(DVec3::X).normalize() / gained(sharpness);
-        let pair = Push { centre, sharpness, velocity, rate: 1.0 };
+        let velocity = center.cross(DVec3::X).normalize() / gained(sharpness);
+        let pair = Push { center, sharpness, velocity, rate: 1.0 };
         let mut solver = FlowSolver::new(grid, |x| pair.source(x, DVec3::ZERO, 0.0));
         let still = PaddedField::from_cells(grid, solver.halo(), |_| 0.0);
         let energy = |solver: &FlowSolver| invariants(grid, &solver.zeta().cells(), &solver.psi().cells()).energy;

@@ -42,7 +42,7 @@ impl<'a> LightPath<'a> {
         self.responses.iter().fold(DMat3::ZERO, |sum, response| sum + *response)
     }
 
-    /// Follows a ray (a unit vector) from an eye in units of the radius, the bubble's centre at the origin and stretched by a symmetric
+    /// Follows a ray (a unit vector) from an eye in units of the radius, the bubble's center at the origin and stretched by a symmetric
     /// matrix, or of a radius in m and standing on a bath; nothing if it misses.
     pub fn trace(
         &self,
@@ -176,7 +176,7 @@ struct Hits {
 }
 
 impl Hits {
-    /// With the foot of the perpendicular from the centre on the ray; every chord has the length 2 cos θ.
+    /// With the foot of the perpendicular from the center on the ray; every chord has the length 2 cos θ.
     fn on_sphere(foot: DVec3, ray: DVec3, cos_theta: f64, inner: usize) -> Self {
         let chord = 2.0 * cos_theta;
         let front = foot - cos_theta * ray;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::physics::{
-    bubble::{CentrePath, Opening},
+    bubble::{CenterPath, Opening},
     film::{
         Cap, Evaporation, FlowLaw, FreeFlow, InitialFilm, Patch, Push, Pushes, Regeneration, model::MAX_RIM_PATCHES,
         properties::BLACK_FILM_ONSET,
@@ -48,7 +48,7 @@ pub struct FieldKey {
     /// What pushes it; empty for films that nothing can push.
     pub pushes: Pushes,
     /// Where the bubble goes, in radii, which a film that moves by itself feels.
-    pub path: CentrePath,
+    pub path: CenterPath,
     /// The moment.
     pub moment: Moment,
 }

@@ -30,11 +30,11 @@ impl PartialEq for EnvironmentKey {
 pub struct BubbleKey {
     /// Index of the bubble in the scene, and of its film.
     pub index: usize,
-    /// Centre in metres.
-    pub centre_m: DVec3,
+    /// Center in metres.
+    pub center_m: DVec3,
     /// Radius in metres.
     pub radius_m: f64,
-    /// Takes directions from the centre to places on the wall, over the radius: symmetric, of determinant 1, and the identity for a bubble that
+    /// Takes directions from the center to places on the wall, over the radius: symmetric, of determinant 1, and the identity for a bubble that
     /// is round.
     pub stretch: DMat3,
     /// Bounding rectangle in clip coordinates, lower left and upper right.
@@ -126,7 +126,7 @@ pub struct DrawKey {
     pub lamps: Vec<Lighting>,
     /// The bubbles that can be seen, farthest first.
     pub bubbles: Vec<BubbleKey>,
-    /// Whether they stand on a bath, which is a mirror of water at the height of their centres.
+    /// Whether they stand on a bath, which is a mirror of water at the height of their centers.
     pub on_bath: bool,
 }
 

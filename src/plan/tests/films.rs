@@ -46,9 +46,9 @@ fn a_dragged_bubble_is_seen_where_it_is_and_its_film_feels_it() {
     let drag = |to_m| pushed_at(20, Change::Drag(Drag { bubble: 0, to_m }));
     let bubble = |scene: &Scene, tick| wanted(scene, tick, Pace::Whole).picture.draw.bubbles[0].clone();
     let (scene, start) = (drag([0.0, 0.01, 0.0]), DVec3::ZERO);
-    assert_eq!(bubble(&scene, 20).centre_m, start);
-    assert!((1e-4..0.01).contains(&bubble(&scene, 24).centre_m.y));
-    assert!(bubble(&scene, 200).centre_m.distance(DVec3::new(0.0, 0.01, 0.0)) < 1e-9);
+    assert_eq!(bubble(&scene, 20).center_m, start);
+    assert!((1e-4..0.01).contains(&bubble(&scene, 24).center_m.y));
+    assert!(bubble(&scene, 200).center_m.distance(DVec3::new(0.0, 0.01, 0.0)) < 1e-9);
     let FilmKey::Field(film) = bubble(&scene, 24).film else { panic!("the film has a field") };
     // At first the whole way over the square of the time constant, 0.1 s, in radii.
     let radius_m = scene.bubbles[0].radius_mm * 1e-3;

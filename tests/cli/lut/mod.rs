@@ -104,7 +104,7 @@ fn files_of_every_kind_hold_the_same_table() {
     };
     for (layer, texels) in layers.iter().enumerate() {
         compare("film.exr", layer, sampled(texels));
-        // A planted error of half a row, as of coordinates that miss the texels' centres, would be found.
+        // A planted error of half a row, as of coordinates that miss the texels' centers, would be found.
         let half_a_row: Vec<Vec3> = texels.iter().zip(&texels[TABLE.columns..]).map(|(a, b)| 0.5 * (*a + *b)).collect();
         let shifted = [&half_a_row[..], &texels[texels.len() - TABLE.columns..]].concat();
         let (mean, _) = differences(layer, sampled(&shifted));

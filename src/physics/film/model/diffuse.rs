@@ -19,7 +19,7 @@ use crate::physics::{
 /// Stages of a part: as many as a panel's halo is wide.
 pub const STAGES: u32 = HALO as u32;
 /// Squared cell angles that one part can spread over: s stages are stable for (s² + s)/2 explicit steps, and one of those for 1/6, because at a
-/// panel's corners cells are narrower than at its centre.
+/// panel's corners cells are narrower than at its center.
 pub const MAX_SPREAD_PER_PART: f64 = 0.9;
 /// Parts of one diffusion at most.
 const MAX_PARTS: u32 = 4;
