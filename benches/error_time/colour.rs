@@ -14,7 +14,7 @@ use soapfilm::{
         colour::{BT2020, BandTask, Gamut, Illuminant, Walls, m2_delta_e},
         optics::FilmMaterial,
     },
-    plan::{BandsKey, Moment, OpticsKey, Pace, Shot, TableKey, want},
+    plan::{BandsKey, Moment, OpticsKey, Pace, Shot, TableKey, request},
     scene::Quality,
 };
 
@@ -182,13 +182,13 @@ fn frame_over_mirror(renderer: &mut Renderer, quality: Quality, frames: usize) -
         yardstick: false,
         pace: Pace::Whole,
     };
-    let bubble = want(&loaded.scene, &loaded.resources, &shot)?;
-    let mirror = want(&loaded.scene, &loaded.resources, &Shot { yardstick: true, ..shot })?;
+    let bubble = request(&loaded.scene, &loaded.resources, &shot)?;
+    let mirror = request(&loaded.scene, &loaded.resources, &Shot { yardstick: true, ..shot })?;
     let mut times = [Vec::new(), Vec::new()];
     for round in 0..frames + 2 {
-        for (want, times) in [&bubble, &mirror].into_iter().zip(&mut times) {
+        for (request, times) in [&bubble, &mirror].into_iter().zip(&mut times) {
             renderer.forget_picture();
-            let ((), cpu_ms, _) = timed(|| renderer.bring(want).and_then(|_| renderer.gpu.wait()))?;
+            let ((), cpu_ms, _) = timed(|| renderer.render(request).and_then(|_| renderer.gpu.wait()))?;
             // The first rounds bake and compile.
             if round >= 2 {
                 times.push(cpu_ms);

@@ -5,7 +5,7 @@ use soapfilm::{
     gpu::GpuError,
     input::load_scene,
     physics::colour::Gamut,
-    plan::{Have, Moment, Pace, Resources, Shot, Story, plan},
+    plan::{GpuState, Moment, Pace, Resources, Shot, Story, plan},
     scene::{Change, Event, Stir},
 };
 
@@ -50,7 +50,7 @@ fn scenes(quiet: &Scene) -> [Scene; 3] {
 
 /// CPU time of a frame from a tick on, µs, and that of the way there, ms.
 fn planned(story: &Story, resources: &Resources, from: u64, frames: u64) -> anyhow::Result<[f64; 2]> {
-    let frame = |tick, pace, have: &Have| {
+    let frame = |tick, pace, state: &GpuState| {
         let shot = Shot {
             size: [1280, 720],
             moment: Moment::tick(tick),
@@ -59,15 +59,15 @@ fn planned(story: &Story, resources: &Resources, from: u64, frames: u64) -> anyh
             yardstick: false,
             pace,
         };
-        let want = story.want(resources, &shot).map_err(|fault| GpuError::Refused(fault.to_string()))?;
-        Ok(plan(&want, have).after)
+        let request = story.request(resources, &shot).map_err(|fault| GpuError::Refused(fault.to_string()))?;
+        Ok(plan(&request, state).after)
     };
-    let (there, arrive_ms, _) = timed(|| frame(from, Pace::Whole, &Have::default()))?;
+    let (there, arrive_ms, _) = timed(|| frame(from, Pace::Whole, &GpuState::default()))?;
     let mut least_ms = f64::INFINITY;
     for _ in 0..RUNS {
         let ticks = from + 1..=from + frames;
         let (_, cpu_ms, _) =
-            timed(|| ticks.into_iter().try_fold(there.clone(), |have, tick| frame(tick, Pace::Frame, &have)))?;
+            timed(|| ticks.into_iter().try_fold(there.clone(), |state, tick| frame(tick, Pace::Frame, &state)))?;
         least_ms = least_ms.min(cpu_ms);
     }
     Ok([1e3 * least_ms / frames as f64, arrive_ms])

@@ -15,7 +15,7 @@ struct Control {
 }
 
 // From a field's departure from a film's level to what is made of it: d + offset + slope d, which restores the amount of liquid, and the
-// level itself where a thickness is wanted. Mirrors `BalanceBlock`.
+// level itself where a thickness is needed. Mirrors `BalanceBlock`.
 struct Balance {
     offset: f32,
     slope: f32,

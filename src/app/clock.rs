@@ -2,7 +2,7 @@
 
 use crate::{plan::Moment, scene::Motion};
 
-/// Wall time that one frame can bring at most, s: after a pause of the whole machine the film goes on where it was.
+/// Largest wall time that one frame may add, s: after a pause of the whole machine the film goes on where it was.
 const MAX_WALL_S: f64 = 0.5;
 
 /// A tick that lasts longer than this on the wall is shown in between too, s: slow motion would stutter otherwise.

@@ -32,7 +32,7 @@ enum Outcome {
     Nothing,
 }
 
-/// What dialogs and workers have brought that the window must see to.
+/// Results of dialogs and workers that the window must handle.
 #[derive(Debug, PartialEq)]
 pub enum Arrival {
     /// Another scene is in the model.
@@ -46,7 +46,7 @@ pub struct Files {
     wake: Arc<dyn Fn() + Send + Sync>,
     sender: Sender<(u64, Outcome)>,
     receiver: Receiver<(u64, Outcome)>,
-    /// The load that counts; what older ones bring is dropped.
+    /// The latest load; results of older loads are dropped.
     load: u64,
 }
 

@@ -13,7 +13,7 @@ pub enum Action {
     Step,
     /// Goes back to tick 0.
     Reset,
-    /// Brings the bubbles into the picture.
+    /// Moves the camera so that the bubbles are in the picture.
     Frame,
     /// Blows new films.
     NewSeed,

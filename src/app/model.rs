@@ -19,7 +19,7 @@ use crate::{
     scene::{Light, Motion, MotionChange},
 };
 
-/// What a file is wanted for.
+/// What a file is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// A scene to open.

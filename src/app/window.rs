@@ -31,9 +31,9 @@ use crate::{
 
 /// What reaches the loop from outside the window.
 enum Outside {
-    /// A screen reader wants something.
+    /// A screen reader asks for something.
     Accessibility(accesskit_winit::Event),
-    /// A worker has brought something.
+    /// A worker has a result.
     Arrival,
 }
 

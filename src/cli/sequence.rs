@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     output::{FrameRate, tell},
-    plan::Want,
+    plan::FrameRequest,
 };
 
 /// Draw numbered pictures into a folder; frame N shows the film N / fps seconds after its start
@@ -64,8 +64,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let last = painter.moment(arguments.fps.time_s(*frames.end()), &format!("frame {}", frames.end()))?;
     // What cannot be drawn is refused before the first frame, not hours later. Where all films are of one kind, one frame stands for all.
     let count = if painter.has_one_film() { 1 } else { usize::MAX };
-    frames.clone().take(count).try_for_each(|frame| want(arguments, &painter, frame).map(|_| ()))?;
-    let last = painter.want(last)?;
+    frames.clone().take(count).try_for_each(|frame| request(arguments, &painter, frame).map(|_| ()))?;
+    let last = painter.request(last)?;
     let folder = &arguments.output;
     painter.prepare(&last)?;
     std::fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
@@ -96,13 +96,13 @@ fn draw(
     progress: &Progress,
 ) -> anyhow::Result<()> {
     let time_s = arguments.fps.time_s(frame);
-    let want = want(arguments, painter, frame)?;
-    let picture = painter.paint(&want, progress)?;
+    let request = request(arguments, painter, frame)?;
+    let picture = painter.paint(&request, progress)?;
     Ok(picture.save(path, &painter.metadata(time_s).of_frame(arguments.fps, frame))?)
 }
 
-fn want(arguments: &Arguments, painter: &Painter<'_>, frame: u64) -> anyhow::Result<Want> {
-    painter.want(painter.moment(arguments.fps.time_s(frame), &format!("frame {frame}"))?)
+fn request(arguments: &Arguments, painter: &Painter<'_>, frame: u64) -> anyhow::Result<FrameRequest> {
+    painter.request(painter.moment(arguments.fps.time_s(frame), &format!("frame {frame}"))?)
 }
 
 #[cfg(test)]

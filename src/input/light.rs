@@ -1,4 +1,4 @@
-//! Brings the light that a scene names into memory: its environment, its spectrum, and the parts of it that have others.
+//! Loads the light that a scene names: its environment, its spectrum, and the parts of it that have others.
 
 use std::{path::Path, sync::Arc};
 

@@ -1,4 +1,4 @@
-//! Brings a scene and what it names into memory.
+//! Loads a scene and the files that it names.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -8,7 +8,7 @@ use std::{
 use super::{LoadError, load_environment, load_illuminant, read_table_text, read_text};
 use crate::{
     physics::optics::FilmIndex,
-    plan::{Resources, Shot, Want, want},
+    plan::{FrameRequest, Resources, Shot, request},
     scene::{
         Fault, FilmIndexName, Scene, SceneError, SceneSource, Setting, is_table, nearest, preset_names, preset_toml,
     },
@@ -36,9 +36,9 @@ impl LoadedScene {
     ///
     /// # Errors
     ///
-    /// As [`want()`], with the place in the scene's text.
-    pub fn want(&self, shot: &Shot) -> Result<Want, SceneError> {
-        want(&self.scene, &self.resources, shot).map_err(|fault| self.source.locate(fault))
+    /// As [`request()`], with the place in the scene's text.
+    pub fn request(&self, shot: &Shot) -> Result<FrameRequest, SceneError> {
+        request(&self.scene, &self.resources, shot).map_err(|fault| self.source.locate(fault))
     }
 }
 

@@ -8,7 +8,7 @@ use std::{
 /// Standard output does not take what is written to it.
 #[derive(Debug, thiserror::Error)]
 pub enum StreamError {
-    /// Its reader has stopped, as `head` does: nobody wants the rest, and nothing is wrong.
+    /// Its reader has stopped, as `head` does: the rest is not needed, and nothing is wrong.
     #[error("nobody reads the output any more")]
     Closed,
     /// It cannot be written: a full disk behind it, say.

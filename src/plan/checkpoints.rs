@@ -22,14 +22,14 @@ pub struct Checkpoints(Vec<FieldKey>);
 impl Checkpoints {
     /// The latest one that a film can go on from, and its slot.
     #[must_use]
-    pub fn latest(&self, wanted: &FieldKey) -> Option<(usize, &FieldKey)> {
-        let usable = self.0.iter().enumerate().filter(|(_, kept)| wanted.continues(kept));
+    pub fn latest(&self, requested: &FieldKey) -> Option<(usize, &FieldKey)> {
+        let usable = self.0.iter().enumerate().filter(|(_, kept)| requested.continues(kept));
         usable.max_by_key(|(_, kept)| kept.moment.tick)
     }
 
     /// The same checkpoints, where those that a film can go on from have its histories: then both are compared at once.
-    pub(super) fn sharing(mut self, wanted: &FieldKey) -> Self {
-        self.0.iter_mut().filter(|kept| wanted.continues(kept)).for_each(|kept| *kept = wanted.at(kept.moment));
+    pub(super) fn sharing(mut self, requested: &FieldKey) -> Self {
+        self.0.iter_mut().filter(|kept| requested.continues(kept)).for_each(|kept| *kept = requested.at(kept.moment));
         self
     }
 

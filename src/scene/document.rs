@@ -103,9 +103,9 @@ fn find_strays_in_items(items: &[Spanned<DeValue>], known: &[Value], path: &KeyP
 
 /// Lists of numbers have a certain length. Parsers would drop what is too much.
 fn check_count(items: &[Spanned<DeValue>], known: &[Value], offset: usize, path: &KeyPath) -> Option<Located> {
-    let (found, wanted) = (items.len(), known.len());
-    let reason = || format!("is a list of {found}; it must hold {wanted} numbers");
-    (found != wanted).then(|| Located::bad_value(offset, path, reason()))
+    let (found, expected) = (items.len(), known.len());
+    let reason = || format!("is a list of {found}; it must hold {expected} numbers");
+    (found != expected).then(|| Located::bad_value(offset, path, reason()))
 }
 
 /// The known item of a list that an item must be like: the one of its kind, where items have kinds. Nothing if there is no such kind, which

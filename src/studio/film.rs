@@ -6,7 +6,7 @@ use super::{Error, Studio, moment, shot};
 use crate::{
     input::LoadedScene,
     physics::sphere::{CubedSphere, HaloTable, PaddedField},
-    plan::{BubbleKey, FilmKey, Story, Want, film_grids, settle_detail},
+    plan::{BubbleKey, FilmKey, FrameRequest, Story, film_grids, settle_detail},
     scene::{Camera, Scene},
     verify::{
         reference::{MovedFilms, ReferenceError, film_sphere, moved_film},
@@ -25,7 +25,7 @@ pub struct FilmCell {
     pub thickness_nm: f64,
 }
 
-/// Width and height in pixels of the picture that brings a film: small, for only the film is read.
+/// Width and height in pixels of the picture that computes a film: small, for only the film is read.
 const SIZE: [u32; 2] = [64, 64];
 
 /// Reads a bubble's film at a time in seconds.
@@ -36,7 +36,7 @@ pub(super) fn read(
     time_s: f64,
 ) -> Result<Vec<FilmCell>, Error> {
     let asked = Asked::new(loaded, bubble, time_s)?;
-    studio.renderer.bring(&asked.want)?;
+    studio.renderer.render(&asked.request)?;
     let (grid, films) = match asked.key.film {
         FilmKey::Uniform(_) => (asked.grid_of_scene()?, MovedFilms::new()),
         FilmKey::Field(_) => {
@@ -75,8 +75,8 @@ pub fn reference_film(
 
 /// A bubble's film that is asked for.
 struct Asked {
-    /// What brings it: a small picture of the bubble alone.
-    want: Want,
+    /// The frame request that computes it: a small picture of the bubble alone.
+    request: FrameRequest,
     key: BubbleKey,
     /// Cells along an edge that the scene has for it.
     cells: u32,
@@ -91,10 +91,10 @@ impl Asked {
         let moment = moment(&loaded.scene, time_s)?;
         let mut close_up = loaded.clone();
         look_at(&mut close_up.scene, bubble, time_s);
-        let mut want = shot(&close_up, SIZE, moment, false)?;
-        want.picture.draw.bubbles.retain(|key| key.index == bubble);
-        let key = want.picture.draw.bubbles.first().cloned().ok_or(Error::NoFilm { bubble, time_s })?;
-        Ok(Self { want, key, cells: film_grids(&close_up.scene, bubble)[0] })
+        let mut request = shot(&close_up, SIZE, moment, false)?;
+        request.picture.draw.bubbles.retain(|key| key.index == bubble);
+        let key = request.picture.draw.bubbles.first().cloned().ok_or(Error::NoFilm { bubble, time_s })?;
+        Ok(Self { request, key, cells: film_grids(&close_up.scene, bubble)[0] })
     }
 
     /// The grid of a film of one thickness, which has no field.

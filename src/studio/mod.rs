@@ -8,7 +8,7 @@
 //! ```
 //!
 //! It only calls what the other modules offer. Whoever needs more, such as frames in a loop, a window or passes one by one, finds there
-//! [`plan::want`](crate::plan::want()) and [`gpu::Renderer`](crate::gpu::Renderer).
+//! [`plan::request`](crate::plan::request()) and [`gpu::Renderer`](crate::gpu::Renderer).
 
 mod colour;
 mod error;
@@ -27,7 +27,7 @@ use crate::{
     input::LoadedScene,
     output::Metadata,
     physics::colour::Gamut,
-    plan::{Moment, Pace, Shot, Want},
+    plan::{FrameRequest, Moment, Pace, Shot},
     scene::Scene,
 };
 
@@ -106,13 +106,13 @@ impl Studio {
         film::read(self, scene, bubble, time_s)
     }
 
-    /// Brings a picture of a scene onto the device.
+    /// Renders a picture of a scene on the device.
     fn draw(&mut self, loaded: &LoadedScene, size: [u32; 2], time_s: f64, full_precision: bool) -> Result<(), Error> {
         if size.contains(&0) {
             return Err(Error::Size(size));
         }
         self.renderer.gpu.check_picture_size(size)?;
-        self.renderer.bring(&shot(loaded, size, moment(&loaded.scene, time_s)?, full_precision)?)?;
+        self.renderer.render(&shot(loaded, size, moment(&loaded.scene, time_s)?, full_precision)?)?;
         Ok(())
     }
 
@@ -123,9 +123,9 @@ impl Studio {
 }
 
 /// What a picture of a scene needs.
-fn shot(loaded: &LoadedScene, size: [u32; 2], moment: Moment, full_precision: bool) -> Result<Want, Error> {
+fn shot(loaded: &LoadedScene, size: [u32; 2], moment: Moment, full_precision: bool) -> Result<FrameRequest, Error> {
     let shot = Shot { size, moment, full_precision, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-    Ok(loaded.want(&shot)?)
+    Ok(loaded.request(&shot)?)
 }
 
 /// The film's moment at a time in seconds, if it can be reached.

@@ -11,7 +11,7 @@ use crate::{
         colour::{BT2020, Gamut, bt709_to_bt2020, ciede2000, xyz_to_lab},
         environment::CubeMap,
     },
-    plan::{DrawKey, Lamp, Moment, Pace, Resources, Shot, Want, want},
+    plan::{DrawKey, FrameRequest, Lamp, Moment, Pace, Resources, Shot, request},
     scene::{Backdrop, Bubble, Camera, Film, FilmStateName, Flow, Motion, Quality, Scene, View},
 };
 
@@ -49,12 +49,12 @@ fn measure(
 ) -> Result<(), GpuError> {
     let mut errors: [Vec<f64>; LIMITS.len()] = Default::default();
     for (mut scene, resources) in scenes {
-        let truth = reference::radiance(&wanted(&scene, &resources)?.picture.draw, &Default::default(), &|| ());
+        let truth = reference::radiance(&frame_request(&scene, &resources)?.picture.draw, &Default::default(), &|| ());
         let truth = truth.map_err(|error| GpuError::Refused(error.to_string()))?;
         for ((quality, _), errors) in LIMITS.iter().zip(&mut errors) {
             scene.view.quality = *quality;
-            let want = wanted(&scene, &resources)?;
-            errors.extend(differences(&want.picture.draw, &truth, &radiance(renderer, &want)?));
+            let request = frame_request(&scene, &resources)?;
+            errors.extend(differences(&request.picture.draw, &truth, &radiance(renderer, &request)?));
         }
     }
     for ((quality, limits), mut errors) in LIMITS.into_iter().zip(errors) {
@@ -120,7 +120,7 @@ fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
     ))
 }
 
-fn wanted(scene: &Scene, resources: &Resources) -> Result<Want, GpuError> {
+fn frame_request(scene: &Scene, resources: &Resources) -> Result<FrameRequest, GpuError> {
     let shot = Shot {
         size: SIZE,
         moment: Moment::default(),
@@ -129,11 +129,11 @@ fn wanted(scene: &Scene, resources: &Resources) -> Result<Want, GpuError> {
         yardstick: false,
         pace: Pace::Whole,
     };
-    want(scene, resources, &shot).map_err(|error| GpuError::Refused(error.to_string()))
+    request(scene, resources, &shot).map_err(|error| GpuError::Refused(error.to_string()))
 }
 
-fn radiance(renderer: &mut Renderer, want: &Want) -> Result<Vec<DVec3>, GpuError> {
-    renderer.bring(want)?;
+fn radiance(renderer: &mut Renderer, request: &FrameRequest) -> Result<Vec<DVec3>, GpuError> {
+    renderer.render(request)?;
     let Some(picture) = renderer.read_radiance() else { return Ok(Vec::new()) };
     let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&picture.wait(&renderer.gpu)?);
     Ok(pixels.into_iter().map(|[r, g, b, _]| DVec3::new(r.into(), g.into(), b.into())).collect())

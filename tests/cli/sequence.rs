@@ -65,7 +65,7 @@ fn a_saved_history_replays() {
     for time_s in [0.2, 1.0, 0.4, 1.4] {
         support::display(&mut renderer, &support::still(&loaded, [64, 36], time_s));
     }
-    let mut want = support::still(&loaded, [64, 36], 1.5);
-    want.picture.draw.full_precision = false;
-    assert_eq!(support::display(&mut renderer, &want), pixels("once.png"), "another process, after scrubbing");
+    let mut request = support::still(&loaded, [64, 36], 1.5);
+    request.picture.draw.full_precision = false;
+    assert_eq!(support::display(&mut renderer, &request), pixels("once.png"), "another process, after scrubbing");
 }

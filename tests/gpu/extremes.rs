@@ -10,7 +10,7 @@ use soapfilm::{
         colour::{BT2020, bt709_to_bt2020},
         environment::CubeMap,
     },
-    plan::Want,
+    plan::FrameRequest,
     scene::{Backdrop, Bubble, Camera, FilmIndexName, FilmStateName, Flow, Quality},
 };
 
@@ -37,16 +37,16 @@ fn departure_from_white(pixels: &[DVec3]) -> f64 {
     mean_and_max(pixels.iter().map(|pixel| (*pixel - 1.0).abs().max_element())).1
 }
 
-fn still_image(loaded: &LoadedScene) -> Want {
+fn still_image(loaded: &LoadedScene) -> FrameRequest {
     still(loaded, SIZE, 0.0)
 }
 
 /// A still as windows have it: half floats, then eight bits.
-fn shown(loaded: &LoadedScene) -> Want {
-    let mut want = still_image(loaded);
-    want.picture.draw.full_precision = false;
-    want.picture.draw.exposed_ev = soapfilm::plan::exposed_ev(want.picture.exposure_ev);
-    want
+fn shown(loaded: &LoadedScene) -> FrameRequest {
+    let mut request = still_image(loaded);
+    request.picture.draw.full_precision = false;
+    request.picture.draw.exposed_ev = soapfilm::plan::exposed_ev(request.picture.exposure_ev);
+    request
 }
 
 #[test]

@@ -94,13 +94,13 @@ fn a_jet_straight_at_the_film_moves_nothing() {
 
 /// A picture of a bubble that flies through the air, and the matrix that stretches it.
 fn pushed_picture(renderer: &mut Renderer, loaded: &LoadedScene, size: [u32; 2]) -> (Vec<DVec3>, Vec<DVec3>, DMat3) {
-    let mut want = still(loaded, size, 25.0 / 60.0);
+    let mut request = still(loaded, size, 25.0 / 60.0);
     // Fewer samples than pictures of this size have, the same for both.
-    want.picture.draw.bubbles[0].samples = short_or_long(2, 8);
-    let draw = &want.picture.draw;
+    request.picture.draw.bubbles[0].samples = short_or_long(2, 8);
+    let draw = &request.picture.draw;
     let stretch = draw.bubbles[0].stretch;
     let truth = reference::radiance(draw, &Default::default(), &|| ()).unwrap();
-    (radiance(renderer, &want), truth, stretch)
+    (radiance(renderer, &request), truth, stretch)
 }
 
 /// A bubble of one thickness that a drag has pushed out of shape, in a preset's light.

@@ -50,19 +50,19 @@ fn the_picture_in_two_lights_is_the_f64_one() {
     let (environment, lamps) = load_environment(&loaded.scene.light, Path::new(""), &mut Vec::new()).unwrap();
     (loaded.resources.environment, loaded.resources.lamps) = (environment, lamps);
     // Fewer samples than pictures of this size have, the same for both.
-    let wanted = |loaded: &LoadedScene| {
-        let mut want = still(loaded, SIZE, 0.0);
-        want.picture.draw.bubbles[0].samples = short_or_long(2, 6);
-        want
+    let frame_request = |loaded: &LoadedScene| {
+        let mut request = still(loaded, SIZE, 0.0);
+        request.picture.draw.bubbles[0].samples = short_or_long(2, 6);
+        request
     };
-    let want = wanted(&loaded);
-    assert_eq!(want.picture.draw.lamps.len(), 1);
+    let request = frame_request(&loaded);
+    assert_eq!(request.picture.draw.lamps.len(), 1);
     // The f64 picture knows no qualities.
-    let truth = reference::radiance(&want.picture.draw, &Default::default(), &|| ()).unwrap();
+    let truth = reference::radiance(&request.picture.draw, &Default::default(), &|| ()).unwrap();
     for quality in Quality::ALL {
         loaded.scene.view.quality = quality;
-        let want = wanted(&loaded);
-        let seen = radiance(&mut renderer, &want);
+        let request = frame_request(&loaded);
+        let seen = radiance(&mut renderer, &request);
         let mut levels: Vec<f64> = truth.iter().map(|pixel| pixel.max_element()).collect();
         levels.sort_by(f64::total_cmp);
         let scale = levels[levels.len() * 9 / 10];

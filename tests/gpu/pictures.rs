@@ -10,7 +10,7 @@ use soapfilm::{
         environment::{CubeMap, Equirect, direction_of_uv},
         picture::PictureCamera,
     },
-    plan::Want,
+    plan::FrameRequest,
     scene::{Backdrop, Camera, FilmStateName, Flow, preset_names},
     verify::reference,
 };
@@ -44,8 +44,8 @@ fn lamp(towards: DVec3, degrees: f64) -> CubeMap {
     CubeMap::from_fn(512, 1, radiance)
 }
 
-fn camera(want: &Want) -> PictureCamera {
-    let key = &want.picture.draw.camera;
+fn camera(request: &FrameRequest) -> PictureCamera {
+    let key = &request.picture.draw.camera;
     PictureCamera {
         eye_m: key.eye_m,
         forward: key.forward,
@@ -219,8 +219,8 @@ fn environments_have_no_seam() {
     loaded.scene.bubbles.clear();
     // Looks along -x, where the file's edges meet.
     loaded.scene.camera = Camera { azimuth_deg: 0.0, elevation_deg: 0.0, ..Camera::default() };
-    let want = still(&loaded, SIZE, 0.0);
-    let (eye, pixels) = (camera(&want), radiance(&mut renderer, &want));
+    let request = still(&loaded, SIZE, 0.0);
+    let (eye, pixels) = (camera(&request), radiance(&mut renderer, &request));
     let error = |k: u32| {
         let position = DVec2::new(f64::from(k % SIZE[0]) + 0.5, f64::from(k / SIZE[0]) + 0.5);
         (pixels[k as usize].x - formula(eye.ray(SIZE, position))).abs()
@@ -271,14 +271,14 @@ struct Distance {
 
 fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedScene, time_s: f64) -> Distance {
     let size = [160, 90];
-    let want = still(loaded, size, time_s);
-    let seen = radiance(renderer, &want);
-    let truth = reference::radiance(&want.picture.draw, &Default::default(), &|| ()).unwrap();
+    let request = still(loaded, size, time_s);
+    let seen = radiance(renderer, &request);
+    let truth = reference::radiance(&request.picture.draw, &Default::default(), &|| ()).unwrap();
     let mut levels: Vec<f64> = truth.iter().map(|pixel| pixel.max_element()).collect();
     levels.sort_by(f64::total_cmp);
     let scale = levels[levels.len() * 9 / 10];
     let errors: Vec<f64> = seen.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element() / scale).collect();
-    let eye = camera(&want);
+    let eye = camera(&request);
     let limb = (0.05 / eye.eye_m.length()).asin();
     let at_rim = |k: usize| {
         let position = DVec2::new((k % 160) as f64 + 0.5, (k / 160) as f64 + 0.5);
@@ -290,7 +290,7 @@ fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedS
         errors.fold(0.0, f64::max)
     };
     let (mean, _) = mean_and_max(errors.iter().copied());
-    let white = want.picture.draw.lighting.light.gain.max_element() / scale;
+    let white = request.picture.draw.lighting.light.gain.max_element() / scale;
     let distance = Distance { mean, inside_max: part(false), rim_max: part(true) / white };
     let Distance { mean, inside_max, rim_max } = distance;
     eprintln!("measured: GPU - f64 picture, {name}: mean {mean:.5}, max {inside_max:.4}, at the rim {rim_max:.4}");
@@ -338,12 +338,12 @@ fn equal_history_gives_equal_bits() {
     let mut second = Renderer::new(pollster::block_on(first.gpu.another()).unwrap());
     let mut loaded = load("fresh");
     loaded.scene.bubbles[0].film.cells = 64;
-    let want = |time_s| still(&loaded, SIZE, time_s);
-    let at_once = display(&mut first, &want(1.01));
+    let request = |time_s| still(&loaded, SIZE, time_s);
+    let at_once = display(&mut first, &request(1.01));
     for time_s in [0.2, 0.5, 0.505, 0.9] {
-        display(&mut second, &want(time_s));
+        display(&mut second, &request(time_s));
     }
-    assert!(display(&mut second, &want(1.01)) == at_once);
+    assert!(display(&mut second, &request(1.01)) == at_once);
 }
 
 /// Every preset draws, and shows something: but for the furnace, whose bubble must not be seen.

@@ -29,8 +29,8 @@ fn mean_nm(film: &[FilmCell]) -> f64 {
 fn pictures_are_those_of_the_renderer() {
     let (Some(mut studio), Some(mut renderer)) = (studio(), support::renderer()) else { return };
     let loaded = load_scene("furnace").unwrap();
-    let want = support::still(&loaded, [40, 30], 0.5);
-    let expected = support::radiance(&mut renderer, &want);
+    let request = support::still(&loaded, [40, 30], 0.5);
+    let expected = support::radiance(&mut renderer, &request);
     let found = studio.radiance(&loaded, [40, 30], 0.5).unwrap();
     assert_eq!((found.rgb.len(), found.rows().len()), (1200, 30));
     let to_bt709 = soapfilm::physics::colour::bt2020_to_bt709();

@@ -14,7 +14,7 @@ use soapfilm::{
     gpu::{AdapterChoice, Gpu, Renderer},
     input::{LoadedScene, load_scene},
     physics::colour::Gamut,
-    plan::{Moment, Pace, Shot, Want, want},
+    plan::{FrameRequest, Moment, Pace, Shot, request},
     verify::{Check, Extent, Part, Run},
 };
 
@@ -112,23 +112,23 @@ pub fn load(preset: &str) -> LoadedScene {
 }
 
 /// What a still picture of a scene needs, all at once and in f32.
-pub fn still(loaded: &LoadedScene, size: [u32; 2], time_s: f64) -> Want {
+pub fn still(loaded: &LoadedScene, size: [u32; 2], time_s: f64) -> FrameRequest {
     let moment = Moment::of_time(time_s, loaded.scene.motion.tick_s);
     let shot = Shot { size, moment, full_precision: true, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-    want(&loaded.scene, &loaded.resources, &shot).unwrap()
+    request(&loaded.scene, &loaded.resources, &shot).unwrap()
 }
 
 /// Radiance of each pixel, linear BT.2020.
-pub fn radiance(renderer: &mut Renderer, want: &Want) -> Vec<DVec3> {
-    assert!(renderer.bring(want).unwrap().complete);
+pub fn radiance(renderer: &mut Renderer, request: &FrameRequest) -> Vec<DVec3> {
+    assert!(renderer.render(request).unwrap().complete);
     let bytes = renderer.read_radiance().unwrap().wait(&renderer.gpu).unwrap();
     let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
     pixels.into_iter().map(|[r, g, b, _]| DVec3::new(r.into(), g.into(), b.into())).collect()
 }
 
 /// Bytes of each pixel, sRGB and alpha.
-pub fn display(renderer: &mut Renderer, want: &Want) -> Vec<u8> {
-    assert!(renderer.bring(want).unwrap().complete);
+pub fn display(renderer: &mut Renderer, request: &FrameRequest) -> Vec<u8> {
+    assert!(renderer.render(request).unwrap().complete);
     renderer.read_picture().unwrap().wait(&renderer.gpu).unwrap()
 }
 

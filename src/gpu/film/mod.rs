@@ -348,7 +348,7 @@ impl Field {
         gpu.queue.write_buffer(buffer, place * 4 * numbers, &value.to_ne_bytes());
     }
 
-    /// Starts to bring back what the device knows of the film: a [`ControlBlock`](super::control::ControlBlock).
+    /// Starts to read back what the device knows of the film: a [`ControlBlock`](super::control::ControlBlock).
     #[must_use]
     pub fn read_control(&self, gpu: &Gpu) -> Readback {
         Readback::of_buffer(gpu, &self.control.block, self.control.block.size())

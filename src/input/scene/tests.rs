@@ -80,7 +80,7 @@ fn what_cannot_be_drawn_is_refused_by_line_and_key() {
         ),
     ] {
         let (folder, path) = desk(text);
-        let error = load_scene(&path).unwrap().want(&shot).unwrap_err().to_string();
+        let error = load_scene(&path).unwrap().request(&shot).unwrap_err().to_string();
         assert_eq!(error.replace(&format!("{}/", folder.path().display()), ""), told, "{text}");
     }
 }

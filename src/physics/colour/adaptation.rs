@@ -39,7 +39,7 @@ pub fn white_balance(illuminant: &Illuminant) -> DMat3 {
     to_cones.inverse() * DMat3::from_diagonal(gains) * to_cones
 }
 
-/// The matrix from an RGB space to XYZ adapted to D50, as ICC profiles want it, and the adaptation itself (Bradford).
+/// The matrix from an RGB space to XYZ adapted to D50, as ICC profiles need it, and the adaptation itself (Bradford).
 pub fn adapted_to_d50(space: &RgbSpace) -> (DMat3, DMat3) {
     let d50 = DVec3::new(0.9642, 1.0, 0.8249);
     let gains = (BRADFORD * d50) / (BRADFORD * (space.to_xyz() * DVec3::ONE));

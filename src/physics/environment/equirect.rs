@@ -57,8 +57,8 @@ impl Equirect {
     /// The count of pixels is not `width * height`, is zero, or `width` is odd (a row then has no pixel straight across the
     /// pole).
     pub fn new(width: usize, height: usize, mut pixels: Vec<[f32; 3]>) -> Result<Self, WrongPixelCount> {
-        let wanted = width.checked_mul(height);
-        if pixels.is_empty() || wanted != Some(pixels.len()) || !width.is_multiple_of(2) {
+        let expected = width.checked_mul(height);
+        if pixels.is_empty() || expected != Some(pixels.len()) || !width.is_multiple_of(2) {
             return Err(WrongPixelCount { width, height, pixels: pixels.len() });
         }
         let repairs = pixels.par_iter_mut().map(Repairs::repair).sum();

@@ -50,8 +50,8 @@ fn coarsest_sweeps(n: usize, shift: Shift) -> usize {
     let most = if n <= 9 { MAX_COARSEST_SWEEPS / 2 } else { MAX_COARSEST_SWEEPS };
     let root = ((2.0 * largest_diagonal(n, Order::Second) + shift) / (2.0 + shift)).sqrt();
     // Where a hundred times less is cheap, that.
-    let wanted = (200.0_f64).ln() / ((root + 1.0) / (root - 1.0)).ln();
-    (wanted.ceil().max(2.0) as usize).next_power_of_two().min(most)
+    let needed = (200.0_f64).ln() / ((root + 1.0) / (root - 1.0)).ln();
+    (needed.ceil().max(2.0) as usize).next_power_of_two().min(most)
 }
 
 /// Weights of the sweeps that solve the coarsest grid: Chebyshev over the whole spectrum but constants, in the order of Lebedev &

@@ -18,7 +18,7 @@ pub enum SpectrumError {
         line: usize,
         /// Columns found.
         found: usize,
-        /// Columns wanted, the wavelength included.
+        /// Columns needed, including the wavelength.
         expected: usize,
         /// The likeliest reason.
         hint: &'static str,

@@ -121,14 +121,14 @@ impl BandsKey {
     /// Whether single walls come from a table.
     #[must_use]
     pub fn needs_table(&self) -> bool {
-        self.quality != Quality::Spectral || self.wanted(self.measured()) > Self::MOST_ALONE
+        self.quality != Quality::Spectral || self.needed(self.measured()) > Self::MOST_ALONE
     }
 
     /// How many there are.
     #[must_use]
     pub fn count(&self) -> usize {
-        let alone = self.wanted(self.measured()).min(Self::MOST_ALONE);
-        alone.max(self.wanted(self.measured_beside_table()).min(Self::MOST))
+        let alone = self.needed(self.measured()).min(Self::MOST_ALONE);
+        alone.max(self.needed(self.measured_beside_table()).min(Self::MOST))
     }
 
     /// Thickness, in nm, up to which as many as there is room for resolve the products' fringes.
@@ -139,8 +139,8 @@ impl BandsKey {
         1.02 * Self::MOST as f64 / (measured * self.bands_over_water()) * TableKey::MIN_RANGE_NM
     }
 
-    /// How many would do where so many do for 1500 nm of water: films with more fringes need as many more.
-    fn wanted(&self, measured: f64) -> usize {
+    /// Bands needed, given the number that is enough for 1500 nm of water: it grows with the number of fringes.
+    fn needed(&self, measured: f64) -> usize {
         (measured * self.bands_over_water() * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
     }
 

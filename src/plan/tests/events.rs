@@ -27,8 +27,8 @@ fn seconds(boundary: &str, count: usize) -> f64 {
         let started = ThreadTime::now();
         let scene = Scene::from_toml(&text, "events").unwrap();
         for moment in [100 * count as u64, 100 * count as u64 + 50] {
-            let want = wanted(&scene, moment, Pace::Whole);
-            assert!(!plan(&want, &Have::default()).is_empty());
+            let request = frame_request(&scene, moment, Pace::Whole);
+            assert!(!plan(&request, &GpuState::default()).is_empty());
         }
         started.elapsed().as_secs_f64()
     };

@@ -180,7 +180,7 @@ fn is_section(value: &toml::Value) -> bool {
     value.is_table() || value.as_array().is_some_and(|items| items.iter().any(toml::Value::is_table))
 }
 
-/// A number as TOML, in the form that its key wants.
+/// A number as TOML, in the form that its key takes.
 fn written(key: &str, default: &str, value: f64) -> String {
     // TOML writes `nan` where Rust writes `NaN`.
     let number = format!("{value:?}").to_lowercase();

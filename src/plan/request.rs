@@ -1,12 +1,12 @@
-//! From a scene and a shot of it to what the picture needs.
+//! From a scene and a shot of it to a frame request: all that the picture needs.
 
 use std::{collections::BTreeMap, sync::Arc};
 
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, LightKey, Lighting, Moment,
-    OpticsKey, Pace, Story, TableKey, TonemapKey, Want, exposed_ev,
+    BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, FrameRequest, LightKey, Lighting,
+    Moment, OpticsKey, Pace, Story, TableKey, TonemapKey, exposed_ev,
     films::{cap, has_field},
     range_nm,
 };
@@ -60,22 +60,22 @@ pub struct Shot {
     pub pace: Pace,
 }
 
-/// What a single shot of a scene needs. Whoever takes several has a [`Story`].
+/// The frame request for a single shot of a scene. For several shots, make a [`Story`] once.
 ///
 /// # Errors
 ///
-/// As [`Story::want`].
-pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, Fault> {
-    Story::new(scene.clone()).want(resources, shot)
+/// As [`Story::request`].
+pub fn request(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<FrameRequest, Fault> {
+    Story::new(scene.clone()).request(resources, shot)
 }
 
 impl Story {
-    /// What a shot of the scene needs.
+    /// The frame request for a shot of the scene.
     ///
     /// # Errors
     ///
     /// The key of a scene that cannot be drawn: a camera below the bath, films of different liquids in one picture, an index that no film has.
-    pub fn want(&self, resources: &Resources, shot: &Shot) -> Result<Want, Fault> {
+    pub fn request(&self, resources: &Resources, shot: &Shot) -> Result<FrameRequest, Fault> {
         let scene: &Scene = self;
         let camera = camera(scene, shot.size);
         let bath_m =
@@ -113,7 +113,7 @@ impl Story {
         let balance = if balances { white_balance(&resources.illuminant) } else { DMat3::IDENTITY };
         let exposure_ev = scene.view.exposure_ev;
         let picture = TonemapKey { draw, exposure_ev, balance, gamut: shot.gamut, dither };
-        Ok(Want { picture, has_field: scene.bubbles.iter().map(has_field).collect(), pace: shot.pace })
+        Ok(FrameRequest { picture, has_field: scene.bubbles.iter().map(has_field).collect(), pace: shot.pace })
     }
 }
 
