@@ -92,7 +92,7 @@ pub fn front(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
             let probe = ColourProbe::with_table(table, bands);
             let points = points(if smoke { 500 } else { FILMS }, FRONT_NM, true);
             let [worst, mean] = colour_error(&points, &probe.measure(gpu, &probes(&points))?);
-            let ns = nanoseconds_a_point(gpu, &probe, if smoke { 500 } else { TIMED_FILMS })?;
+            let ns = nanoseconds_per_point(gpu, &probe, if smoke { 500 } else { TIMED_FILMS })?;
             report.row(&[f64::from(u8::from(task == BandTask::Everything)), count as f64, ns, worst, mean]);
             places.push(Place { count, ns, errors: [worst, mean] });
         }
@@ -137,7 +137,7 @@ pub fn qualities(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
             let points = points(if smoke { 500 } else { FILMS }, max_nm, true);
             let (probe, cpu_ms, _) = timed(|| ColourProbe::new(&renderer.gpu, &water(), quality, max_nm))?;
             let [worst, mean] = colour_error(&points, &probe.measure(&renderer.gpu, &probes(&points))?);
-            let ns = nanoseconds_a_point(&renderer.gpu, &probe, if smoke { 500 } else { TIMED_FILMS })?;
+            let ns = nanoseconds_per_point(&renderer.gpu, &probe, if smoke { 500 } else { TIMED_FILMS })?;
             let bands = BandsKey { optics: water(), range_nm: max_nm, quality }.count() as f64;
             let ratio = frame_over_mirror(&mut renderer, quality, if smoke { 1 } else { 9 })?;
             report.row(&[bands, max_nm, cpu_ms, ns, worst, mean, ratio]);
@@ -157,7 +157,7 @@ fn save_plot(name: &str, labels: [&str; 2], series: &[Series]) -> anyhow::Result
 }
 
 /// Process CPU time of a point: the median over some rounds, sending and reading back included.
-fn nanoseconds_a_point(gpu: &Gpu, probe: &ColourProbe, count: u32) -> anyhow::Result<f64> {
+fn nanoseconds_per_point(gpu: &Gpu, probe: &ColourProbe, count: u32) -> anyhow::Result<f64> {
     let points = probes(&points(count, FRONT_NM, true));
     let round = |_| Ok(timed(|| probe.measure(gpu, &points))?.1);
     let times = (0..=ROUNDS).map(round).collect::<anyhow::Result<Vec<f64>>>()?;

@@ -63,12 +63,12 @@ fn planned(story: &Story, resources: &Resources, from: u64, frames: u64) -> anyh
         Ok(plan(&request, state).after)
     };
     let (there, arrive_ms, _) = timed(|| frame(from, Pace::Whole, &GpuState::default()))?;
-    let mut least_ms = f64::INFINITY;
+    let mut min_ms = f64::INFINITY;
     for _ in 0..RUNS {
         let ticks = from + 1..=from + frames;
         let (_, cpu_ms, _) =
             timed(|| ticks.into_iter().try_fold(there.clone(), |state, tick| frame(tick, Pace::Frame, &state)))?;
-        least_ms = least_ms.min(cpu_ms);
+        min_ms = min_ms.min(cpu_ms);
     }
-    Ok([1e3 * least_ms / frames as f64, arrive_ms])
+    Ok([1e3 * min_ms / frames as f64, arrive_ms])
 }

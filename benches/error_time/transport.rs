@@ -165,7 +165,7 @@ fn measure(gpu: &Gpu, report: &mut Report, index: usize, case: &Case) -> anyhow:
         runs += 1;
     }
     cpu_ms /= f64::from(runs);
-    let Case { map_coarsening, steps_a_period: steps, .. } = *case;
+    let Case { map_coarsening, steps_per_period: steps, .. } = *case;
     let cells = case.grid.n();
     let ((), copy_ms, _) = timed(|| {
         let mut recorder = Recorder::new(gpu);
@@ -180,7 +180,7 @@ fn measure(gpu: &Gpu, report: &mut Report, index: usize, case: &Case) -> anyhow:
         f64::from(map_coarsening),
         cells as f64,
         f64::from(steps),
-        f64::from(case.traces_a_step),
+        f64::from(case.traces_per_step),
         courant(cells as f64, steps),
         row.cpu_s,
         cpu_ms / case.steps as f64,
@@ -208,7 +208,13 @@ fn price(rows: &[Row]) -> Option<Price> {
     })
 }
 
-fn case(runner: Runner, map_coarsening: u32, cells: usize, steps_a_period: u32, periods: u32) -> anyhow::Result<Case> {
+fn case(
+    runner: Runner,
+    map_coarsening: u32,
+    cells: usize,
+    steps_per_period: u32,
+    periods: u32,
+) -> anyhow::Result<Case> {
     let wind = Wind::new(WindKind::NonDivergent, None)?;
     Ok(Case {
         grid: CubedSphere::new(cells)?,
@@ -218,8 +224,8 @@ fn case(runner: Runner, map_coarsening: u32, cells: usize, steps_a_period: u32, 
         scheme: runner.scheme,
         map_coarsening,
         limiter: false,
-        steps_a_period,
-        steps: u64::from(steps_a_period * periods),
-        traces_a_step: Case::traces_a_step(runner.traced_as, steps_a_period),
+        steps_per_period,
+        steps: u64::from(steps_per_period * periods),
+        traces_per_step: Case::traces_per_step(runner.traced_as, steps_per_period),
     })
 }

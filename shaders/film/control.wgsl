@@ -5,7 +5,7 @@ struct Control {
     // The map's distortion over the limit, as the bits of a float that is not negative: they sort like the floats.
     distortion: atomic<u32>,
     // Values that were not finite and have been replaced.
-    healed: atomic<u32>,
+    sanitised: atomic<u32>,
     // Ticks that the last remap came after the one before it.
     ticks_remapped: u32,
     // What evaporation has left in black film, at which it ends, as a mean over the sphere in nm.

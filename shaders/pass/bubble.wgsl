@@ -47,7 +47,7 @@ struct Bubble {
     cells: u32,
     tracer_cells: u32,
     // What has evaporated from the whole film, in nm.
-    thinned_nm: f32,
+    evaporated_nm: f32,
     // Takes directions of the world to the film, which may turn as a whole.
     to_film: mat3x3f,
     // Takes the unit sphere to the bubble's wall, over the radius, and the inverse.
@@ -147,7 +147,7 @@ fn thickness_nm(place: vec3f) -> f32 {
             thickness_nm = film_at(film, direction, bubble.cells);
         }
     }
-    thickness_nm = max(thickness_nm - bubble.thinned_nm, min(thickness_nm, bubble.black_nm));
+    thickness_nm = max(thickness_nm - bubble.evaporated_nm, min(thickness_nm, bubble.black_nm));
     if (BURST == 1u) {
         return with_hole(bubble.to_film * point, thickness_nm);
     }

@@ -14,7 +14,7 @@ struct Diffuse {
     // Squared cell angles that liquid spreads over in a tick and in this part of the step, times the stages' weight.
     rate: f32,
     // The same in any one part at most.
-    most: f32,
+    max_spread: f32,
     // Factors of the stage before and of that before it.
     before: f32,
     earlier: f32,
@@ -49,7 +49,7 @@ fn diffuse_stage(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let at = (id.z * side + id.y) * side + id.x;
-    let spread = min(diffuse.rate * f32(control.ticks_remapped), diffuse.most);
+    let spread = min(diffuse.rate * f32(control.ticks_remapped), diffuse.max_spread);
     let found = spread * laplacian(at, side, vec2f(tangents[id.x], tangents[id.y]));
     stage[at] = diffuse.before * stage_before[at] + diffuse.earlier * stage_earlier[at] + found;
 }

@@ -44,13 +44,13 @@ fn map_row(map: u32, place: u32, w: vec4f) -> vec4f {
 }
 
 // Values that lookups of this invocation met and that are not finite.
-var<private> healed: u32;
+var<private> sanitised: u32;
 
 // The finite one of two neighbours, the stencil's middle ones on a diagonal, in place of an interpolation that met a value that is not; at
 // the last `direction`, with nothing gathered. They are loaded whether they are needed or not: software rasterisers walk both ways of every
 // branch, so a careful search would cost every lookup as much again. Compilers see that the rows have them already where the places are written
 // as the rows write them.
-fn healed_map(map: u32, middle_row: u32, upper_row: u32, direction: vec3f) -> vec4f {
+fn substitute_map(map: u32, middle_row: u32, upper_row: u32, direction: vec3f) -> vec4f {
     let below = map_value(map, middle_row + 1u);
     let above = map_value(map, upper_row + 2u);
     return select(select(vec4f(direction, 0.0), above, all_finite(above)), below, all_finite(below));
@@ -88,13 +88,13 @@ fn map_between(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
         map_row(map, upper, wi),
         map_row(map, first + 3u * at.stride, wi),
     );
-    return usable_map(map, found, vec2u(middle, upper), direction);
+    return sanitised_map(map, found, vec2u(middle, upper), direction);
 }
 
 // What was interpolated in a map as a unit vector, or what stands in for it.
-fn usable_map(map: u32, interpolated: vec4f, middle_rows: vec2u, direction: vec3f) -> vec4f {
-    healed += select(1u, 0u, all_finite(interpolated));
-    let stand_in = healed_map(map, middle_rows.x, middle_rows.y, direction);
+fn sanitised_map(map: u32, interpolated: vec4f, middle_rows: vec2u, direction: vec3f) -> vec4f {
+    sanitised += select(1u, 0u, all_finite(interpolated));
+    let stand_in = substitute_map(map, middle_rows.x, middle_rows.y, direction);
     let found = select(stand_in, interpolated, all_finite(interpolated));
     // A map torn to opposite directions has no direction left.
     let length = length(found.xyz);
@@ -131,10 +131,10 @@ fn map_at_quad(map: u32, first_id: vec2i, panel: u32, other_cells: u32, directio
     let c = map_quad_row(map, middle.y, left, right);
     let d = map_quad_row(map, first + 3u * at.stride, left, right);
     return array(
-        usable_map(map, weighted(below, a.first, b.first, c.first, d.first), middle, direction),
-        usable_map(map, weighted(below, a.second, b.second, c.second, d.second), middle, direction),
-        usable_map(map, weighted(above, a.first, b.first, c.first, d.first), middle, direction),
-        usable_map(map, weighted(above, a.second, b.second, c.second, d.second), middle, direction),
+        sanitised_map(map, weighted(below, a.first, b.first, c.first, d.first), middle, direction),
+        sanitised_map(map, weighted(below, a.second, b.second, c.second, d.second), middle, direction),
+        sanitised_map(map, weighted(above, a.first, b.first, c.first, d.first), middle, direction),
+        sanitised_map(map, weighted(above, a.second, b.second, c.second, d.second), middle, direction),
     );
 }
 
@@ -199,7 +199,7 @@ fn tracer_at(direction: vec3f, cells: u32) -> f32 {
         let high = max(max(0.0, above - reference), max(across, up));
         total = select(total, clamp(total, low, high), is_finite(total));
     }
-    healed += select(1u, 0u, is_finite(total));
+    sanitised += select(1u, 0u, is_finite(total));
     let neighbour = select(select(0.0, above, is_finite(above)), reference, is_finite(reference));
     return select(neighbour, reference + total, is_finite(total));
 }

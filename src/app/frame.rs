@@ -298,8 +298,8 @@ struct Output {
 }
 
 /// The picture's place on whole pixels, in points, and its size in pixels, at least one and at most what a texture holds.
-fn pixel_rect(rect: Rect, pixels_per_point: f32, most: u32) -> (Rect, [u32; 2]) {
-    let pixels = |points: f32| (points * pixels_per_point).round().clamp(0.0, most as f32);
+fn pixel_rect(rect: Rect, pixels_per_point: f32, max: u32) -> (Rect, [u32; 2]) {
+    let pixels = |points: f32| (points * pixels_per_point).round().clamp(0.0, max as f32);
     let min = [pixels(rect.min.x), pixels(rect.min.y)];
     let size = [pixels(rect.max.x) - min[0], pixels(rect.max.y) - min[1]].map(|size| size.max(1.0));
     let points = |pixels: [f32; 2]| egui::vec2(pixels[0], pixels[1]) / pixels_per_point;

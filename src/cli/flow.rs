@@ -69,7 +69,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let run = FlowRun {
         case,
         cells: arguments.cells,
-        steps_a_span: arguments.steps,
+        steps_per_span: arguments.steps,
         spans: arguments.repeat,
         cycles: Cycles::default(),
     };
@@ -108,8 +108,8 @@ fn case(arguments: &Arguments) -> anyhow::Result<FlowCase> {
     let sloshes = arguments.case == FlowCaseKind::Sloshing;
     let degree = arguments.degree.unwrap_or(if sloshes { 1 } else { 5 });
     let order = arguments.order.unwrap_or(if sloshes { 1 } else { 4.min(degree) });
-    let usual = if arguments.case == FlowCaseKind::RossbyHaurwitz { 1.0 } else { 0.1 };
-    let (mode, k) = (Mode::new(degree, order, u32::from(sloshes))?, arguments.k.unwrap_or(usual));
+    let default = if arguments.case == FlowCaseKind::RossbyHaurwitz { 1.0 } else { 0.1 };
+    let (mode, k) = (Mode::new(degree, order, u32::from(sloshes))?, arguments.k.unwrap_or(default));
     anyhow::ensure!(
         !sloshes || arguments.stratification != 0.0,
         "without stratification nothing sloshes: use another than 0"

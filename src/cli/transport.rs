@@ -150,9 +150,9 @@ fn case(arguments: &Arguments) -> anyhow::Result<Case> {
         scheme: arguments.scheme,
         map_coarsening: arguments.map_coarsening,
         limiter: arguments.limiter == Switch::On,
-        steps_a_period: arguments.steps,
+        steps_per_period: arguments.steps,
         steps: (arguments.until * all).round() as u64,
-        traces_a_step: Case::traces_a_step(arguments.scheme, arguments.steps),
+        traces_per_step: Case::traces_per_step(arguments.scheme, arguments.steps),
     })
 }
 

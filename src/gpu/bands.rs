@@ -58,8 +58,8 @@ pub(super) fn spectrum_samples(key: &OpticsKey) -> Vec<BandSample> {
 
 /// Fitted wavelengths on the device.
 pub struct Bands {
-    /// [`MOST_BANDS`] of [`BandSample`], those beyond the count zero. A uniform, for all lanes of a processor read the same one at once.
-    pub buffer: UniformBuffer<[BandSample; MOST_BANDS]>,
+    /// [`MAX_BANDS`] of [`BandSample`], those beyond the count zero. A uniform, for all lanes of a processor read the same one at once.
+    pub buffer: UniformBuffer<[BandSample; MAX_BANDS]>,
     /// How many count.
     pub count: u32,
     /// Whether there are films that they are too few for.
@@ -68,8 +68,8 @@ pub struct Bands {
 }
 
 /// Room for bands: what `array<Band, ...>` in the passes that sum over them has.
-pub const MOST_BANDS: usize = 256;
-const _: () = assert!(BandsKey::MOST <= MOST_BANDS);
+pub const MAX_BANDS: usize = 256;
+const _: () = assert!(BandsKey::MAX <= MAX_BANDS);
 
 /// Part of the thickness that bands resolve that may remain of a gap between thicknesses, see `shaders/optics/walls.wgsl`. With more of it the
 /// bands no longer resolve three such steps, with less gaps close that fringes still reach across. With bands for 14 µm, the mean error of two
@@ -90,8 +90,8 @@ impl Bands {
     /// So many of them, or the light's own wavelengths where those are fewer, that resolve films up to a thickness.
     #[must_use]
     pub fn of_count(gpu: &Gpu, optics: &OpticsKey, task: BandTask, count: usize, resolved_nm: f64) -> Self {
-        let bands = fit_bands(&optics.spectra_to(resolved_nm), task, count.min(MOST_BANDS), resolved_nm);
-        let mut samples = [BandSample::zeroed(); MOST_BANDS];
+        let bands = fit_bands(&optics.spectra_to(resolved_nm), task, count.min(MAX_BANDS), resolved_nm);
+        let mut samples = [BandSample::zeroed(); MAX_BANDS];
         let gap_nm = (GAP * resolved_nm) as f32;
         let sample = |band: &Band| BandSample { gap_nm, ..band.into() };
         samples.iter_mut().zip(&bands).for_each(|(place, band)| *place = sample(band));

@@ -36,11 +36,11 @@ pub struct DrawInputs<'a> {
 }
 
 /// Pixels that one submission draws at most, so that none runs long.
-const PIXELS_A_SUBMISSION: u32 = 2_000_000;
+const PIXELS_PER_SUBMISSION: u32 = 2_000_000;
 
 /// Horizontal strips that a picture is cut into.
 pub fn strips([width, height]: [u32; 2]) -> impl Iterator<Item = std::ops::Range<u32>> {
-    let rows = (PIXELS_A_SUBMISSION / width.max(1)).max(1);
+    let rows = (PIXELS_PER_SUBMISSION / width.max(1)).max(1);
     (0..height).step_by(rows as usize).map(move |top| top..(top + rows).min(height))
 }
 
@@ -264,7 +264,7 @@ fn bubble_uniform(
         thickness_nm,
         cells,
         tracer_cells: shown.tracer_cells,
-        thinned_nm: bubble.thinned_nm as f32,
+        evaporated_nm: bubble.evaporated_nm as f32,
         to_film: DMat3::from_cols(x, y, z).into(),
         stretch: bubble.stretch.into(),
         unstretch: bubble.stretch.inverse().into(),

@@ -22,7 +22,7 @@ use crate::{
 };
 
 /// Cells stepped in one submission, so that none runs long: about 50 ms on a software rasteriser.
-const CELLS_A_SUBMISSION: u64 = 1_600_000;
+const CELLS_PER_SUBMISSION: u64 = 1_600_000;
 
 /// Everything that is on the device.
 #[derive(Default)]
@@ -286,7 +286,7 @@ impl Renderer {
     fn step(&mut self, film: usize, key: &FieldKey, from_tick: u64) -> Result<(), GpuError> {
         let Self { gpu, products, times, counts, watcher, .. } = self;
         let Some(Some(film)) = products.films.get_mut(film) else { return Ok(()) };
-        let per_submission = (CELLS_A_SUBMISSION / key.cell_count()).max(1) as usize;
+        let per_submission = (CELLS_PER_SUBMISSION / key.cell_count()).max(1) as usize;
         film.play(gpu, key, from_tick, per_submission, |recorder| {
             let work = recorder.counts.cells_stepped;
             Self::submit(times, counts, recorder);

@@ -10,9 +10,9 @@ use super::FieldKey;
 /// Ticks from one checkpoint to the next at least.
 const SPACING_TICKS: u64 = 60;
 /// Checkpoints of a film at most.
-const MOST: u64 = 8;
+const MAX_CHECKPOINTS: u64 = 8;
 /// Cells in all checkpoints of a film: eight of 256 cells an edge. Finer films have fewer, but two at least.
-const CELLS_KEPT: u64 = MOST * 6 * 256 * 256;
+const CELLS_KEPT: u64 = MAX_CHECKPOINTS * 6 * 256 * 256;
 
 /// Checkpoints of one film by their slots on the device: the film's key at the tick of each. Those of another past may be among them;
 /// they are the first to be overwritten.
@@ -39,7 +39,7 @@ impl Checkpoints {
         if !is_due || self.0.iter().any(|kept| kept.moment == state.moment && kept.shares_past(state)) {
             return None;
         }
-        if (self.0.len() as u64) < (CELLS_KEPT / state.cell_count()).clamp(2, MOST) {
+        if (self.0.len() as u64) < (CELLS_KEPT / state.cell_count()).clamp(2, MAX_CHECKPOINTS) {
             self.0.push(state.clone());
             return Some(self.0.len() - 1);
         }

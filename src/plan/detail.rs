@@ -14,19 +14,19 @@ const ROWS: f64 = 1080.0;
 /// changes by in a step.
 const HALF_DIAMETER: f64 = 40.0;
 /// Cells along an edge at least.
-const LEAST_CELLS: u32 = 16;
+const MIN_CELLS: u32 = 16;
 /// Cells along an edge of the grid of a whole flow, at least: 1.4° each. It is four times coarser than finer films: its cells are still a fraction
 /// of the smallest eddy, and cubic interpolation of one step's displacement errs by less than can be seen.
-const LEAST_FLOW_CELLS: u32 = 64;
+const MIN_FLOW_CELLS: u32 = 64;
 
 /// Cells along a panel's edge of a bubble's film, and of its flow where that is coarser.
 #[must_use]
 pub fn film_grids(scene: &Scene, index: usize) -> [u32; 2] {
     let bubble = &scene.bubbles[index];
     let cells = bubble.film.cells;
-    let all = [cells, cells.div_ceil(4).max(LEAST_FLOW_CELLS)];
+    let all = [cells, cells.div_ceil(4).max(MIN_FLOW_CELLS)];
     match settled(scene, index, bubble) {
-        Detail::Half => all.map(|cells| cells.div_ceil(2).max(LEAST_CELLS)),
+        Detail::Half => all.map(|cells| cells.div_ceil(2).max(MIN_CELLS)),
         Detail::Auto | Detail::Full => all,
     }
 }

@@ -1,6 +1,6 @@
 //! From a bubble and its age to its film's key.
 
-use super::{FieldKey, FilmEnd, FilmKey, laws::initial_film};
+use super::{FieldKey, FilmBoundary, FilmKey, laws::initial_film};
 use crate::{
     physics::{
         bubble::{Age, CenterPath},
@@ -20,7 +20,7 @@ pub(super) fn cap(bubble: &Bubble) -> Option<Cap> {
 }
 
 /// What the film of a bubble that was blown after so many others ends at, unless it is free.
-fn film_end(bubble: &Bubble, generation: u32) -> Option<FilmEnd> {
+fn film_boundary(bubble: &Bubble, generation: u32) -> Option<FilmBoundary> {
     let rim_deg = bubble.boundary.rim_deg(bubble.rim_deg)?;
     let regeneration = || Regeneration {
         rim: rim_deg.to_radians(),
@@ -28,7 +28,7 @@ fn film_end(bubble: &Bubble, generation: u32) -> Option<FilmEnd> {
         amount: bubble.regeneration,
         seed: fold_seed(bubble.film.seed.wrapping_add(generation.into())),
     };
-    Some(FilmEnd {
+    Some(FilmBoundary {
         cap: cap(bubble),
         drop_rad: bubble.boundary.drop_rad(bubble.rim_deg),
         regeneration: (bubble.regeneration > 0.0).then(regeneration),
@@ -45,7 +45,7 @@ pub(super) fn film(bubble: &Bubble, age: &Age, [cells, flow_cells]: [u32; 2], mo
         cells,
         flow_cells,
         initial: life.film,
-        end: film_end(bubble, life.generation).map(Box::new),
+        boundary: film_boundary(bubble, life.generation).map(Box::new),
         tick_s: motion.tick_s,
         scheme: motion.scheme,
         remap_ticks: motion.remap_ticks,

@@ -22,9 +22,9 @@ pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmEnd, FilmKey,
-    FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey, RestingFilm,
-    TableKey, TonemapKey, exposed_ev, left_nm, range_nm,
+    BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary,
+    FilmKey, FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey,
+    RestingFilm, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
 };
 pub use pass::{Pass, Reason};
 pub use request::{Lamp, Resources, Shot, has_one_film, request};
@@ -155,9 +155,9 @@ impl fmt::Display for Plan {
 }
 
 /// Rows of a table baked a frame while a window waits: on a software rasteriser about 20 ms of 64 columns.
-const ROWS_A_FRAME: u32 = 256;
+const ROWS_PER_FRAME: u32 = 256;
 /// Rows baked in one go otherwise, so that no single dispatch runs long enough for a driver to kill it.
-const ROWS_A_DISPATCH: u32 = 512;
+const ROWS_PER_DISPATCH: u32 = 512;
 /// How much coarser than the requested table the first table is that a waiting window gets.
 const COARSE: u32 = 16;
 /// The passes that lead from the state of the GPU to the requested frame.
@@ -251,8 +251,8 @@ impl Planner {
             _ => 0,
         };
         let (portion, portions) = match self.pace {
-            Pace::Frame => (ROWS_A_FRAME, 1),
-            Pace::Whole => (ROWS_A_DISPATCH, u32::MAX),
+            Pace::Frame => (ROWS_PER_FRAME, 1),
+            Pace::Whole => (ROWS_PER_DISPATCH, u32::MAX),
         };
         for _ in 0..portions {
             let rows = done..(done + portion).min(requested.rows);

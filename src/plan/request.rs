@@ -251,7 +251,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
             FilmKey::Uniform(_) => DMat3::IDENTITY,
             FilmKey::Field(_) => DMat3::from_quat(story.film_turn(age.life.born as f64 + ticks).inverse()),
         },
-        thinned_nm: age.life.evaporation.nm(ticks),
+        evaporated_nm: age.life.evaporation.nm(ticks),
         samples: samples(radius_pixels).max(if bubble.boundary == Boundary::Ring { RING_SAMPLES } else { 1 }),
         // The edge of a hole is no thickness between others.
         filtered: age.hole.is_none() && is_filtered(&film, radius_pixels),

@@ -82,7 +82,7 @@ impl<'a> FreeFilm<'a> {
                     dt_s: step_s,
                     forces,
                     pushes: Vec::new(),
-                    thinned_nm: 0.0,
+                    evaporated_nm: 0.0,
                     black_nm: 1.0,
                     strain: 0.0,
                 };

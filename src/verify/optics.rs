@@ -175,8 +175,8 @@ fn nothing(run: &mut Run<'_>) -> Result<(), GpuError> {
     for quality in Quality::ALL {
         for (name, film, points, limit) in &cases {
             let seen = measure(run.gpu, &optics(film.clone(), "D65")?, quality, points)?;
-            let most = seen.iter().map(|xyz| xyz.length()).fold(0.0, worse);
-            run.at_most(format!("{name}, {}: reflected", quality.name()), most, *limit);
+            let max = seen.iter().map(|xyz| xyz.length()).fold(0.0, worse);
+            run.at_most(format!("{name}, {}: reflected", quality.name()), max, *limit);
         }
         let dense = optics(FilmIndex::Constant(3.0), "D65")?;
         let seen = measure(run.gpu, &dense, quality, &single)?;
@@ -186,8 +186,8 @@ fn nothing(run: &mut Run<'_>) -> Result<(), GpuError> {
         let (spectra, seen) = (water.spectra(), measure(run.gpu, &water, quality, &thin)?);
         // A film of 5 nm is black to the eye: its XYZ is compared, not its colour, to less than a step of 8 bits.
         let off = |((cos, walls), xyz): (&(f64, Walls), &DVec3)| (spectra.xyz(*cos, *walls) - *xyz).abs().max_element();
-        let most = thin.iter().zip(&seen).filter(|((cos, _), _)| *cos >= 0.05).map(off).fold(0.0, worse);
-        run.at_most(format!("5 nm, {}: XYZ", quality.name()), most, 1.0 / 255.0);
+        let max = thin.iter().zip(&seen).filter(|((cos, _), _)| *cos >= 0.05).map(off).fold(0.0, worse);
+        run.at_most(format!("5 nm, {}: XYZ", quality.name()), max, 1.0 / 255.0);
     }
     Ok(())
 }

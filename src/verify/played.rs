@@ -107,7 +107,7 @@ pub(super) fn key(story: &Story, tick: u64) -> Result<FieldKey, GpuError> {
 
 /// The largest of some numbers; no number if one is none.
 pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |most: f64, value| if value.is_nan() { f64::NAN } else { most.max(value) })
+    values.fold(0.0, |max: f64, value| if value.is_nan() { f64::NAN } else { max.max(value) })
 }
 
 /// How far values left the range of those before, as a part of it (or of their size, if they had none), and the change of their mass over

@@ -14,7 +14,7 @@ use crate::{
     },
     plan::{
         BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey, Lighting, Moment, Opening,
-        left_nm,
+        remaining_nm,
     },
 };
 
@@ -135,14 +135,14 @@ pub fn film_sphere<'a>(
             Box::new(move |direction| film.value(direction))
         }
     };
-    let (to_film, thinned_nm, cap) = (key.to_film, key.thinned_nm, key.cap);
+    let (to_film, evaporated_nm, cap) = (key.to_film, key.evaporated_nm, key.cap);
     let film_nm = move |direction: DVec3| {
         let direction = match cap {
             Some(cap) if on_bath => cap.folded(direction),
             Some(cap) if !cap.contains(direction) => return 0.0,
             _ => direction,
         };
-        left_nm(field(direction), thinned_nm)
+        remaining_nm(field(direction), evaporated_nm)
     };
     let thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match key.hole {
         None => Box::new(move |direction| film_nm(to_film * direction)),

@@ -84,9 +84,9 @@ fn published(run: &mut Run<'_>, test: &Test) -> Result<(), GpuError> {
         quantity: Quantity::Density,
         scheme: test.scheme,
         limiter: test.limiter,
-        steps_a_period: 120,
+        steps_per_period: 120,
         steps,
-        traces_a_step: 1,
+        traces_per_step: 1,
         map_coarsening: 1,
     };
     let (norms, remaps) = measured(run, &case)?;
@@ -136,9 +136,9 @@ fn l2_on(run: &Run<'_>, n: usize, tracer: TracerKind) -> Result<f64, GpuError> {
         quantity: Quantity::Density,
         scheme: Scheme::Map,
         limiter: false,
-        steps_a_period: 2 * n as u32,
+        steps_per_period: 2 * n as u32,
         steps: 2 * n as u64,
-        traces_a_step: 1,
+        traces_per_step: 1,
         map_coarsening: 1,
     };
     Ok(measured(run, &case)?.0.l2)
@@ -162,9 +162,9 @@ fn seams(run: &mut Run<'_>) -> Result<(), GpuError> {
                 scheme: Scheme::Map,
                 limiter,
                 // No step takes cells to cells.
-                steps_a_period: 77,
+                steps_per_period: 77,
                 steps: 77,
-                traces_a_step: 1,
+                traces_per_step: 1,
                 map_coarsening: 1,
             };
             let mut field = Field::new(run.gpu, grid, case.rules())?;
@@ -199,9 +199,9 @@ fn constant_ratio(run: &mut Run<'_>) -> Result<(), GpuError> {
         quantity: Quantity::Ratio,
         scheme: Scheme::Map,
         limiter: false,
-        steps_a_period: 60,
+        steps_per_period: 60,
         steps: 60,
-        traces_a_step: 1,
+        traces_per_step: 1,
         map_coarsening: 1,
     };
     let mut field = Field::new(run.gpu, case.grid, case.rules())?;

@@ -7,7 +7,7 @@ use soapfilm::{
         film::Hole,
         sphere::{CubedSphere, HaloTable, PaddedField},
     },
-    plan::{BLACK_FILM_NM, FrameRequest, OpenHoleKey, Pass, left_nm},
+    plan::{BLACK_FILM_NM, FrameRequest, OpenHoleKey, Pass, remaining_nm},
     scene::{Change, Event, FilmStateName, Prick},
 };
 
@@ -28,10 +28,10 @@ fn thin(mean_nm: f64) -> LoadedScene {
 /// The thickness that a film shows, and its mean.
 fn shown(renderer: &mut Renderer, request: &FrameRequest) -> (CubedSphere, Vec<f64>, f64) {
     renderer.render(request).unwrap();
-    let thinned_nm = request.picture.draw.bubbles[0].thinned_nm;
+    let evaporated_nm = request.picture.draw.bubbles[0].evaporated_nm;
     let (grid, thickness_nm) = renderer.read_film(0).unwrap().unwrap();
     let values: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.wait(&renderer.gpu).unwrap());
-    let values: Vec<f64> = values.into_iter().map(|nm| left_nm(nm.into(), thinned_nm)).collect();
+    let values: Vec<f64> = values.into_iter().map(|nm| remaining_nm(nm.into(), evaporated_nm)).collect();
     let total: f64 = grid.areas().iter().zip(&values).map(|(area, nm)| area * nm).sum();
     (grid, values, total / (4.0 * std::f64::consts::PI))
 }

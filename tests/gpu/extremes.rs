@@ -110,8 +110,8 @@ fn strong_light_and_a_dark_exposure_cancel() {
     let plain = picture(&mut renderer, 0.0);
     for stops in [-13.0, -8.0, 8.0, 20.0] {
         let other = picture(&mut renderer, stops);
-        let most = plain.iter().zip(&other).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
-        assert!(most <= 1, "{stops} stops: {most} steps");
+        let max = plain.iter().zip(&other).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
+        assert!(max <= 1, "{stops} stops: {max} steps");
     }
 }
 
@@ -193,11 +193,11 @@ fn no_light_is_negative_and_qualities_agree_on_dense_films() {
         let scale = mean_and_max(truth.iter().map(|pixel| (xyz * *pixel).y)).0;
         for quality in Quality::ALL {
             let pixels = if quality == Quality::Spectral { truth.clone() } else { picture(quality) };
-            let least = pixels.iter().map(|pixel| (xyz * *pixel).min_element()).fold(f64::INFINITY, f64::min);
+            let min = pixels.iter().map(|pixel| (xyz * *pixel).min_element()).fold(f64::INFINITY, f64::min);
             let (error, _) =
                 mean_and_max(truth.iter().zip(&pixels).map(|(a, b)| (xyz * (*a - *b)).abs().max_element()));
-            eprintln!("measured: index {index}, {}: {:.4}, least {least:.2e}", quality.name(), error / scale);
-            assert!(least >= -1e-6 * scale, "index {index}, {}: {least}", quality.name());
+            eprintln!("measured: index {index}, {}: {:.4}, min {min:.2e}", quality.name(), error / scale);
+            assert!(min >= -1e-6 * scale, "index {index}, {}: {min}", quality.name());
             let limit = if quality == Quality::Fast { fast } else { standard };
             assert!(error <= limit * scale, "index {index}, {}: {}", quality.name(), error / scale);
         }

@@ -23,8 +23,8 @@ fn case(kind: FlowCaseKind, mode: (u32, u32), k: f64) -> FlowCase {
     FlowCase::new(kind, DVec3::ONE.normalize(), Mode::new(mode.0, mode.1, 0).unwrap(), 1.0, k).unwrap()
 }
 
-fn run(gpu: &Gpu, case: FlowCase, cells: u32, steps_a_span: u32, spans: u32) -> FlowOutcome {
-    FlowRun { case, cells, steps_a_span, spans, cycles: Cycles::default() }.measure(gpu).unwrap()
+fn run(gpu: &Gpu, case: FlowCase, cells: u32, steps_per_span: u32, spans: u32) -> FlowOutcome {
+    FlowRun { case, cells, steps_per_span, spans, cycles: Cycles::default() }.measure(gpu).unwrap()
 }
 
 /// The cells of a buffer in padded storage.
@@ -146,7 +146,7 @@ fn nonsense_is_contained() {
     let forces = FlowForces { gravity: DVec3::NEG_Z, drag: 0.1, air_drag: 100.0, viscosity: 0.01 };
     submit(&gpu, |recorder| solver.step(recorder, 0.01, &forces).unwrap());
     // The trial of the first step and the step itself both meet the four.
-    assert_eq!(read_measures(&gpu, &solver).unwrap().unusable, 8);
+    assert_eq!(read_measures(&gpu, &solver).unwrap().invalid, 8);
     for buffer in [solver.zeta(), solver.psi()] {
         let (_, max) = mean_and_max(read(&gpu, &solver, buffer).into_iter().map(f64::abs));
         assert!(max < 50.0, "{max}");

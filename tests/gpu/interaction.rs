@@ -86,7 +86,7 @@ fn a_jet_straight_at_the_film_moves_nothing() {
         let scene = Scene { events: vec![Event { tick: 0, change: Change::Blow(blow) }], ..weightless(CELLS) };
         let mut played = Played::new(&gpu, &scene).unwrap();
         played.play_to(6).unwrap();
-        played.velocity().unwrap().iter().fold(0.0, |most: f64, u| most.max(u.length()))
+        played.velocity().unwrap().iter().fold(0.0, |max: f64, u| max.max(u.length()))
     };
     let (straight, oblique) = (largest([-0.3, -0.5, -0.8]), largest([-0.3, 0.5, -0.8]));
     assert!(straight < 1e-5 * oblique && oblique > 1.0, "{straight} {oblique}");
@@ -123,10 +123,10 @@ fn a_pushed_bubble_is_the_f64_one() {
         assert!(size > 1e-3 && size < largest_stretch, "{size}");
         let brightest = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
         let apart = seen.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element() / brightest);
-        let (mean, most) = mean_and_max(apart);
-        eprintln!("measured: stretch {size:.4}, mean {mean:.5}, most {most:.4} of the brightest");
+        let (mean, max) = mean_and_max(apart);
+        eprintln!("measured: stretch {size:.4}, mean {mean:.5}, max {max:.4} of the brightest");
         // The film has the mean of the angles at its first two walls, which differ in proportion to the stretch.
-        assert!(mean < limit, "stretch {size}: {mean} {most}");
+        assert!(mean < limit, "stretch {size}: {mean} {max}");
     }
 }
 
@@ -140,8 +140,8 @@ fn an_ellipsoid_vanishes_in_even_light() {
     let (seen, truth, stretch) = pushed_picture(&mut renderer, &loaded, [32, 20]);
     assert_ne!(stretch, DMat3::IDENTITY);
     let even = truth[0];
-    let (_, most) = mean_and_max(seen.iter().chain(&truth).map(|pixel| (*pixel - even).abs().max_element() / even.x));
-    assert!(most < 2e-3, "{most}");
+    let (_, max) = mean_and_max(seen.iter().chain(&truth).map(|pixel| (*pixel - even).abs().max_element() / even.x));
+    assert!(max < 2e-3, "{max}");
 }
 
 #[test]

@@ -108,9 +108,9 @@ fn a_coarser_map_leads_to_the_same_places() {
 }
 
 /// A film of 128 cells an edge stirred for 1 s on the GPU, in steps of so many ticks.
-fn stirred(gpu: &Gpu, grid: CubedSphere, flow: &PrescribedFlow, ticks_a_step: u32, flow_cells: u32) -> Vec<f64> {
-    let length_s = f64::from(ticks_a_step) / 60.0;
-    let steps = (0..60 / ticks_a_step).map(f64::from);
+fn stirred(gpu: &Gpu, grid: CubedSphere, flow: &PrescribedFlow, ticks_per_step: u32, flow_cells: u32) -> Vec<f64> {
+    let length_s = f64::from(ticks_per_step) / 60.0;
+    let steps = (0..60 / ticks_per_step).map(f64::from);
     let steps = steps.map(|k| Step::prescribed(flow, length_s * k, length_s * (k + 1.0)));
     moved(gpu, grid, Rules { remap: remap(1000), flow_cells, ..RULES }, film().profile(), steps)
 }

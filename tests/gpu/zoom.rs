@@ -25,7 +25,7 @@ fn near(cells: u32) -> LoadedScene {
     loaded
 }
 
-fn with_lookup_a_pixel(mut request: FrameRequest, is_on: bool) -> FrameRequest {
+fn with_lookup_per_pixel(mut request: FrameRequest, is_on: bool) -> FrameRequest {
     request.picture.draw.bubbles.iter_mut().for_each(|bubble| bubble.magnified = is_on);
     request
 }
@@ -48,8 +48,8 @@ fn a_lookup_at_each_pixel_is_nearly_as_good_as_a_finer_film() {
     let request = still(&near(64), SIZE, TIME_S);
     assert!(request.picture.draw.bubbles[0].magnified, "at this size cells are larger than pixels");
     let [through_map, plain] = [(true, "map"), (false, "plain")]
-        .map(|(is_on, name)| picture(&mut renderer, &with_lookup_a_pixel(request.clone(), is_on), name));
-    let fine = with_lookup_a_pixel(still(&near(256), SIZE, TIME_S), true);
+        .map(|(is_on, name)| picture(&mut renderer, &with_lookup_per_pixel(request.clone(), is_on), name));
+    let fine = with_lookup_per_pixel(still(&near(256), SIZE, TIME_S), true);
     let fine = picture(&mut renderer, &fine, "fine");
     let scale = mean_and_max(fine.iter().map(|pixel| pixel.max_element())).0;
     let error =

@@ -61,7 +61,7 @@ impl FreeMotion {
     pub(super) fn empty(gpu: &Gpu, field: &Field) -> Self {
         let mut solver = FlowSolver::new(gpu, field.flow_grid().cells);
         solver.end_at(gpu, field.rules.cap);
-        solver.hold(gpu, field.rules.drop_rad);
+        solver.pin(gpu, field.rules.drop_rad);
         Self { solver }
     }
 
@@ -114,7 +114,7 @@ impl FreeMotion {
             map_cells: field.map_grid().cells,
             tracer_cells: field.tracer_grid().cells,
             reference_nm: reference_nm as f32,
-            offset_nm: (level_nm - around.part.thinned_nm - reference_nm) as f32,
+            offset_nm: (level_nm - around.part.evaporated_nm - reference_nm) as f32,
             level_nm: (level_nm - reference_nm) as f32,
             black_nm: (around.part.black_nm - reference_nm) as f32,
             rim_z,

@@ -52,7 +52,7 @@ impl MovingFilm {
         gpu: &Gpu,
         key: &FieldKey,
         from_tick: u64,
-        steps_a_submission: usize,
+        steps_per_submission: usize,
         mut submit: impl FnMut(Recorder<'_>) -> Result<(), GpuError>,
     ) -> Result<(), GpuError> {
         let mut law = LawInForce::default();
@@ -65,7 +65,7 @@ impl MovingFilm {
             }
             let mut recorder = Recorder::new(gpu);
             let mut asking = None;
-            for step in steps.by_ref().take(steps_a_submission) {
+            for step in steps.by_ref().take(steps_per_submission) {
                 self.advance(&mut recorder, key, &mut law, step.clone())?;
                 let undisturbed = key.undisturbed(&step);
                 if undisturbed.is_none() {

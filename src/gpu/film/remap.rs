@@ -42,7 +42,7 @@ impl Field {
     /// When the map is remapped.
     pub(super) fn remap_rule(&self) -> RemapRule {
         let diffusing = self.diffusion.as_ref().map(Diffusion::latest_ticks);
-        let draining = self.drain.as_ref().map(|(_, most)| *most);
+        let draining = self.drain.as_ref().map(|(_, max_ticks)| *max_ticks);
         let rule = self.rules.remap.no_later_than([diffusing, draining]);
         // Errors count in cells of the film, whatever those of the map.
         RemapRule { error_limit_cells: rule.error_limit_cells / self.rules.map_coarsening.max(1) as f32, ..rule }
@@ -93,7 +93,7 @@ impl Field {
     fn blacken(&self, recorder: &mut Recorder<'_>, black: &BlackFilm) -> Result<(), GpuError> {
         let (grid, due) = (self.tracer_grid(), &self.control);
         // Each account rounds: it is not taken where nothing can have changed.
-        if black.law.thinned_nm > 0.0 {
+        if black.law.evaporated_nm > 0.0 {
             black.stop_evaporation(recorder, grid, due, &self.tracer)?;
             self.account(recorder, &self.tracer, self.groups_due(), Excess::Spared)?;
         }

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Rows of one dispatch, so that none runs long.
-const ROWS_A_DISPATCH: usize = 512;
+const ROWS_PER_DISPATCH: usize = 512;
 
 shader_struct! {
     /// What a table spans: see `shaders/optics/table.wgsl`.
@@ -113,8 +113,8 @@ impl Table {
     pub fn baked(gpu: &Gpu, key: &TableKey) -> Result<Self, GpuError> {
         let table = Self::new(gpu, key);
         let mut recorder = Recorder::new(gpu);
-        for first in (0..key.rows).step_by(ROWS_A_DISPATCH) {
-            table.bake(&mut recorder, key, first..(first + ROWS_A_DISPATCH as u32).min(key.rows))?;
+        for first in (0..key.rows).step_by(ROWS_PER_DISPATCH) {
+            table.bake(&mut recorder, key, first..(first + ROWS_PER_DISPATCH as u32).min(key.rows))?;
         }
         recorder.submit(&Default::default());
         Ok(table)

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     gpu::{
-        bands::{BandOverrides, BandSample, MOST_BANDS},
+        bands::{BandOverrides, BandSample, MAX_BANDS},
         control::BalanceBlock,
         kernel::{Matrix, Read, Sampler, Texture2dArray, TextureCube, Uniform, kernels, overrides, shader_struct},
         rings::SIDES,
@@ -33,7 +33,7 @@ shader_struct! {
         /// Cells along a panel's edge of its tracer.
         pub tracer_cells: u32,
         /// What has evaporated, in nm.
-        pub thinned_nm: f32,
+        pub evaporated_nm: f32,
         /// Takes directions of the world to the film.
         pub to_film: Matrix,
         /// Takes the unit sphere to the bubble's wall, over the radius.
@@ -104,7 +104,7 @@ kernels! {
         @6 table: Texture2dArray;
         @7 table_sampler: Sampler;
         @8 film: Texture2dArray;
-        @9 bands: Uniform<[BandSample; MOST_BANDS]>;
+        @9 bands: Uniform<[BandSample; MAX_BANDS]>;
         @10 film_balance: Uniform<BalanceBlock>;
         @11 film_map: Read<[[f32; 4]]>;
         @12 film_tracer: Read<[f32]>;

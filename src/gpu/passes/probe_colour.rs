@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use super::bake_table::{Table, TableAxes, TableOverrides, table_sampler};
 use crate::{
     gpu::{
-        bands::{BandOverrides, BandSample, Bands, MOST_BANDS},
+        bands::{BandOverrides, BandSample, Bands, MAX_BANDS},
         device::{Gpu, GpuError},
         kernel::{Read, ReadWrite, Sampler, Texture2dArray, Uniform, kernels, shader_struct},
         readback::Readback,
@@ -44,7 +44,7 @@ kernels! {
         @0 axes: Uniform<TableAxes>;
         @1 table: Texture2dArray;
         @2 table_sampler: Sampler;
-        @3 bands: Uniform<[BandSample; MOST_BANDS]>;
+        @3 bands: Uniform<[BandSample; MAX_BANDS]>;
         @4 points: Read<[ProbePoint]>;
         @5 colours: ReadWrite<[[f32; 4]]>;
     }

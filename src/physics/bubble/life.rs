@@ -1,4 +1,4 @@
-//! Lives of a bubble: it is blown, it bursts where it is pricked or when its film has been black for long enough, and a new one is blown.
+//! The life cycle of a bubble: it is blown, it bursts where it is pricked or when its film has been black for long enough, and a new one is blown.
 //!
 //! When it bursts follows from what happens to it alone, so that any moment of any life can be shown without those before it.
 
@@ -129,13 +129,13 @@ pub struct Age {
 
 /// The lives of a bubble, each found once: with thousands of events there may be thousands of lives.
 #[derive(Debug)]
-pub struct Lives {
+pub struct LifeCycle {
     course: Course,
     path: CenterPath,
     found: Mutex<Found>,
 }
 
-/// Lives as far as they have been asked for.
+/// The lives that have been asked for so far.
 #[derive(Debug, Default)]
 struct Found {
     /// When each begins and how it ends, in order.
@@ -144,8 +144,8 @@ struct Found {
     latest: Option<Arc<Life>>,
 }
 
-impl Lives {
-    /// The lives of a bubble.
+impl LifeCycle {
+    /// The life cycle of a bubble.
     #[must_use]
     pub fn new(course: Course) -> Self {
         let path = course.path(0, u64::MAX, course.rest_m, DVec3::ZERO, 1.0);

@@ -5,5 +5,5 @@ mod life;
 mod shape;
 
 pub use center::{CenterPath, SETTLING_S};
-pub use life::{Age, Bursting, Course, Life, Lives, Opening};
+pub use life::{Age, Bursting, Course, Life, LifeCycle, Opening};
 pub use shape::{DraggedShape, Oscillator, Shape, reach};

@@ -15,7 +15,7 @@ const TEMPERATURES_K: std::ops::RangeInclusive<f64> = 800.0..=100_000.0;
 
 /// The least luminous efficiency, of 1 at 555 nm, that a light may have: that of 372 nm and of 775 nm. A mirror shows every light at Y = 1,
 /// and fainter ones would be nothing but XYZ far from any colour.
-const LEAST_SEEN: f64 = 2e-5;
+const MIN_SEEN: f64 = 2e-5;
 
 /// A name that is no built-in illuminant's.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -44,7 +44,7 @@ impl Illuminant {
         spectrum.check_power(&name)?;
         let observer = Observer::cie_1931_2deg();
         let seen: f64 = spectrum.iter().enumerate().map(|(i, power)| power * observer.at_nm(wavelength_nm(i)).y).sum();
-        if seen < LEAST_SEEN * spectrum.iter().sum::<f64>() {
+        if seen < MIN_SEEN * spectrum.iter().sum::<f64>() {
             return Err(SpectrumError::Unseen { file: name });
         }
         Ok(Self { name, spectrum, lines: Vec::new() })

@@ -131,9 +131,9 @@ mod tests {
     fn thin_film_goes_first() {
         let hole = Hole::open(|x| if x.y > 0.0 { 100.0 } else { 900.0 }, DVec3::X, 3e-3, RADIUS_M);
         let angles: Vec<f64> = hole.rim.iter().map(|rim| rim.outer_rad).collect();
-        let (least, most) =
+        let (min, max) =
             angles.iter().fold((f64::MAX, 0.0_f64), |(low, high), angle| (low.min(*angle), high.max(*angle)));
-        assert!((most / least - 3.0).abs() < 1e-6, "{least} {most}");
+        assert!((max / min - 3.0).abs() < 1e-6, "{min} {max}");
     }
 
     #[test]

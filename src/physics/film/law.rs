@@ -65,7 +65,7 @@ impl FreeFlow {
 
     /// Ticks in a step of the film.
     #[must_use]
-    pub fn ticks_a_step(&self, tick_s: f64) -> u64 {
+    pub fn ticks_per_step(&self, tick_s: f64) -> u64 {
         (self.longest_step_s() / tick_s).max(1.0) as u64
     }
 }
@@ -90,11 +90,11 @@ impl FlowLaw {
     /// Ticks in a step of the film, for a tick's length and the angle between cells: as many as keep the step accurate, and more where
     /// even those would move nothing by a thousandth of a cell.
     #[must_use]
-    pub fn ticks_a_step(self, tick_s: f64, cell_angle: f64) -> u64 {
+    pub fn ticks_per_step(self, tick_s: f64, cell_angle: f64) -> u64 {
         let strength = match self {
             Self::Rest => 0.0,
             Self::Prescribed { strength, .. } => strength,
-            Self::Free(free) => return free.ticks_a_step(tick_s),
+            Self::Free(free) => return free.ticks_per_step(tick_s),
         };
         // At strength 1 the fastest vortices turn by a quarter of a radian in 0.1 s, where a Runge-Kutta step errs by 1e-5 of that; the
         // swings of 2 s and more are followed by its three moments.

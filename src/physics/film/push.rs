@@ -67,7 +67,7 @@ impl Push {
     /// Part of that which drag and viscosity leave after so many seconds: a vortex pair keeps its impulse in the plane but for drag, and
     /// spreads as heat does, from a width of 1/√κ to √(1/κ + 2νt).
     #[must_use]
-    pub fn left_of_strain(&self, seconds: f64, forces: &FlowForces) -> f64 {
+    pub fn remaining_strain(&self, seconds: f64, forces: &FlowForces) -> f64 {
         (-forces.drag * seconds).exp() * (1.0 + 2.0 * forces.viscosity * self.sharpness * seconds).powf(-1.5)
     }
 
@@ -165,7 +165,7 @@ mod tests {
             solver.stir(PaddedField::from_cells(grid, solver.halo(), source));
             solver.step(dt, forces, &still);
         }
-        solver.zeta().cells().into_iter().fold(0.0, |most: f64, zeta| most.max(zeta.abs()))
+        solver.zeta().cells().into_iter().fold(0.0, |max: f64, zeta| max.max(zeta.abs()))
     }
 
     #[test]
@@ -174,7 +174,8 @@ mod tests {
         for (half_angle, rate) in [(20.0, 1.0), (20.0, 30.0), (45.0, 30.0)] {
             let push = push(half_angle, rate);
             for (pushed, left_alone) in [(6, 0), (12, 0), (12, 30)] {
-                let strain = push.strain(pushed as f64 / 60.0) * push.left_of_strain(left_alone as f64 / 60.0, &forces);
+                let strain =
+                    push.strain(pushed as f64 / 60.0) * push.remaining_strain(left_alone as f64 / 60.0, &forces);
                 let part = vorticity_after(&push, pushed, left_alone, &forces) / strain;
                 assert!((0.4..1.1).contains(&part), "{half_angle}° at {rate}/s, {pushed} + {left_alone} steps: {part}");
             }
@@ -194,10 +195,10 @@ mod tests {
 
     #[test]
     fn a_strong_push_brings_the_film_to_its_velocity_and_no_further() {
-        for (rate, least, most) in [(60.0, 0.75, 0.85), (1e4, 0.8, 1.0)] {
+        for (rate, min, max) in [(60.0, 0.75, 0.85), (1e4, 0.8, 1.0)] {
             let push = push(15.0, rate);
             let part = speed_after(&push, 0.0).dot(push.velocity);
-            assert!((least..most).contains(&part), "rate {rate}: {part}");
+            assert!((min..max).contains(&part), "rate {rate}: {part}");
         }
     }
 }

@@ -46,18 +46,18 @@ impl Pushes {
     /// and viscosity have left of it.
     #[must_use]
     pub fn strain_1_s(&self, ticks: f64, tick_s: f64, forces: &FlowForces) -> f64 {
-        let mut most: f64 = 0.0;
+        let mut max: f64 = 0.0;
         for (during, push) in self.spans.until(ticks.ceil() as u64).iter().rev() {
             // Neither this one nor those before have pushed since, and drag alone has left no more of them.
             let since_s = (ticks - during.start.saturating_add(self.spans.longest()) as f64).max(0.0) * tick_s;
-            if self.strongest_1_s * (-forces.drag * since_s).exp() <= 0.999 * most {
+            if self.strongest_1_s * (-forces.drag * since_s).exp() <= 0.999 * max {
                 break;
             }
             let acting_s = (ticks.min(during.end as f64) - during.start as f64).max(0.0) * tick_s;
             let since_s = (ticks - during.end as f64).max(0.0) * tick_s;
-            most = most.max(push.strain(acting_s) * push.left_of_strain(since_s, forces));
+            max = max.max(push.strain(acting_s) * push.remaining_strain(since_s, forces));
         }
-        most
+        max
     }
 }
 
@@ -104,7 +104,7 @@ mod tests {
                 let of_push = |(during, push): &(Range<u64>, Push)| {
                     let acting_s = (ticks.min(during.end as f64) - during.start as f64).max(0.0) * TICK_S;
                     let since_s = (ticks - during.end as f64).max(0.0) * TICK_S;
-                    push.strain(acting_s) * push.left_of_strain(since_s, &forces)
+                    push.strain(acting_s) * push.remaining_strain(since_s, &forces)
                 };
                 let expected = all.iter().map(of_push).fold(0.0, f64::max);
                 let found = all.iter().cloned().collect::<Pushes>().strain_1_s(ticks, TICK_S, &forces);

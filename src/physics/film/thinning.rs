@@ -32,7 +32,7 @@ impl Thinning {
     }
 
     /// The thickness in nm that is left of film after some seconds, if it does not thin to a lower one before.
-    fn left_nm(&self, from_nm: f64, to_nm: f64, seconds: f64) -> f64 {
+    fn remaining_nm(&self, from_nm: f64, to_nm: f64, seconds: f64) -> f64 {
         let [mut low, mut high] = [to_nm, from_nm];
         for _ in 0..48 {
             let middle = 0.5 * (low + high);
@@ -60,7 +60,7 @@ pub fn thins_at_tick(
         if needs_s.is_finite() && needs_s <= lasts_s {
             return Some(from as f64 + needs_s / tick_s);
         }
-        nm = if needs_s.is_finite() { law.left_nm(nm, to_nm, lasts_s) } else { nm };
+        nm = if needs_s.is_finite() { law.remaining_nm(nm, to_nm, lasts_s) } else { nm };
     }
     None
 }

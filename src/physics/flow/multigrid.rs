@@ -47,11 +47,11 @@ pub fn is_coarsest(n: usize, shift: Shift) -> bool {
 /// Sweeps that solve the coarsest grid, a power of two.
 fn coarsest_sweeps(n: usize, shift: Shift) -> usize {
     // Of Poisson's equation, enough to divide an error by five: the condition number goes as n², the sweeps that it takes as n.
-    let most = if n <= 9 { MAX_COARSEST_SWEEPS / 2 } else { MAX_COARSEST_SWEEPS };
+    let max_sweeps = if n <= 9 { MAX_COARSEST_SWEEPS / 2 } else { MAX_COARSEST_SWEEPS };
     let root = ((2.0 * largest_diagonal(n, Order::Second) + shift) / (2.0 + shift)).sqrt();
     // Where a hundred times less is cheap, that.
     let needed = (200.0_f64).ln() / ((root + 1.0) / (root - 1.0)).ln();
-    (needed.ceil().max(2.0) as usize).next_power_of_two().min(most)
+    (needed.ceil().max(2.0) as usize).next_power_of_two().min(max_sweeps)
 }
 
 /// Weights of the sweeps that solve the coarsest grid: Chebyshev over the whole spectrum but constants, in the order of Lebedev &

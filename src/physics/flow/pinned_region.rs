@@ -1,4 +1,4 @@
-//! The drop that may hang at the bottom of a film, as a region that is held fast: the twin of `shaders/pass/flow_hold.wgsl`.
+//! The drop that may hang at the bottom of a film, as a region that is held fast: the twin of `shaders/pass/flow_pin.wgsl`.
 //!
 //! With s(ϑ) = 1 in the inner part of the drop, 0 outside of it and a smooth step between, ψ̄ the mean of ψ over that step weighted by s(1 − s),
 //!

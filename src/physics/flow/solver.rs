@@ -299,7 +299,7 @@ mod tests {
                 solver.step(dt, &case.forces(), &film);
                 film = advected(solver.halo(), &film, &solver.velocity(), dt);
             }
-            solver.zeta().cells().iter().fold(0.0, |most: f64, zeta| most.max(zeta.abs()))
+            solver.zeta().cells().iter().fold(0.0, |max: f64, zeta| max.max(zeta.abs()))
         };
         let limit = stable_step_s(1.0, 1.0);
         assert!(largest_after(0.9 * limit) < 0.1, "{}", largest_after(0.9 * limit));
@@ -307,7 +307,7 @@ mod tests {
     }
 
     /// Energy of a weightless vortex pair, which no force drives, over that at the start: the most in steps in which it turns by so much.
-    fn most_energy(turn: f64, is_corrected: bool) -> f64 {
+    fn max_energy(turn: f64, is_corrected: bool) -> f64 {
         let grid = CubedSphere::new(24).unwrap();
         let center = DVec3::new(0.2, 0.7, 0.5).normalize();
         let sharpness = Push::sharpness_of(0.3);
@@ -317,23 +317,23 @@ mod tests {
         let still = PaddedField::from_cells(grid, solver.halo(), |_| 0.0);
         let energy = |solver: &FlowSolver| invariants(grid, &solver.zeta().cells(), &solver.psi().cells()).energy;
         let (start, dt) = (energy(&solver), turn / sharpness.sqrt());
-        let mut most: f64 = 0.0;
+        let mut max: f64 = 0.0;
         for _ in 0..16 {
             if is_corrected {
                 solver.step_corrected(dt, &FlowForces::default(), &still);
             } else {
                 solver.step(dt, &FlowForces::default(), &still);
             }
-            most = most.max(energy(&solver) / start);
+            max = max.max(energy(&solver) / start);
         }
-        most
+        max
     }
 
     #[test]
     fn nothing_gains_energy_out_of_nothing() {
-        let corrected = [0.5, 1.0, 2.0, CORRECTED_TURN].map(|turn| most_energy(turn, true));
-        assert!(corrected.iter().all(|most| *most < 1.0), "{corrected:?}");
-        let [within, beyond] = [FOLLOWED_TURN, 2.0].map(|turn| most_energy(turn, false));
+        let corrected = [0.5, 1.0, 2.0, CORRECTED_TURN].map(|turn| max_energy(turn, true));
+        assert!(corrected.iter().all(|max| *max < 1.0), "{corrected:?}");
+        let [within, beyond] = [FOLLOWED_TURN, 2.0].map(|turn| max_energy(turn, false));
         assert!(within < 1.001 && beyond > 1.02, "{within} {beyond}");
     }
 
@@ -351,7 +351,7 @@ mod tests {
             solver.step(1.0, &forces, &film);
             let velocity = solver.velocity();
             film = advected(solver.halo(), &film, &velocity, 1.0);
-            fastest.push(velocity.cells().iter().fold(0.0, |most: f64, u| most.max(u.length())));
+            fastest.push(velocity.cells().iter().fold(0.0, |max: f64, u| max.max(u.length())));
         }
         let [early, late] = [&fastest[..5], &fastest[50..]].map(|part| part.iter().copied().fold(0.0, f64::max));
         assert!(late < 0.1 * early, "{early} {late}");

@@ -81,8 +81,8 @@ impl<'a> LightPath<'a> {
     /// How many inner reflections to follow, by the most that any film reflects at this angle.
     fn inner_reflections(&self, cos_theta: f64) -> usize {
         let r2 = amplitudes(self.optics.film().reference_index(), cos_theta).s.powi(2);
-        let most = 4.0 * r2 / (1.0 + r2).powi(2);
-        let needed = NEGLIGIBLE.ln() / most.ln();
+        let max = 4.0 * r2 / (1.0 + r2).powi(2);
+        let needed = NEGLIGIBLE.ln() / max.ln();
         // `most` is 1 at the very rim, where no number of reflections is enough.
         if needed.is_finite() && needed > 0.0 { (needed.ceil() as usize).clamp(1, MAX_INNER) } else { MAX_INNER }
     }

@@ -13,9 +13,9 @@ use crate::physics::{
     transport::Scheme,
 };
 
-/// What a film ends at.
+/// The boundary of a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilmEnd {
+pub struct FilmBoundary {
     /// The cap that it is, if there is nothing below a rim.
     pub cap: Option<Cap>,
     /// Angular radius of the drop at its bottom, if there is one, radians.
@@ -33,8 +33,8 @@ pub struct FieldKey {
     pub flow_cells: u32,
     /// Thickness at tick 0.
     pub initial: InitialFilm,
-    /// What it ends at, unless it is free.
-    pub end: Option<Box<FilmEnd>>,
+    /// Its boundary, unless it is free.
+    pub boundary: Option<Box<FilmBoundary>>,
     /// Length of a tick in seconds.
     pub tick_s: f64,
     /// How the liquid is moved.
@@ -57,19 +57,19 @@ impl FieldKey {
     /// The cap that the film is, if there is nothing below a rim.
     #[must_use]
     pub fn cap(&self) -> Option<Cap> {
-        self.end.as_ref().and_then(|end| end.cap)
+        self.boundary.as_ref().and_then(|boundary| boundary.cap)
     }
 
     /// Angular radius of the drop at its bottom, if there is one, radians.
     #[must_use]
     pub fn drop_rad(&self) -> Option<f64> {
-        self.end.as_ref().and_then(|end| end.drop_rad)
+        self.boundary.as_ref().and_then(|boundary| boundary.drop_rad)
     }
 
     /// How it regenerates at its rim, if it does.
     #[must_use]
     pub fn regeneration(&self) -> Option<Regeneration> {
-        self.end.as_ref().and_then(|end| end.regeneration)
+        self.boundary.as_ref().and_then(|boundary| boundary.regeneration)
     }
 
     /// The same film at another moment.
@@ -92,7 +92,7 @@ impl FieldKey {
 
     /// What has evaporated since the beginning, in nm, at a time in ticks.
     #[must_use]
-    pub fn thinned_nm(&self, ticks: f64) -> f64 {
+    pub fn evaporated_nm(&self, ticks: f64) -> f64 {
         self.evaporation.nm(ticks)
     }
 
@@ -102,7 +102,7 @@ impl FieldKey {
         let drains = matches!(self.law(ticks as u64), FlowLaw::Free(free) if free.drainage > 0.0);
         drains
             || self.regeneration().is_some()
-            || self.initial.range_nm().0 - self.thinned_nm(ticks) < 1e9 * BLACK_FILM_ONSET
+            || self.initial.range_nm().0 - self.evaporated_nm(ticks) < 1e9 * BLACK_FILM_ONSET
     }
 
     /// Patches that leave the film's rim between two times in ticks, under the law at the later one: the first [`MAX_RIM_PATCHES`].
@@ -148,7 +148,7 @@ pub struct OpenHoleKey {
     /// The film, at the moment of the burst.
     pub film: FilmKey,
     /// What has evaporated from it, nm.
-    pub thinned_nm: f64,
+    pub evaporated_nm: f64,
     /// Radius of the bubble, m.
     pub radius_m: f64,
     /// The hole.

@@ -108,9 +108,9 @@ pub struct BandsKey {
 
 impl BandsKey {
     /// Bands at most: what the smallest uniform buffers have room for.
-    pub const MOST: usize = 256;
+    pub const MAX: usize = 256;
     /// Bands at most where there is no table: with more of them, a table and fewer bands are as good and cheaper.
-    const MOST_ALONE: usize = 120;
+    const MAX_ALONE: usize = 120;
 
     /// What the bands are summed for.
     #[must_use]
@@ -121,14 +121,14 @@ impl BandsKey {
     /// Whether single walls come from a table.
     #[must_use]
     pub fn needs_table(&self) -> bool {
-        self.quality != Quality::Spectral || self.needed(self.measured()) > Self::MOST_ALONE
+        self.quality != Quality::Spectral || self.needed(self.measured()) > Self::MAX_ALONE
     }
 
     /// How many there are.
     #[must_use]
     pub fn count(&self) -> usize {
-        let alone = self.needed(self.measured()).min(Self::MOST_ALONE);
-        alone.max(self.needed(self.measured_beside_table()).min(Self::MOST))
+        let alone = self.needed(self.measured()).min(Self::MAX_ALONE);
+        alone.max(self.needed(self.measured_beside_table()).min(Self::MAX))
     }
 
     /// Thickness, in nm, up to which as many as there is room for resolve the products' fringes.
@@ -136,7 +136,7 @@ impl BandsKey {
     pub fn resolved_nm(&self) -> f64 {
         let measured = if self.needs_table() { self.measured_beside_table() } else { self.measured() };
         // A fiftieth less than measured is no less good, and makes it 30 µm.
-        1.02 * Self::MOST as f64 / (measured * self.bands_over_water()) * TableKey::MIN_RANGE_NM
+        1.02 * Self::MAX as f64 / (measured * self.bands_over_water()) * TableKey::MIN_RANGE_NM
     }
 
     /// Bands needed, given the number that is enough for 1500 nm of water: it grows with the number of fringes.

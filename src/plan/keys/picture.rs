@@ -42,7 +42,7 @@ pub struct BubbleKey {
     /// Takes directions of the world to the film, which may turn as a whole.
     pub to_film: DMat3,
     /// What has evaporated from the whole film, in nm.
-    pub thinned_nm: f64,
+    pub evaporated_nm: f64,
     /// Samples along each side of a pixel.
     pub samples: u32,
     /// Whether the film is looked up through its flow map at each pixel: where cells are larger than pixels.
@@ -61,8 +61,8 @@ impl BubbleKey {
     /// The hole and what it opens in, while the bubble bursts.
     #[must_use]
     pub fn open_hole(&self) -> Option<OpenHoleKey> {
-        let Self { thinned_nm, radius_m, .. } = *self;
-        self.hole.map(|hole| OpenHoleKey { film: self.film.clone(), thinned_nm, radius_m, hole })
+        let Self { evaporated_nm, radius_m, .. } = *self;
+        self.hole.map(|hole| OpenHoleKey { film: self.film.clone(), evaporated_nm, radius_m, hole })
     }
 }
 

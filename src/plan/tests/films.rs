@@ -108,10 +108,10 @@ fn a_free_film_is_stepped_as_its_waves_need() {
     scene.motion.evaporation_nm_s = 30.0;
     let faster = MotionChange { evaporation_nm_s: Some(60.0), ..MotionChange::default() };
     scene.events.push(Event { tick: 60, change: Change::Motion(faster) });
-    let thinned = film(&scene).thinned_nm(90.0);
+    let thinned = film(&scene).evaporated_nm(90.0);
     assert!((thinned - 60.0).abs() < 1e-9, "30 nm in the first second and 30 in the next half: {thinned}");
     scene.motion.flow = Flow::Stirred;
-    assert_eq!(film(&scene).thinned_nm(90.0), 0.0, "how thick it is changes nothing in how others move");
+    assert_eq!(film(&scene).evaporated_nm(90.0), 0.0, "how thick it is changes nothing in how others move");
 }
 
 #[test]
@@ -188,7 +188,7 @@ fn turning_and_evaporating_as_a_whole_only_draws() {
     let bubble = |tick| frame_request(&scene, tick, Pace::Whole).picture.draw.bubbles[0].clone();
     let later = bubble(60);
     assert!((later.to_film * DVec3::Y).distance(DVec3::X) < 1e-12, "a quarter turn in a second");
-    assert!((later.thinned_nm - 60.0).abs() < 1e-9);
+    assert!((later.evaporated_nm - 60.0).abs() < 1e-9);
     assert!(between((&uniform_scene(), 0), (&uniform_scene(), 9999)).is_empty());
 }
 

@@ -165,7 +165,7 @@ fn films_that_end_nowhere_know_of_no_end() {
         FilmKey::Uniform(_) => panic!("a film that flows"),
     };
     let free = preset("default").unwrap();
-    assert_eq!(field(&free).end, None);
+    assert_eq!(field(&free).boundary, None);
     assert!(!frame_request(&free, 4, Pace::Whole).picture.draw.on_bath);
     let bath = preset("bath").unwrap();
     let draw = frame_request(&bath, 4, Pace::Whole).picture.draw;
@@ -174,7 +174,7 @@ fn films_that_end_nowhere_know_of_no_end() {
     drained.bubbles[0].regeneration = 0.0;
     assert_eq!(field(&drained).regeneration(), None);
     let drop = field(&preset("drop").unwrap());
-    assert!(drop.cap().is_none() && drop.end.unwrap().drop_rad.unwrap() < 0.3);
+    assert!(drop.cap().is_none() && drop.boundary.unwrap().drop_rad.unwrap() < 0.3);
 }
 
 #[test]
@@ -326,8 +326,8 @@ proptest! {
         prop_assert_eq!(decided(&arrived.after, &request), decided(&fresh.after, &request));
         prop_assert_eq!(arrived.after.picture.as_ref(), Some(&request.picture));
         prop_assert!(plan(&request, &arrived.after).is_empty());
-        let in_a_frame = FrameRequest { pace: Pace::Frame, ..request };
-        prop_assert!(plan(&in_a_frame, &arrived.after).is_empty());
+        let frame_paced = FrameRequest { pace: Pace::Frame, ..request };
+        prop_assert!(plan(&frame_paced, &arrived.after).is_empty());
     }
 
     #[test]

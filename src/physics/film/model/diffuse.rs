@@ -47,7 +47,7 @@ impl DiffusionPlan {
         if per_tick <= 0.0 {
             return None;
         }
-        let [default_ticks, longest_ticks] = [DEFAULT_S, LONGEST_S].map(|most_s| (most_s / tick_s).max(1.0));
+        let [default_ticks, longest_ticks] = [DEFAULT_S, LONGEST_S].map(|max_s| (max_s / tick_s).max(1.0));
         let parts = (default_ticks * per_tick / MAX_SPREAD_PER_PART).ceil().min(f64::from(MAX_PARTS));
         let latest_ticks = longest_ticks.min(parts * MAX_SPREAD_PER_PART / per_tick).max(1.0) as u32;
         Some(Self { per_tick, parts: parts as u32, latest_ticks })

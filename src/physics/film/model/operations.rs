@@ -12,8 +12,8 @@ pub enum Operation {
     BlowAir,
     /// What pushes it: `flow_push`.
     Push,
-    /// Vorticity and stream function move on by a step: `flow_force`, `flow_trace`, the multigrid solves of viscosity and of ψ, `flow_image` and
-    /// `flow_hold`.
+    /// Vorticity and stream function move on by a step: `flow_force`, `flow_trace`, the multigrid solves of viscosity and of ψ, `flow_mirror` and
+    /// `flow_pin`.
     StepFlow,
     /// Where the liquid of each cell was when the step began: `trace_flow`, or `trace_step` for flows in closed form.
     TraceStep,
