@@ -170,7 +170,7 @@ fn median(mut times: Vec<f64>) -> f64 {
     times[times.len() / 2]
 }
 
-/// Process CPU time of a frame over that of one with a plain mirror sphere: medians over frames that alternate.
+/// Ratio of the process CPU time of a frame to the time of a frame with a plain mirror sphere: medians over frames that alternate.
 fn frame_over_mirror(renderer: &mut Renderer, quality: Quality, frames: usize) -> anyhow::Result<f64> {
     let mut loaded = load_scene("default")?;
     loaded.scene.view.quality = quality;

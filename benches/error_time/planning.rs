@@ -19,7 +19,7 @@ const EVENTS: u64 = 20_000;
 const FRAMES: u64 = 500;
 /// The same where it only shows whether the benchmark works.
 const SMOKE_FRAMES: u64 = 20;
-/// Runs of which the fastest counts, for nothing has disturbed it.
+/// Number of runs; the fastest counts, as the least disturbed.
 const RUNS: usize = 5;
 
 /// CPU time of a frame that is planned, µs: at tick 1, after an hour, and the one over the other; and what the first frame of an hour takes, ms,
@@ -48,7 +48,7 @@ fn scenes(quiet: &Scene) -> [Scene; 3] {
     [quiet.clone(), stirred, dry]
 }
 
-/// CPU time of a frame from a tick on, µs, and that of the way there, ms.
+/// CPU time of a frame from a tick on, µs, and CPU time to reach that tick, ms.
 fn planned(story: &Story, resources: &Resources, from: u64, frames: u64) -> anyhow::Result<[f64; 2]> {
     let frame = |tick, pace, state: &GpuState| {
         let shot = Shot {

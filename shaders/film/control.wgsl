@@ -26,7 +26,7 @@ fn balanced(departure: f32, balance: Balance) -> f32 {
     return balance.level + (departure + (balance.offset + balance.slope * departure));
 }
 
-// By its bits: compilers may assume that what is no number does not occur.
+// By its bits: compilers may assume that NaN does not occur.
 fn is_finite(x: f32) -> bool {
     return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
 }

@@ -22,7 +22,7 @@ struct Bake {
 
 const TAU: f32 = 6.2831853;
 
-// What is seen of each primary, or of all three together.
+// Response to each primary, or to all three together.
 fn store(texel: vec2u, first: u32, seen: mat3x3f) {
     if (COLOURED == 0u) {
         textureStore(table, texel, first, vec4f(seen[0] + seen[1] + seen[2], 1.0));

@@ -2,7 +2,7 @@
 // difference to black film decays at a constant rate. It is the film around a cell that must be thin: black spots are round, and as wide as
 // their rims, while cells that went one by one would leave a maze. What a cell loses goes to the thicker film around it, as the rim of a
 // black spot gathers it; the nearest thick film may be too far, then the film as a whole gets it with the correction of its liquid.
-// The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation a cell, halo
+// The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation per cell, halo
 // included.
 
 import package::film::control::Control;
@@ -88,7 +88,7 @@ fn mean_along(place: u32, stride: u32) -> f32 {
     return sum / f32((REACH + 1u) * (REACH + 1u));
 }
 
-// Along rows, those of the halo included.
+// Along rows, including rows of the halo.
 @compute @workgroup_size(8, 8)
 fn mean_along_rows(@builtin(global_invocation_id) id: vec3u) {
     if (id.x >= HALO && id.x < blacken.cells + HALO && is_cell(id, blacken.cells)) {

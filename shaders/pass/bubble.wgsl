@@ -383,7 +383,7 @@ fn eye_is_inside() -> bool {
     return length(to_round(bubble.to_center_m)) <= bubble.radius_m;
 }
 
-// The outline, which is that of a sphere where the bubble is round.
+// The outline, a sphere's where the bubble is round.
 fn outline(plane: vec3f, width: f32) -> Silhouette {
     if (STRETCHED == 0u) {
         return silhouette(view, bubble.to_center_m, bubble.radius_m, plane, width);

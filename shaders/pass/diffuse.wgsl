@@ -1,6 +1,6 @@
 // Diffusion of a film's thickness, a stage of a Runge-Kutta-Legendre step of first order (Meyer, Balsara & Aslam 2012, MNRAS 422): three
 // stages are stable for six times as long as one explicit step, and never make a new extreme. Stage k reaches k cells into the halo less.
-// One invocation a cell, halo included.
+// One invocation per cell, halo included.
 
 import package::film::control::Control;
 import package::sphere::cubed::HALO;

@@ -1,7 +1,7 @@
 // What leaves a film at its rim, done at remaps: it drains between surfaces that do not move, and thin patches take the place of thicker
 // film at the rim. What that leaves out of the film is counted. The tracer holds the thickness and what has evaporated of it, as their
 // departure from the film's level. The f64 truths are `Drainage` in src/physics/film/properties.rs and src/physics/film/regeneration.rs.
-// One invocation a cell, halo included.
+// One invocation per cell, halo included.
 
 import package::film::control::Control;
 import package::sphere::cap::{Cap, image};
@@ -12,7 +12,7 @@ const MAX_PATCHES: u32 = 64u;
 
 struct Patch {
     middle: vec3f,
-    // Over that of the film around.
+    // Thickness over the thickness of the film around.
     thickness: f32,
     // Ticks since it left.
     age: u32,

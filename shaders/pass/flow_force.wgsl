@@ -1,5 +1,5 @@
 // What half a step of drag leaves of vorticity, and what half a step of the forces adds to it. Values that cannot be used are left out
-// here, so that they reach nothing else. One invocation a cell.
+// here, so that they reach nothing else. One invocation per cell.
 
 import package::flow::operators::{first_difference, turned_gradient, is_valid, valid_or_zero};
 import package::flow::step::{Flow, Measures};

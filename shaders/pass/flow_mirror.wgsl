@@ -1,4 +1,4 @@
-// Beyond the rim of a film, vorticity becomes the image of what is within: then nothing flows across the rim. One invocation a cell.
+// Beyond the rim of a film, vorticity becomes the image of what is within: then nothing flows across the rim. One invocation per cell.
 
 import package::sphere::cap::{Cap, image, stretch};
 import package::sphere::cubed::{HALO, locate, padded_index, panel_direction};

@@ -1,4 +1,4 @@
-// Within a drop at the bottom of a film nothing flows: its stream function is that of its rim, on average, and there is no vorticity. One
+// Within a drop at the bottom of a film nothing flows: its stream function is the mean over its rim, and its vorticity is zero. One
 // workgroup, for the mean comes first.
 
 import package::flow::operators::{area_density, valid_or_zero};

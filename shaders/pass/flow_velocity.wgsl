@@ -1,4 +1,4 @@
-// The velocity of the stream function, and that half a step later, extrapolated from a step ago. One invocation a cell.
+// The velocity of the stream function, and that half a step later, extrapolated from a step ago. One invocation per cell.
 
 import package::flow::operators::{first_difference, turned_gradient, valid_or_zero};
 import package::flow::step::Flow;

@@ -74,7 +74,7 @@ fn direction_at(id: vec3u) -> vec3f {
     return normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
 }
 
-// One invocation a cell.
+// One invocation per cell.
 @compute @workgroup_size(8, 8)
 fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
     if (!is_cell(id, sample.cells)) {

@@ -66,12 +66,12 @@ fn padded_index(panel: u32, i: i32, j: i32, cells: u32) -> u32 {
     return (panel * side + u32(j + i32(HALO))) * side + u32(i + i32(HALO));
 }
 
-// Whether an invocation of a pass over all cells, those of the halo included, has one: workgroups are tiles of 8 x 8.
+// Whether an invocation of a pass over all cells, halo included, has a cell: workgroups are tiles of 8 x 8.
 fn is_cell(id: vec3u, cells: u32) -> bool {
     return all(id.xy < vec2u(cells + 2u * HALO));
 }
 
-// Place in padded storage of an invocation of a pass over all cells, those of the halo included.
+// Place in padded storage of an invocation of a pass over all cells, halo included.
 fn cell_place(id: vec3u, cells: u32) -> u32 {
     let side = cells + 2u * HALO;
     return (id.z * side + id.y) * side + id.x;

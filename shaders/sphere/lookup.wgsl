@@ -3,7 +3,7 @@
 //
 // A pass that looks fields up says where they are by two functions of its own:
 //     fn map_value(map: u32, place: u32) -> vec4f     the value of one of its maps at a place in padded storage
-//     fn tracer_value(place: u32) -> f32              the same of its tracer
+//     fn tracer_value(place: u32) -> f32              a value of its tracer
 
 import package::film::control::{all_finite, is_finite};
 import package::sphere::cubed::{HALO, cubic_weights, locate, padded_index};
@@ -62,7 +62,7 @@ fn map_at(map: u32, direction: vec3f, cells: u32) -> vec4f {
 }
 
 // Where the center of a cell of another grid is, beyond the panel's edge or within: on all grids of the same panels its place is known.
-// Cells of a halo may not be those of a coarser grid than the one looked up.
+// Halo cells of a coarser grid than the one looked up are not allowed.
 fn center_of(cell: vec2i, panel: u32, other_cells: u32, cells: u32) -> CellPoint {
     let at = (vec2f(cell) + 0.5) * f32(cells) / f32(other_cells) - 0.5;
     // No stencil reaches beyond the halo.

@@ -18,7 +18,7 @@ pub enum Edit {
     Light(Light),
     /// Another bubble in the place of one. All films in a picture are made of the same, so that what this film is made of holds for all.
     Bubble(usize, Box<Bubble>),
-    /// Other bubbles in the place of all.
+    /// A new list of bubbles.
     Bubbles(Vec<Bubble>),
     /// Every film blown anew, in another breath of air.
     Reseed,

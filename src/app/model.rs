@@ -207,7 +207,7 @@ impl Model {
         matches!(self.hand, Hand::Film(_))
     }
 
-    /// Tilts gravity from now on, by so many degrees to the right of the picture and away from the camera.
+    /// Tilts gravity from now on, by angles in degrees to the right of the picture and away from the camera.
     fn tilt(&mut self, right_deg: f64, away_deg: f64) {
         let camera = &self.scene.camera;
         let turn = DMat3::from_axis_angle(camera.forward(), -right_deg.to_radians())

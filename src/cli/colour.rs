@@ -39,7 +39,7 @@ pub struct Arguments {
     /// Thickness in nm of the back wall, seen through the front wall
     #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "thickness")]
     back: Option<f64>,
-    /// Thickness in nm of the front wall where light from the back wall leaves through it; without it, that of --thickness
+    /// Thickness in nm of the front wall where light from the back wall leaves through it; by default --thickness
     #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "back")]
     exit: Option<f64>,
     /// A CSV file of films

@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(print(format_args!("{}\n{}", summary(&cells), viscosity(&scene.scene, arguments.bubble)))?)
 }
 
-/// The viscosity of a film that moves by itself, beside that of soapy water with mobile surfaces, in a line.
+/// A line with the viscosity of a film that moves by itself, beside the viscosity of soapy water with mobile surfaces.
 fn viscosity(scene: &Scene, bubble: usize) -> String {
     let Some(bubble) = scene.bubbles.get(bubble).filter(|_| scene.motion.flow == Flow::Free) else {
         return String::new();

@@ -47,7 +47,7 @@ pub fn strips([width, height]: [u32; 2]) -> impl Iterator<Item = std::ops::Range
 /// The uniforms and bind groups of one picture, made once and used for each of its strips.
 pub struct DrawPass {
     backdrop: Drawable,
-    /// The rings of all bubbles, each with its count of vertices.
+    /// The rings of all bubbles, each with its number of vertices.
     rings: Vec<(Drawable, u32)>,
     width: u32,
 }

@@ -52,14 +52,14 @@ const REMAP_PERIODS: f64 = 0.23;
 const STEPS_PER_SUBMISSION: u64 = 16;
 
 impl Case {
-    /// Time after so many steps.
+    /// Time after a number of steps.
     #[must_use]
     pub fn time(&self, steps: u64) -> f64 {
         PERIOD * steps as f64 / f64::from(self.steps_per_period)
     }
 
     /// Runge-Kutta steps that a step of a scheme is traced in. Schemes that keep a map follow the wind through a long step in as many as keep
-    /// the trace accurate. The others, which are here to be compared with, take one a step, as they were published.
+    /// the trace accurate. The others, which are here to be compared with, take one per step, as they were published.
     #[must_use]
     pub fn traces_per_step(scheme: Scheme, steps_per_period: u32) -> u32 {
         if scheme.keeps_map() { TRACES_PER_PERIOD.div_ceil(steps_per_period.max(1)) } else { 1 }
@@ -79,7 +79,7 @@ impl Case {
                 latest_ticks: (REMAP_PERIODS * f64::from(self.steps_per_period)).max(1.0) as u32,
             },
             map_coarsening: self.map_coarsening,
-            // To trace steps more finely than the map would be for nothing.
+            // To trace steps more finely than the map would gain nothing.
             flow_cells: (self.grid.n() as u32).div_ceil(self.map_coarsening.max(1)),
             cap: None,
             drop_rad: None,

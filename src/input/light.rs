@@ -76,7 +76,7 @@ fn patch(patch: &LightPatch) -> Patch {
     }
 }
 
-/// What comes from a direction of the light of all patches with one illuminant.
+/// Radiance from a direction, in the light of all patches with one illuminant.
 fn of_lamp(light: &Light, patches: &[Patch], illuminant: &str, map: &CubeMap, direction: DVec3) -> DVec3 {
     let linear = |rgb: [f64; 3]| bt709_to_bt2020() * DVec3::from(rgb);
     let there = light.constant.map_or(DVec3::ONE, linear) * map.sample(direction);

@@ -77,7 +77,7 @@ impl Spectrum {
     }
 
     /// As [`Spectrum::from_csv`] for a refractive index, n from 1 to 4 within 360 to 780 nm. A third column, or a second block, of
-    /// extinction coefficients k is checked to be those of a clear film, and left out.
+    /// extinction coefficients k is checked to belong to a clear film, and left out.
     pub fn index_from_csv(name: &str, text: &str, notes: &mut Vec<String>) -> Result<Self, SpectrumError> {
         let rows = read::index(name, text, notes)?;
         Ok(Self::from_points(&read::points(&rows, 0)))

@@ -16,7 +16,7 @@ pub struct Table {
 /// Rows under one heading.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Block {
-    /// Line of the heading, from 1; that of the first row if there is none.
+    /// Line of the heading, from 1; the line of the first row if there is none.
     pub line: usize,
     /// Names of the columns, if there is a heading.
     pub heading: Vec<String>,
@@ -47,7 +47,7 @@ pub enum Separator {
 }
 
 impl Table {
-    /// Reads a table. Whatever the text is, it has some separator and some rows; what is no number stays as it stands there.
+    /// Reads a table. Whatever the text is, it has some separator and some rows; what is not a number stays as text.
     pub fn parse(text: &str) -> Self {
         let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
         let skipped = |line: &str| line.is_empty() || line.starts_with(['#', '%', '!']);
@@ -75,7 +75,7 @@ impl Separator {
         }
     }
 
-    /// What most of the lines that begin with a number have; of all lines, if none does.
+    /// The separator of most lines that begin with a number; of most lines, if none does.
     fn of(lines: &[(usize, &str)]) -> Self {
         let starts_with_number = |line: &&str| {
             line.trim_start_matches([' ', '\t', '"'])

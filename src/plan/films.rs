@@ -19,7 +19,7 @@ pub(super) fn cap(bubble: &Bubble) -> Option<Cap> {
     bubble.boundary.cap(bubble.rim_deg)
 }
 
-/// What the film of a bubble that was blown after so many others ends at, unless it is free.
+/// The boundary of the film of bubble number `generation`, unless it is free.
 fn film_boundary(bubble: &Bubble, generation: u32) -> Option<FilmBoundary> {
     let rim_deg = bubble.boundary.rim_deg(bubble.rim_deg)?;
     let regeneration = || Regeneration {

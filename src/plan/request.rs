@@ -192,10 +192,7 @@ fn material(scene: &Scene, resources: &Resources, bubbles: &[BubbleKey]) -> Resu
         let other = &scene.bubbles[bubble.index].film;
         let different = [("index", other.index != film.index), ("skin_nm", other.skin_nm != film.skin_nm)];
         if let Some((key, _)) = different.into_iter().find(|(_, differs)| *differs) {
-            let reason = format!(
-                "is another than that of [[bubble]] number {}; films in one picture must have the same",
-                first + 1
-            );
+            let reason = format!("differs from [[bubble]] number {}; all films in one picture must agree", first + 1);
             return Err(Fault::new(key, reason).inside("film").inside_item("bubble", bubble.index));
         }
     }
@@ -229,7 +226,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     let center_m = story.center_m(index, shot.moment.ticks() * story.motion.tick_s);
     let radius_m = bubble.radius_mm * 1e-3;
     let age = story.age(index, shot.moment)?;
-    // The bath holds a bubble's foot, and its oscillation is that of no sphere.
+    // The bath holds a bubble's foot, and it does not oscillate as a sphere does.
     let is_held = bubble.boundary == Boundary::Bath;
     let stretch = if is_held { DMat3::IDENTITY } else { age.life.shape(age.moment).stretch() };
     let bounds = bounds(camera, shot.size, center_m, radius_m * reach(stretch))?;
@@ -273,7 +270,7 @@ fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f
     field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
 }
 
-/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples a pixel
+/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples per pixel
 /// see that better than a filter which takes the film to change evenly from pixel to pixel.
 fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
     let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < 1.0);

@@ -25,7 +25,7 @@ section! {
     center_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "Center", " m", "center, m";
     radius_mm: f64 = 50.0, [0.1 ..= 5000.0], "Radius", " mm", "radius, mm";
     boundary: Boundary = Boundary::Free, [word], "Boundary", "", "what the film ends at";
-    rim_deg: f64 = 120.0, [30.0 ..= 175.0], "Rim", "°", "colatitude of the ring (150 at most) or of the drop's rim; that of a bath is 90";
+    rim_deg: f64 = 120.0, [30.0 ..= 175.0], "Rim", "°", "colatitude of the ring (at most 150) or of the drop's rim; the rim at a bath is at 90";
     regeneration: f64 = 1.0, [0.0 ..= 10.0], "Regeneration", "", "factor on how many thin patches rise from the rim of a film that has one";
     patch_mm: f64 = 3.0, [0.1 ..= 100.0], "Patches", " mm", "radius of these patches, mm; at most a quarter of the bubble's";
 }

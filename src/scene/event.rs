@@ -24,7 +24,7 @@ pub struct Event {
 }
 
 impl Event {
-    /// Checks everything but the order of the events, in a scene of so many bubbles.
+    /// Checks everything but the order of the events, in a scene of a number of bubbles.
     pub(super) fn check(&self, bubbles: usize) -> Checked {
         match &self.change {
             Change::Motion(change) => change.check(),

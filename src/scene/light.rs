@@ -32,7 +32,7 @@ section! {
     elevation_deg: f64 = 0.0, [-90.0 ..= 90.0], "Elevation", "°", "direction of its middle above the horizon";
     radius_deg: f64 = 20.0, [1.0 ..= 180.0], "Radius", "°", "from its middle to where half of it is left";
     edge_deg: f64 = 4.0, [0.0 ..= 90.0], "Edge", "°", "width of its soft edge";
-    illuminant: String = "D65".to_owned(), ["a name"], "Illuminant", "", "its illuminant, named as that of `[light]`";
+    illuminant: String = "D65".to_owned(), ["a name"], "Illuminant", "", "its illuminant, named as in `[light]`";
     radiance: Option<[f64; 3]> = None, [0.0 ..= 65504.0], "Radiance", "", "`[r, g, b]`: its radiance, linear BT.709; without it, what the environment has there";
 }
 

@@ -15,7 +15,7 @@ macro_rules! with_changing_keys {
         $then! {
             $($before)*
             flow: Flow = Flow::Free, [word], "Flow", "", "what moves the film";
-            strength: f64 = 1.0, [0.0 ..= 10.0], "Strength", "", "factor on the speed of the flow; of a free film on that of the draught around it";
+            strength: f64 = 1.0, [0.0 ..= 10.0], "Strength", "", "factor on the speed of the flow; for a free film, on the speed of the draught around it";
             seed: u64 = 1, [whole], "Flow seed", "", "seed of the flow: each seed gives another one";
             gravity_m_s2: [f64; 3] = [0.0, 0.0, -9.81], [-1000.0 ..= 1000.0], "Gravity", " m/s²", "gravity less the bubble's own acceleration, m/s²; of a free film, as the next five";
             drag_1_s: f64 = 2.0, [0.0 ..= 1000.0], "Drag", " 1/s", "rate at which the film is slowed down whatever its thickness, 1/s";
@@ -23,7 +23,7 @@ macro_rules! with_changing_keys {
             viscosity_mm2_s: f64 = 100.0, [0.0 ..= 1000000.0], "Viscosity", " mm²/s", "kinematic viscosity of the film, mm²/s; real films have 20 to 2000";
             diffusion_mm2_s: f64 = 0.5, [0.0 ..= 1000.0], "Diffusion", " mm²/s", "how fast differences of thickness spread within the film, mm²/s";
             drainage: f64 = 0.0, [0.0 ..= 10000.0], "Drainage", "", "factor on the drainage between surfaces that do not move, which takes hours at 1; the liquid is counted in the drop, the ring or the bath";
-            spin_deg_s: [f64; 3] = [0.0; 3], [-3600.0 ..= 3600.0], "Spin", " °/s", "turn of all films as a whole, degrees a second about the three axes of the world; gravity turns with a free film";
+            spin_deg_s: [f64; 3] = [0.0; 3], [-3600.0 ..= 3600.0], "Spin", " °/s", "rotation of all films as a whole, degrees per second about the three axes of the world; gravity turns with a free film";
             evaporation_nm_s: f64 = 0.0, [0.0 ..= 1000.0], "Evaporation", " nm/s", "what evaporates from the whole film, nm of thickness a second, down to 10 nm of black film";
             humidity: f64 = 1.0, [0.0 ..= 1.0], "Humidity", "", "relative humidity of the air: what evaporates in drier air, by the bubble's radius and the air's speed, comes to `evaporation_nm_s`";
             air_speed_m_s: f64 = 0.1, [0.0 ..= 10.0], "Air speed", " m/s", "speed of the air that carries the vapour away, m/s";

@@ -19,7 +19,7 @@ use crate::{
 pub struct FilmCell {
     /// Unit vector from the bubble's center to the cell's middle, in the world's axes: +z is up.
     pub direction: DVec3,
-    /// The cell's solid angle in steradians; those of all cells add up to 4π.
+    /// The cell's solid angle in steradians; the angles of all cells add up to 4π.
     pub solid_angle_sr: f64,
     /// Thickness along the normal, nm; 0 where there is no film: in a hole, below a ring or a bath.
     pub thickness_nm: f64,
@@ -48,7 +48,7 @@ pub(super) fn read(
 }
 
 /// Thickness of each cell of a bubble's film, moved by the film model in f64 on the CPU; no adapter is needed. It is slow, and takes films of the
-/// scheme `map` with at most 64 cells along an edge. `progress` hears how many more ticks of the film's time are done. The other arguments are those of
+/// scheme `map` with at most 64 cells along an edge. `progress` hears how many more ticks of the film's time are done. The other arguments are as in
 /// [`Studio::film`].
 ///
 /// # Errors

@@ -31,7 +31,7 @@ use crate::{
     scene::Scene,
 };
 
-/// Ticks that one picture may need: a day at 60 a second takes hours, more is a slip of the pen.
+/// Ticks that one picture may need: a day at 60 per second takes hours; more is a mistake in the input.
 pub const MAX_TICKS: u64 = 10_000_000;
 
 /// The thickest film that has a colour here, nm.
@@ -86,8 +86,8 @@ impl Studio {
         Ok(Picture { size, rgba, metadata: metadata(scene, time_s) })
     }
 
-    /// Draws the scene's radiance in linear BT.709 as f32, before exposure and tone curve. Units are those of the environment: white light of
-    /// radiance 1 is (1, 1, 1). The arguments are those of [`Studio::render`].
+    /// Draws the scene's radiance in linear BT.709 as f32, before exposure and tone curve. Units are as in the environment: white light of
+    /// radiance 1 is (1, 1, 1). The arguments are as in [`Studio::render`].
     ///
     /// # Errors
     /// As [`Studio::render`], and [`Error::Gpu`] on adapters without pictures in full precision.
@@ -101,7 +101,7 @@ impl Studio {
     /// need not be in sight of the scene's camera.
     ///
     /// # Errors
-    /// [`Error::NoBubble`] and [`Error::NoFilm`] if there is no such bubble, or none at that time, and those of [`Studio::render`].
+    /// [`Error::NoBubble`] and [`Error::NoFilm`] if there is no such bubble, or none at that time, and the errors of [`Studio::render`].
     pub fn film(&mut self, scene: &LoadedScene, bubble: usize, time_s: f64) -> Result<Vec<FilmCell>, Error> {
         film::read(self, scene, bubble, time_s)
     }

@@ -107,7 +107,7 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     nothing(run)
 }
 
-/// The larger of two errors; what is no number is larger than all.
+/// The larger of two errors; NaN is larger than all.
 fn worse(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
 }

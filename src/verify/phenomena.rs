@@ -81,7 +81,7 @@ fn alternations(bright: &[f64]) -> f64 {
     f64::from(count)
 }
 
-/// The thickness from the top to the bottom, a value for each two cells: that of the nearest one.
+/// The thickness from the top to the bottom, a value for each two cells: the value of the nearest one.
 fn along_meridian(sphere: CubedSphere, thickness_nm: &[f64], longitude: f64) -> Vec<f64> {
     let (sin, cos) = longitude.sin_cos();
     (1..CELLS)

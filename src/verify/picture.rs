@@ -32,7 +32,7 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     let lamps = ["sodium", "A"].into_iter().take(run.short_or_full(1, 2));
     let lamps: Vec<_> = lamps.map(lamplit_scene).collect::<Result<_, _>>()?;
     measure(run, &mut renderer, "daylight and a lamp", lamps)?;
-    // A truth takes a minute: a short run takes that of the room with a lamp alone, where all kinds of light meet.
+    // A truth takes a minute: a short run computes only the room with a lamp, where all kinds of light meet.
     if run.extent == Extent::Short {
         return Ok(());
     }
@@ -68,7 +68,7 @@ fn measure(
     Ok(())
 }
 
-/// A scene in daylight, some of whose soft lamps are of another illuminant: those of another random scene.
+/// A scene in daylight, some of whose soft lamps are of another illuminant: the lamps of another random scene.
 fn lamplit_scene(illuminant: &str) -> Result<(Scene, Resources), GpuError> {
     let (scene, mut resources) = random_scene(0)?;
     let (_, other) = random_scene(1)?;

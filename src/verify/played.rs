@@ -86,7 +86,7 @@ impl<'a> Played<'a> {
         self.film.rest().map(|rest| rest.since_tick as f64 * self.story.motion.tick_s)
     }
 
-    /// Kinetic energy of the flow over that of a unit of mass a steradian: ½ ∫ u², rad²/s².
+    /// Kinetic energy of the flow for a unit of mass per steradian: ½ ∫ u², rad²/s².
     pub fn energy(&self) -> Result<f64, GpuError> {
         let (areas, velocity) = (self.flow()?.sphere().areas(), self.velocity()?);
         Ok(areas.iter().zip(velocity).map(|(area, u)| 0.5 * area * u.length_squared()).sum())

@@ -188,7 +188,7 @@ pub fn film(key: &FieldKey) -> Result<FlowMap, GridError> {
     Ok(film)
 }
 
-/// Moves a film by so many ticks.
+/// Moves a film by a number of ticks.
 fn advance(film: &mut FlowMap, key: &FieldKey, tick: u64, ticks: f64) {
     let law = key.law(tick);
     if law != FlowLaw::Rest {

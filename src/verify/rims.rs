@@ -164,7 +164,7 @@ fn drop(run: &mut Run<'_>) -> Result<(), GpuError> {
     }
     let [free, held] = leaks;
     run.at_most("flow through the middle of a drop, part of the largest", held, 1e-3);
-    run.at_most("flow through the middle of a drop, over that of a film without", held / free, 0.1);
+    run.at_most("flow through the middle of a drop, over the flow of a film without a drop", held / free, 0.1);
     Ok(())
 }
 

@@ -44,7 +44,7 @@ pub struct Sorting {
 pub struct Sorted {
     /// Part of the variance of thickness that height explains.
     pub explained: f64,
-    /// Standard deviation over that of the blown film.
+    /// Standard deviation over the standard deviation of the blown film.
     pub kept: f64,
     /// Fringes between bottom and top, 2nΔh / 550 nm.
     pub fringes: f64,

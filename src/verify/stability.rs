@@ -172,7 +172,7 @@ fn gravity(run: &mut Run<'_>) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// One value that is no number, in the tracer and in the map.
+/// One NaN, in the tracer and in the map.
 fn spoilt(run: &mut Run<'_>) -> Result<(), GpuError> {
     let wind = deformation();
     let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));

@@ -118,7 +118,7 @@ fn convergence(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut coarser = l2_on(run, 30, GH)?;
     for (n, limit) in [(60, 1.0 / 11.0), (120, 1.0 / 16.0)] {
         let l2 = l2_on(run, n, GH)?;
-        run.at_most(format!("GaussianHills map: error of N = {n} over that of N = {}", n / 2), l2 / coarser, limit);
+        run.at_most(format!("GaussianHills map: error of N = {n} over error of N = {}", n / 2), l2 / coarser, limit);
         coarser = l2;
     }
     let bells = l2_on(run, 120, CB)?;
@@ -126,7 +126,7 @@ fn convergence(run: &mut Run<'_>) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// l2 of a density after a period of the non-divergent wind, in two steps a cell.
+/// l2 of a density after a period of the non-divergent wind, in two steps per cell.
 fn l2_on(run: &Run<'_>, n: usize, tracer: TracerKind) -> Result<f64, GpuError> {
     let wind = wind(WindKind::NonDivergent, None)?;
     let case = Case {

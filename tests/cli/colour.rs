@@ -25,7 +25,7 @@ fn colours_come_in_the_promised_columns() {
     assert!((y(0) / truth - 1.0).abs() < 0.002, "{} {truth}", y(0));
 }
 
-/// Two walls by arguments are those of a list, and light leaves through the front wall where it came in unless told otherwise.
+/// Two walls by arguments give what a list gives, and light leaves through the front wall where it came in unless told otherwise.
 #[test]
 fn two_walls_are_given_as_arguments_too() {
     let desk = Desk::new();

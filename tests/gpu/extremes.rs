@@ -174,7 +174,7 @@ fn hot_lamps() -> CubeMap {
     })
 }
 
-/// Fitted wavelengths may not take away more light than there is: least of all from a dense film, whose fringes are sharp, among hot lamps.
+/// Fitted wavelengths may not take away more light than there is, not even from a dense film, whose fringes are sharp, among hot lamps.
 #[test]
 fn no_light_is_negative_and_qualities_agree_on_dense_films() {
     let Some(mut renderer) = renderer() else { return };

@@ -63,7 +63,7 @@ fn differences(request: &FrameRequest, truth: &[DVec3], seen: &[DVec3]) -> Vec<f
     covered(request).into_iter().map(|k| ciede2000(lab(truth[k], white), lab(seen[k], white))).collect()
 }
 
-/// Looks at a bubble of the default size from where it is so many pixels across; returns what a pixel spans there, in m.
+/// Looks at a bubble of the default size from where it is `diameter` pixels across; returns the span of a pixel there, in m.
 fn step_back(scene: &mut Scene, diameter: f64) -> f64 {
     let pixel_m = 0.1 / diameter;
     let distance_m = pixel_m * f64::from(SIZE[1]) / (2.0 * (0.5 * FOV_Y_DEG).to_radians().tan());
@@ -168,7 +168,7 @@ fn far_blown_bubbles_change_as_they_must() {
     }
 }
 
-/// A blown film of all of its cells, or of half, seen from where the bubble is so many pixels across.
+/// A blown film with all of its cells, or with half, seen from where the bubble is `diameter` pixels across.
 fn blown(detail: Detail, diameter: f64, time_s: f64) -> FrameRequest {
     let mut loaded = load("default");
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
@@ -214,7 +214,7 @@ fn colours(request: &FrameRequest, picture: &[DVec3], white: f64) -> [DVec3; 2] 
 }
 
 /// When small differences have grown, a film on coarser grids is another one of the same kind, at a fraction of the work: the mean and the spread of
-/// its colours differ by no more than those of films of other seeds, which at this time are 2 to 5 apart.
+/// its colours differ by no more than the colours of films of other seeds, which at this time are 2 to 5 apart.
 #[test]
 fn half_of_the_cells_sort_themselves_alike() {
     let Some(mut renderer) = renderer() else { return };

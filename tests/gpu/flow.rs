@@ -127,7 +127,7 @@ fn the_gpu_does_what_its_f64_twin_does() {
     }
 }
 
-/// A value that is no number is counted, stands for zero, and reaches nothing else.
+/// A value that is not finite is counted, is read as zero, and reaches nothing else.
 #[test]
 fn nonsense_is_contained() {
     let Some(gpu) = gpu() else { return };

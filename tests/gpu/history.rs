@@ -1,4 +1,4 @@
-//! A film's history: equal histories give equal bits however they were cut into frames, and nothing is done for nothing.
+//! A film's history: equal histories give equal bits however they were cut into frames, and no work is done in vain.
 
 use soapfilm::{
     gpu::{Renderer, timing::Counts},
@@ -102,7 +102,7 @@ fn a_history_made_while_it_runs_is_the_saved_one() {
     assert_eq!(arrive(&mut running, &live), arrive(&mut other, &read));
 }
 
-/// What the device did to get from the picture of one time to that of another.
+/// What the device did to get from the picture of one time to the picture of another.
 fn cost(loaded: &LoadedScene, from_ticks: f64, to_ticks: f64) -> Option<[Counts; 2]> {
     let mut renderer = renderer()?;
     let mut at = |ticks: f64| {

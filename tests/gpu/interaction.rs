@@ -26,7 +26,7 @@ fn events() -> (Stir, Blow) {
     (stir, Blow { at: [-0.3, 0.1, 0.9], toward: [1.0, 0.0, -0.5], radius_deg: 25.0, ticks: 4, ..Blow::default() })
 }
 
-/// Vorticity after so many steps of the twin, from the events' own numbers.
+/// Vorticity after a number of steps of the twin, from the numbers of the events.
 fn twin(steps: u32) -> Vec<f64> {
     let (stir, blow) = events();
     let (radius_m, stir_s) = (0.05, 20.0 / 60.0);

@@ -38,7 +38,7 @@ fn a_lamp_of_the_same_illuminant_changes_nothing() {
     assert!(mean > 0.01, "a lamp of another spectrum must look different: {mean}");
 }
 
-/// The preset's lamp in the tent, whose lamps are soft, against the f64 picture: the limits are those of the other presets, for filtered
+/// The preset's lamp in the tent, whose lamps are soft, against the f64 picture: the limits are as for the other presets, for filtered
 /// lookups of the environment against averages over samples.
 #[test]
 fn the_picture_in_two_lights_is_the_f64_one() {

@@ -82,7 +82,7 @@ fn the_gpu_does_what_its_f64_twin_does() {
     }
 }
 
-/// Maps of cells so many times as wide as the tracer's lead to the same places, but for the error of interpolating them, which is of the fourth
+/// Maps of cells several times as wide as the tracer's lead to the same places, but for the error of interpolating them, which is of the fourth
 /// order. Where the number is even, lookups take two by two cells at once, which begin at odd cells or at even ones.
 #[test]
 fn a_coarser_map_leads_to_the_same_places() {
@@ -107,7 +107,7 @@ fn a_coarser_map_leads_to_the_same_places() {
     assert!(six <= 24.0 * one_by_one, "{errors:?}: ideal 16");
 }
 
-/// A film of 128 cells an edge stirred for 1 s on the GPU, in steps of so many ticks.
+/// A film of 128 cells per edge stirred for 1 s on the GPU, in steps of `ticks_per_step` ticks.
 fn stirred(gpu: &Gpu, grid: CubedSphere, flow: &PrescribedFlow, ticks_per_step: u32, flow_cells: u32) -> Vec<f64> {
     let length_s = f64::from(ticks_per_step) / 60.0;
     let steps = (0..60 / ticks_per_step).map(f64::from);

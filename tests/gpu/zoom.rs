@@ -15,7 +15,7 @@ use crate::support::{display, load, mean_and_max, radiance, renderer, still};
 const SIZE: [u32; 2] = [240, 135];
 const TIME_S: f64 = 3.0;
 
-/// A stirred film of so many cells, seen at 16 times the usual size.
+/// A stirred film of a number of cells, seen at 16 times the default size.
 fn near(cells: u32) -> LoadedScene {
     let mut loaded = load("stirred");
     loaded.scene.bubbles[0].film.cells = cells;

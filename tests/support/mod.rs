@@ -145,7 +145,7 @@ impl Random {
     }
 }
 
-/// Mean and maximum of some numbers; fails if there are none, or if one is no number.
+/// Mean and maximum of some numbers; fails if there are none, or if one is NaN.
 pub fn mean_and_max(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let values: Vec<f64> = values.into_iter().collect();
     assert!(!values.is_empty(), "nothing was compared");

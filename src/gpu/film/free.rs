@@ -65,7 +65,7 @@ impl FreeMotion {
         Self { solver }
     }
 
-    /// Lets its steps take so many multigrid cycles.
+    /// Sets the number of multigrid cycles per step.
     pub fn solve_in(&mut self, cycles: Cycles) {
         self.solver.cycles = cycles;
     }

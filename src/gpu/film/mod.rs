@@ -130,7 +130,7 @@ pub enum Planted {
     Map,
 }
 
-/// The grid of a film's map, a cell of which spans so many of the film's along each side.
+/// The grid of a film's map, given how many of the film's cells a cell of the map spans along each side.
 fn map_sphere(film: CubedSphere, coarsening: u32) -> Result<CubedSphere, GridError> {
     CubedSphere::new(film.n().div_ceil(coarsening.max(1) as usize))
 }
@@ -311,7 +311,7 @@ impl Field {
         self.settle(recorder, [[parts(grid), 1, 1].into(), [1; 3].into(), all])
     }
 
-    /// Looks the tracer up, in a pass over so many workgroups: of cells, or of two by two.
+    /// Looks the tracer up, in a pass over a number of workgroups: of single cells, or of two by two.
     fn sample(
         &self,
         recorder: &mut Recorder<'_>,

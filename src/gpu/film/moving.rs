@@ -46,7 +46,7 @@ impl MovingFilm {
         self.watch.rest()
     }
 
-    /// Moves the film through some ticks of its history; what is recorded goes out in submissions of so many steps at most.
+    /// Moves the film through some ticks of its history; what is recorded goes out in submissions of at most `steps_per_submission` steps.
     pub fn play(
         &mut self,
         gpu: &Gpu,
@@ -195,7 +195,7 @@ pub fn rules(key: &FieldKey) -> Rules {
 struct LawInForce(Option<(FlowLaw, PrescribedFlow)>);
 
 impl LawInForce {
-    /// A step of so many ticks.
+    /// A step of a number of ticks.
     fn step(&mut self, key: &FieldKey, tick: u64, ticks: f64) -> Step {
         let [from_s, to_s] = [tick as f64, tick as f64 + ticks].map(|tick| key.tick_s * tick);
         Step::prescribed(self.flow(key, tick), from_s, to_s)

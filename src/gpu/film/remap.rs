@@ -17,7 +17,7 @@ use crate::gpu::{
 use crate::physics::film::model::{BlackeningLaw, DrainLaw};
 
 impl Field {
-    /// From now on the thickness spreads by so many rad²/s, in ticks of a length in seconds. Schemes without a map do not spread it.
+    /// Sets the diffusivity of the thickness from now on, rad²/s, for ticks of a length in seconds. Schemes without a map do not spread it.
     pub fn diffuse(&mut self, gpu: &Gpu, rad2_s: f64, tick_s: f64) {
         if self.diffusion.as_ref().is_none_or(|diffusion| diffusion.law() != (rad2_s, tick_s)) {
             self.diffusion = Diffusion::new(gpu, self.tracer_grid(), rad2_s, tick_s);
@@ -33,7 +33,7 @@ impl Field {
         }
     }
 
-    /// From now on film leaves by a law, at remaps which are so many ticks apart at most; or not at all. Schemes without a map lose none.
+    /// Sets the law by which film leaves from now on, at remaps which are at most a number of ticks apart; or none. Schemes without a map lose none.
     pub fn drain(&mut self, law: Option<(DrainLaw, u32)>) {
         self.has_drained |= law.is_some();
         self.drain = law;
@@ -44,7 +44,7 @@ impl Field {
         let diffusing = self.diffusion.as_ref().map(Diffusion::latest_ticks);
         let draining = self.drain.as_ref().map(|(_, max_ticks)| *max_ticks);
         let rule = self.rules.remap.no_later_than([diffusing, draining]);
-        // Errors count in cells of the film, whatever those of the map.
+        // Errors count in cells of the film, whatever the cells of the map.
         RemapRule { error_limit_cells: rule.error_limit_cells / self.rules.map_coarsening.max(1) as f32, ..rule }
     }
 

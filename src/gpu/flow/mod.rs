@@ -100,11 +100,11 @@ impl FlowSolver {
     /// Cycles that find the first stream function, from nothing.
     const FIRST_CYCLES: usize = 12;
 
-    /// A film at rest, on the grid with so many cells along a panel's edge, within [`Self::MIN_CELLS`] and [`Self::MAX_CELLS`].
+    /// A film at rest, on a grid with a number of cells along a panel's edge within [`Self::MIN_CELLS`] and [`Self::MAX_CELLS`].
     #[must_use]
     pub fn new(gpu: &Gpu, cells: u32) -> Self {
         let cells = cells.clamp(Self::MIN_CELLS, Self::MAX_CELLS);
-        // The range lies within that of grids, for which the constructor cannot fail.
+        // The range lies within the range of grids, for which the constructor cannot fail.
         let sphere = CubedSphere::new(cells as usize).expect("a size in range");
         let field = |label| buffer(gpu, label, sphere.padded_len() as u64 * 4);
         let velocity = |label| buffer(gpu, label, sphere.padded_len() as u64 * 16);

@@ -18,7 +18,7 @@ shader_struct! {
     pub struct PatchValue {
         /// Middle.
         pub middle: [f32; 3],
-        /// Thickness over that of the film around.
+        /// Thickness over the thickness of the film around.
         pub thickness: f32,
         /// Ticks since it left.
         pub age: u32,

@@ -35,7 +35,7 @@ shader_struct! {
     pub struct CoarseUniform {
         /// How many.
         pub levels: u32,
-        /// Values of all of them.
+        /// Values of all coarse grids.
         pub values: u32,
         /// k.
         pub shift: f32,

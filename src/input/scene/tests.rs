@@ -68,11 +68,11 @@ fn what_cannot_be_drawn_is_refused_by_line_and_key() {
     for (text, told) in [
         (
             "[[bubble]]\n[[bubble]]\ncenter_m = [0, 0.01, 0]\nfilm.index = 1.5",
-            "s.toml:5: `index` in [bubble.film] number 2 is another than that of [[bubble]] number 1; films in one picture must have the same",
+            "s.toml:5: `index` in [bubble.film] number 2 differs from [[bubble]] number 1; all films in one picture must agree",
         ),
         (
             "[[bubble]]\nfilm.skin_nm = 2\n[[bubble]]\ncenter_m = [0, 0.01, 0]",
-            "s.toml:4: `skin_nm` in [bubble.film] number 2 is another than that of [[bubble]] number 1; films in one picture must have the same",
+            "s.toml:4: `skin_nm` in [bubble.film] number 2 differs from [[bubble]] number 1; all films in one picture must agree",
         ),
         (
             "[camera]\nelevation_deg = -9\n[[bubble]]\nboundary = \"bath\"",

@@ -121,7 +121,7 @@ pub struct Life {
 pub struct Age {
     /// The life that the moment falls into.
     pub life: Arc<Life>,
-    /// The moment of its film since it was blown; while it bursts, that of the burst.
+    /// The moment of its film since it was blown; while it bursts, the moment of the burst.
     pub moment: Moment,
     /// The hole in it, while it bursts.
     pub hole: Option<Opening>,
@@ -171,7 +171,7 @@ impl LifeCycle {
         (seconds < end.lasts_s).then(|| Age { moment: Moment::tick(end.tick - life.born), hole, life })
     }
 
-    /// When a bubble ends that is blown at a tick after so many others, and where the hole opens if something pricks it.
+    /// When a bubble blown at a tick as number `generation` ends, and where the hole opens if something pricks it.
     #[must_use]
     pub fn end_of(&self, born: u64, generation: u32) -> Option<(u64, Option<DVec3>)> {
         self.course.end(born, generation).map(|end| (end.tick, end.at))
@@ -221,7 +221,7 @@ impl Life {
 }
 
 impl Course {
-    /// A life that begins at a tick after so many others and has an end, of a bubble whose center goes along a path.
+    /// Life number `generation`, which begins at a tick and has an end, of a bubble whose center goes along a path.
     fn life(&self, path: &CenterPath, born: u64, generation: u32, end: Option<End>) -> Life {
         let gone = end.map_or(u64::MAX, |end| end.tick);
         let start_m = path.at(born as f64 * self.tick_s).place_m;
@@ -264,7 +264,7 @@ impl Course {
         Oscillator::new(self.radius_m, 1e-9 * self.film.mean_nm())
     }
 
-    /// The film as it is blown after so many others.
+    /// The film of the bubble number `generation` as it is blown.
     fn film(&self, generation: u32) -> InitialFilm {
         match self.film {
             InitialFilm::Blown { thickness_nm, stratification, .. } => {
@@ -275,7 +275,7 @@ impl Course {
         }
     }
 
-    /// How a life ends that begins at a tick after so many others, if it does.
+    /// How life number `generation`, which begins at a tick, ends, if it does.
     fn end(&self, born: u64, generation: u32) -> Option<End> {
         let next = self.pricks.partition_point(|(tick, _)| *tick < born);
         let pricked = self.pricks.get(next).map(|(tick, at)| (*tick, Some(*at)));

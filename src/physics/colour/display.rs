@@ -102,7 +102,7 @@ fn smoothstep(t: f64) -> f64 {
 const HALVINGS: u32 = 12;
 
 /// Bleaches a colour towards its grey, and brings it back into [0, 1] by lowering its chroma just as far as needed: both in CIELAB, whose
-/// hue stays. Clipping turns the hue of film colours by up to 16°, mixing with grey in linear light that of bright sodium light by 20°.
+/// hue stays. Clipping turns the hue of film colours by up to 16°, and mixing with grey in linear light turns the hue of bright sodium light by 20°.
 fn into_gamut(gamut: Gamut, linear: DVec3, bleach: Bleach) -> DVec3 {
     let inside = |linear: DVec3| linear.min_element() >= 0.0 && linear.max_element() <= 1.0;
     if bleach.part == 0.0 && inside(linear) {

@@ -61,7 +61,7 @@ impl FilmOptics {
         self.film.wall(self.indices[i], cos_theta, self.weights.wavelengths_nm()[i])
     }
 
-    /// XYZ of white light after reflection, unpolarised; a perfect mirror has Y = 1. `cos_theta` is that of the angle in air, 0 to 1.
+    /// XYZ of white light after reflection, unpolarised; a perfect mirror has Y = 1. `cos_theta` is the cosine of the angle in air, 0 to 1.
     pub fn xyz(&self, cos_theta: f64, walls: Walls) -> DVec3 {
         self.weights.integrate(|i| walls.reflectance(&self.wall(i, cos_theta)))
     }

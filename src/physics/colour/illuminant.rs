@@ -13,7 +13,7 @@ const SECOND_RADIATION_NM_K: f64 = 1.438_776_877e7;
 /// Temperatures of black bodies whose light has a shape in f64 and a use: embers to the bluest stars, K.
 const TEMPERATURES_K: std::ops::RangeInclusive<f64> = 800.0..=100_000.0;
 
-/// The least luminous efficiency, of 1 at 555 nm, that a light may have: that of 372 nm and of 775 nm. A mirror shows every light at Y = 1,
+/// The smallest luminous efficiency, 1 at 555 nm, that a light may have, as at 372 nm and 775 nm. A mirror shows every light at Y = 1,
 /// and fainter ones would be nothing but XYZ far from any colour.
 const MIN_SEEN: f64 = 2e-5;
 
@@ -89,7 +89,7 @@ impl Illuminant {
         self.spectrum.iter().all(|power| power == 0.0) && ends[1] - ends[0] < 10.0
     }
 
-    /// The same light with the continuous part as lines, so many to a nanometre: integrals then resolve fringes finer than the grid, which
+    /// This light with its continuous part as lines, `per_nm` per nanometre: integrals then resolve fringes finer than the grid, which
     /// films of more than some 10 µm have.
     #[must_use]
     pub fn as_lines(&self, lines_per_nm: usize) -> Self {

@@ -45,7 +45,7 @@ impl RgbSpace {
         self.from_xyz
     }
 
-    /// The matrix from this space's RGB to that of `other`.
+    /// The matrix from this space's RGB to the RGB of `other`.
     pub fn matrix_to(&self, other: &Self) -> DMat3 {
         other.from_xyz * self.to_xyz
     }

@@ -2,7 +2,7 @@
 //!
 //! Environments are RGB and the film is spectral, so a light (r, g, b), linear BT.709, stands for the spectrum
 //! L(λ) = S(λ) (r ρ_r(λ) + g ρ_g(λ) + b ρ_b(λ)), with S the scene's illuminant. It is linear in (r, g, b), so that what a film does to
-//! RGB light is exactly a 3×3 matrix. The idea is that of I. Mallett and C. Yuksel, "Spectral Primary Decomposition for Rendering with
+//! RGB light is exactly a 3×3 matrix. The idea is from I. Mallett and C. Yuksel, "Spectral Primary Decomposition for Rendering with
 //! sRGB Reflectance" (EGSR 2019).
 
 use std::sync::LazyLock;

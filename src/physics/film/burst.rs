@@ -39,14 +39,14 @@ pub fn rim_delay(radius_m: f64) -> f64 {
     radius_m * (1e-9 * DENSITY / (2.0 * SURFACE_TENSION)).sqrt()
 }
 
-/// Seconds from the first hole until a film nowhere thicker than so many nm is gone.
+/// Seconds from the first hole until a film nowhere thicker than `thickest_nm` is gone.
 #[must_use]
 pub fn burst_s(thickest_nm: f64, radius_m: f64) -> f64 {
     PI * rim_delay(radius_m) * thickest_nm.max(0.0).sqrt()
 }
 
 impl Hole {
-    /// The hole that has opened for so many seconds, in film of a thickness in nm on a sphere of a radius in m.
+    /// The hole a number of seconds after it opened, in film of a thickness in nm on a sphere of a radius in m.
     #[must_use]
     pub fn open(thickness_nm: impl Fn(DVec3) -> f64, middle: DVec3, seconds: f64, radius_m: f64) -> Self {
         let axes = meridian_axes(middle);

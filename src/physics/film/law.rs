@@ -71,7 +71,7 @@ impl FreeFlow {
 }
 
 impl FlowLaw {
-    /// The law as a velocity field; for a free film that of the air.
+    /// The law as a velocity field; for a free film, the velocity of the air.
     #[must_use]
     pub fn prescribed(self) -> PrescribedFlow {
         match self {
@@ -131,7 +131,7 @@ pub struct Split {
 }
 
 impl Split {
-    /// The division of a step of so many ticks of a length in seconds, under what a film feels, which was pushed so hard that it may shear and turn at
+    /// The parts of a step of a number of ticks, under the forces on a film that was pushed so hard that it may shear and turn at
     /// a rate in 1/s: see [`CORRECTED_TURN`].
     #[must_use]
     pub fn new(ticks: u32, tick_s: f64, felt: &FreeFlow, strain: f64) -> Self {

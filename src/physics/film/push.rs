@@ -56,7 +56,7 @@ impl Push {
         Self { rate: -(-self.rate * acting_s).exp_m1() / dt_s, ..*self }
     }
 
-    /// How fast a film that it has acted on for so many seconds shears and turns, 1/s: V over the length 1/√κ, as far as it has
+    /// How fast a film shears and turns after the push has acted for a number of seconds, 1/s: V over the length 1/√κ, as far as it has
     /// come. The largest vorticity of a film that was pushed from rest is 0.4 to 1 times this.
     #[must_use]
     pub fn strain(&self, acting_s: f64) -> f64 {
@@ -64,7 +64,7 @@ impl Push {
         along * self.sharpness.sqrt() * -(-self.rate * acting_s).exp_m1()
     }
 
-    /// Part of that which drag and viscosity leave after so many seconds: a vortex pair keeps its impulse in the plane but for drag, and
+    /// Fraction of the strain that drag and viscosity leave after a number of seconds: a vortex pair keeps its impulse in the plane but for drag, and
     /// spreads as heat does, from a width of 1/√κ to √(1/κ + 2νt).
     #[must_use]
     pub fn remaining_strain(&self, seconds: f64, forces: &FlowForces) -> f64 {
@@ -152,7 +152,7 @@ mod tests {
         solver.velocity().bicubic(push.center)
     }
 
-    /// The largest vorticity of a film that was pushed from rest for so many steps of 1/60 s, and went on for so many more.
+    /// The largest vorticity of a film that was pushed from rest for `pushed` steps of 1/60 s, and went on for `left_alone` more.
     fn vorticity_after(push: &Push, pushed: usize, left_alone: usize, forces: &FlowForces) -> f64 {
         let grid = CubedSphere::new(24).unwrap();
         let mut solver = FlowSolver::new(grid, |_| 0.0);

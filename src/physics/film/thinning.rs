@@ -55,7 +55,7 @@ pub fn thins_at_tick(
     while let Some((from, law)) = laws.next() {
         let end = laws.peek().map_or(f64::INFINITY, |(tick, _)| *tick as f64);
         let lasts_s = tick_s * (end - from as f64);
-        // Where nothing thins, the time is no number if nothing must.
+        // Where nothing thins, the time is NaN if the thickness need not change.
         let needs_s = if nm <= to_nm { 0.0 } else { law.seconds(nm, to_nm) };
         if needs_s.is_finite() && needs_s <= lasts_s {
             return Some(from as f64 + needs_s / tick_s);

@@ -201,7 +201,7 @@ impl FlowCase {
         SLOSH_AMPLITUDE * self.mode.values(p)[0] - self.stratification * p.z
     }
 
-    /// The mode that swings, decays or is solved for, at unit vector `x`: for sloshing that of vorticity.
+    /// The mode that swings, decays or is solved for, at unit vector `x`: for sloshing, the mode of vorticity.
     #[must_use]
     pub fn mode_at(&self, x: DVec3) -> f64 {
         self.mode.values(self.from_world * x)[usize::from(self.kind == FlowCaseKind::Sloshing)]

@@ -31,7 +31,7 @@ pub struct FlowForces {
     /// Drag that is the same everywhere, 1/s.
     pub drag: f64,
     /// Drag of air over the root of the speed, times the thickness: nm/√s. See [`AIR_DRAG`]; 0 for none. If it is not 0, ln h must be
-    /// that of the thickness in nm.
+    /// the logarithm of the thickness in nm.
     pub air_drag: f64,
     /// Kinematic viscosity over R², 1/s.
     pub viscosity: f64,

@@ -28,7 +28,7 @@ pub fn coarser(n: usize) -> Option<usize> {
 
 /// Weights of the sweeps that smooth a grid: Chebyshev over the part of the spectrum that coarser grids cannot see.
 pub fn sweep_weights(n: usize, order: Order, shift: Shift) -> [f64; SWEEPS] {
-    // Of the operator over its diagonal: the shortest waves, and those of four cells in the direction in which the metric is weakest.
+    // Of the operator over its diagonal: the shortest waves, and waves of four cells in the direction in which the metric is weakest.
     let (low, high) = match order {
         Order::Second => (0.3, 2.0),
         Order::Fourth => (0.3, 2.14),
@@ -65,7 +65,7 @@ pub fn coarsest_weights(n: usize, shift: Shift) -> Vec<f64> {
         let last = 2 * order.len() - 1;
         order = order.into_iter().flat_map(|k| [k, last - k]).collect();
     }
-    // The smallest eigenvalue is that of first-degree harmonics.
+    // First-degree harmonics have the smallest eigenvalue.
     chebyshev(scaled(2.0), scaled(2.0 * diagonal), count, order)
 }
 

@@ -70,7 +70,7 @@ fn place_of(grid: CubedSphere, cell: usize) -> usize {
     grid.padded_index(panel, i as isize, j as isize)
 }
 
-/// The values around a place of padded storage: `at(di, dj)` is that of the cell so many steps along i and j away.
+/// The values around a place of padded storage: `at(di, dj)` is the value of the cell di and dj steps away along i and j.
 fn around(field: &PaddedField<f64>, place: usize) -> impl Fn(isize, isize) -> f64 + '_ {
     let width = field.grid().padded_width() as isize;
     move |di, dj| field.padded()[place.wrapping_add_signed(dj * width + di)]

@@ -22,7 +22,7 @@ pub(super) fn points(rows: &[Row], column: usize) -> Vec<(f64, f64)> {
     rows.iter().map(|row| (row.wavelength_nm, row.values[column])).collect()
 }
 
-/// Rows of so many values, none negative, that cover what is needed.
+/// Rows with a number of values each, none negative, that cover the needed range.
 pub(super) fn values(
     file: &str,
     text: &str,
@@ -76,7 +76,7 @@ fn is_extinction(block: &Block) -> bool {
     block.heading.get(1).is_some_and(|name| name.eq_ignore_ascii_case("k"))
 }
 
-/// Checks that extinction coefficients, with their lines, are those of a clear film, and says that they are left out.
+/// Checks that extinction coefficients, with their lines, belong to a clear film, and notes that they are left out.
 fn leave_out(file: &str, table: &Table, k: &[(usize, f64)], notes: &mut Vec<String>) -> Result<(), SpectrumError> {
     let Some(&(line, k)) = k.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else { return Ok(()) };
     if k > MAX_EXTINCTION {
@@ -123,7 +123,7 @@ fn parse_field(file: &str, line: usize, text: &str) -> Result<f64, SpectrumError
     finite.ok_or_else(|| SpectrumError::NotFinite { file: file.into(), line, text: text.into(), hint: hint(text) })
 }
 
-/// The likeliest reason why a field is no number.
+/// The likeliest reason why a field is not a number.
 fn hint(text: &str) -> &'static str {
     let has_digit = text.contains(|c: char| c.is_ascii_digit());
     if text.is_empty() {

@@ -152,7 +152,7 @@ impl CubedSphere {
     }
 }
 
-/// The panel that a vector points through: that of its largest component.
+/// The panel that a vector points through, by its largest component.
 fn panel_of(v: DVec3) -> usize {
     let size = v.abs();
     let (pair, component) = if size.x >= size.y && size.x >= size.z {

@@ -33,7 +33,7 @@ impl<T: FieldValue> PaddedField<T> {
         field
     }
 
-    /// The field that samples a function of direction at the cell centers, those of the halo included: they are places on the sphere like
+    /// The field that samples a function of direction at the cell centers, halo included: they are places on the sphere like
     /// any other.
     pub fn sample(grid: CubedSphere, value: impl Fn(DVec3) -> T + Sync) -> Self {
         let values = (0..grid.padded_len()).into_par_iter().map(|index| value(grid.padded_direction(index))).collect();
@@ -53,7 +53,7 @@ impl<T: FieldValue> PaddedField<T> {
     }
 
     /// The field whose value at each place of padded storage that is at least `margin` cells from a panel's outer edge is `value(place)`;
-    /// elsewhere it is zero. A function that reads so many cells around a place stays within storage.
+    /// elsewhere it is zero. A function that reads this many cells around a place stays within storage.
     pub fn from_places(grid: CubedSphere, margin: usize, value: impl Fn(usize) -> T + Sync) -> Self {
         let width = grid.padded_width();
         let inside = |k: usize| (margin..width - margin).contains(&k);

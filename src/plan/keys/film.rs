@@ -135,7 +135,7 @@ impl FieldKey {
         self.path.mean_acceleration(from_ticks * self.tick_s, to_ticks * self.tick_s)
     }
 
-    /// Angle between neighbouring cells, in radians; that of the coarsest grid for a size that no grid has.
+    /// Angle between neighbouring cells, in radians; for a size that no grid has, the angle of the coarsest grid.
     #[must_use]
     pub fn cell_angle(&self) -> f64 {
         CubedSphere::new(self.cells as usize).map_or(std::f64::consts::FRAC_PI_2 / 8.0, CubedSphere::cell_angle)

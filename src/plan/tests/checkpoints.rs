@@ -59,7 +59,7 @@ fn going_back_costs_about_as_many_steps_as_going_as_far_forward() {
             worst = worst.max(steps as f64 / (back as f64 + 60.0));
         }
     }
-    eprintln!("measured: steps of going back over those of going forward {worst:.2}");
+    eprintln!("measured: steps backward over steps forward {worst:.2}");
     assert!(worst <= 3.0, "{worst}");
 }
 

@@ -4,7 +4,7 @@ use cpu_time::ThreadTime;
 
 use super::*;
 
-/// The text of a scene with so many events of all kinds that fit its boundary, so close together that bubbles live between their pricks.
+/// The text of a scene with a number of events of all kinds that fit its boundary, spaced so that bubbles live between pricks.
 fn text(boundary: &str, count: usize) -> String {
     let mut text = format!("version = 1\n[motion]\nevaporation_nm_s = 5\n[[bubble]]\nboundary = {boundary:?}\n");
     for index in 0..count {
@@ -20,7 +20,7 @@ fn text(boundary: &str, count: usize) -> String {
     text
 }
 
-/// CPU time of loading and planning a picture after so many events, s: the least of some runs, which nothing has disturbed.
+/// CPU time of loading and planning a picture after a number of events, s: the minimum of some runs, as the least disturbed.
 fn seconds(boundary: &str, count: usize) -> f64 {
     let text = text(boundary, count);
     let run = || {

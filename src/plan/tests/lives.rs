@@ -14,7 +14,7 @@ fn age(scene: &Scene, index: usize, moment: Moment) -> Option<Age> {
     Story::new(scene.clone()).age(index, moment)
 }
 
-/// When the first bubble of a scene ends, and where, had it been blown at tick 0 after so many others.
+/// When and where the first bubble of a scene ends, had it been blown at tick 0 as number `generation`.
 fn end_of(scene: &Scene, generation: u32) -> Option<(u64, Option<DVec3>)> {
     Story::new(scene.clone()).life_cycle(0).unwrap().end_of(0, generation)
 }

@@ -109,7 +109,7 @@ pub fn collapse(
 fn means(tracer: &PaddedField<f64>, limit: f64, halo: &HaloTable) -> PaddedField<f64> {
     let (grid, width) = (tracer.grid(), tracer.grid().padded_width());
     let is_inside = |column: usize| (HALO..width - HALO).contains(&column);
-    // Along rows, those of the halo included, then along columns.
+    // Along rows, including rows of the halo, then along columns.
     let along_row = |place: usize| {
         if is_inside(place % width) { mean_along(tracer.padded(), place, 1, limit) } else { 0.0 }
     };

@@ -78,7 +78,7 @@ pub fn diffuse(field: PaddedField<f64>, plan: &DiffusionPlan, ticks: u32, halo: 
     })
 }
 
-/// One stage from the two before it, where so many cells around each place are known.
+/// One stage from the two before it, where a number of cells around each place are known.
 fn staged(before: &PaddedField<f64>, earlier: &PaddedField<f64>, stage: u32, spread: f64) -> PaddedField<f64> {
     let [of_before, of_earlier, of_laplacian] = stage_factors(stage);
     let angle2 = before.grid().cell_angle().powi(2);

@@ -9,7 +9,7 @@
 //!
 //! which is followed back for the ticks since the last remap, by the midpoint of the way. Black film does not drain, and neither does what
 //! is in the drop. Thin patches take the place of film at a rim (see [`Regeneration`](super::super::Regeneration)): with w a patch's thickness over
-//! that of the film around and s a smooth step from its middle outwards
+//! the thickness of the film around and s a smooth step from its middle outwards
 //!
 //! ```text
 //! h ← h Π (1 − s (1 − w))                                                                            (D2)
@@ -26,7 +26,7 @@ pub const REGENERATION_S: f64 = 0.1;
 /// Angle from the lowest point of a film within which what drains is in the drop, where nothing else says how large that is, radians: 5°.
 pub const DROP_RAD: f64 = 0.0873;
 
-/// The most ticks between two remaps of a film that drains, or regenerates, and that other reasons remap after so many ticks.
+/// The maximum number of ticks between two remaps of a film that drains, or regenerates, and that other reasons remap after `remap_ticks`.
 #[must_use]
 pub fn latest_ticks(regenerates: bool, remap_ticks: u32, tick_s: f64) -> f64 {
     let max_ticks = if regenerates { REGENERATION_S / tick_s } else { f64::from(remap_ticks) };

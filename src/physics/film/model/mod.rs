@@ -251,7 +251,7 @@ impl Film {
         self.shown(self.map.as_ref())
     }
 
-    /// The same a part of a step later, in the law that drives the film from a time in seconds on for so many seconds.
+    /// This thickness a fraction of a step later, in the law that drives the film from a time in seconds on for a number of seconds.
     #[must_use]
     pub fn thickness_ahead_nm(&self, law: FlowLaw, from_s: f64, dt_s: f64) -> Vec<f64> {
         let step = match law {
