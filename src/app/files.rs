@@ -184,8 +184,9 @@ fn moved(mut scene: Scene, from: &Path, to: &Path) -> Result<Scene, String> {
     for path in scene.paths_mut().filter(|path| Path::new(path).is_relative()) {
         let whole = from.join(&*path);
         let named = whole.strip_prefix(&to).unwrap_or(&whole).to_str();
-        *path =
-            named.ok_or_else(|| format!("{}: no scene can name it, for it is not UTF-8", whole.display()))?.to_owned();
+        *path = named
+            .ok_or_else(|| format!("{}: its name is not UTF-8, so that no scene can name it", whole.display()))?
+            .to_owned();
     }
     Ok(scene)
 }

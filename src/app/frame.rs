@@ -254,12 +254,12 @@ impl View {
         // A loss is told by a callback, which comes when the device is polled.
         let _ = self.stage.renderer.gpu.device.poll(wgpu::PollType::Poll);
         if self.stage.renderer.gpu.is_lost() {
-            log::warn!("making everything on the graphics device anew");
+            log::warn!("recreating everything on the graphics device");
             self.captures.clear();
             let instance = self.stage.renderer.gpu.instance.clone();
             self.stage = Stage::new(instance, &self.choice, &self.window, self.egui.egui_ctx())?;
             self.exposed = true;
-            model.messages.note("The graphics device was lost and has been opened again");
+            model.messages.note("The graphics device was lost and has been reopened");
         }
         if let Err(error) = self.stage.renderer.gpu.check() {
             model.messages.problem(error.to_string());
@@ -278,7 +278,7 @@ impl View {
             Ok(()) => {
                 renderer.forget_picture();
                 model.messages.withdraw("shader ");
-                model.messages.note("Shaders read again");
+                model.messages.note("Shaders reloaded");
             }
             Err(error) => model.messages.problem(error.to_string()),
         }

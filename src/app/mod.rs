@@ -43,7 +43,7 @@ pub enum AppError {
     #[error("no window can be opened here ({}); `soapfilm render` draws without one", without_place(.0))]
     EventLoop(winit::error::EventLoopError),
     /// The system refuses a window.
-    #[error("the system refuses a window: {}", without_place(.0))]
+    #[error("the system refused to open a window: {}", without_place(.0))]
     Window(winit::error::OsError),
     /// The adapter cannot draw into the window.
     #[error("the graphics driver cannot draw into a window: {0}; choose another with --adapter or --backend")]

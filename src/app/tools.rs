@@ -27,8 +27,12 @@ impl Tool {
     /// All tools, each with its name and what it does, in the order of the keys 1 to 5.
     pub const ALL: [(Self, &str, &str); 5] = [
         (Self::Orbit, "Orbit", "Drag to turn around the bubble (1)"),
-        (Self::Stir, "Stir", "Drag over a film to take it along (2)"),
-        (Self::Blow, "Blow", "Hold to blow along the line of sight; obliquely at the rim it moves the film most (3)"),
+        (Self::Stir, "Stir", "Drag over a film to stir it (2)"),
+        (
+            Self::Blow,
+            "Blow",
+            "Hold to blow along the line of sight; near the outline, where the jet is oblique, it moves the film most (3)",
+        ),
         (Self::Drag, "Move", "Drag a bubble: its film stays behind (4)"),
         (Self::Prick, "Prick", "Click to burst a bubble there (5)"),
     ];

@@ -16,26 +16,26 @@ use crate::{
     physics::flow::{FlowCase, FlowCaseKind, Mode},
 };
 
-/// Run a test of the flow solver against its exact solution on the unit sphere.
+/// Run a test of the flow solver against an exact solution on the unit sphere.
 #[derive(Args)]
 #[command(after_help = "Example:\n  soapfilm flow --case rossby-haurwitz --cells 64 --steps 80 --json norms.json")]
 pub struct Arguments {
-    /// Which flow
+    /// The test case
     #[arg(long, value_name = "rossby-haurwitz|stationary|sloshing|decay|poisson")]
     case: FlowCaseKind,
     /// Cells along an edge of the cube
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=512))]
     cells: u32,
-    /// Steps that make one wavelength, turn, period or e-folding
+    /// Steps per wavelength, turn, period or e-folding
     #[arg(long, value_name = "M", default_value_t = 80, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
     steps: u32,
-    /// Wavelengths, turns, periods or e-foldings
+    /// Number of wavelengths, turns, periods or e-foldings
     #[arg(long, value_name = "R", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4_000))]
     repeat: u32,
     /// Degree of the harmonic of sloshing, decay and poisson [default: 1 for sloshing, else 5]
     #[arg(long, value_name = "L")]
     degree: Option<u32>,
-    /// Its order [default: 1 for sloshing, else 4, or the degree if that is less]
+    /// Order of this harmonic [default: 1 for sloshing, else 4, or the degree if it is smaller]
     #[arg(long, value_name = "m")]
     order: Option<u32>,
     /// Axis of the flow; of gravity in sloshing, upwards
@@ -44,10 +44,10 @@ pub struct Arguments {
     /// ω, the solid rotation of rossby-haurwitz and stationary
     #[arg(long, value_name = "W", default_value_t = 1.0, value_parser = parse::within(LARGEST), allow_hyphen_values = true)]
     omega: f64,
-    /// K, the strength of the wave, or of the jet's P₃ [default: 1 for rossby-haurwitz, 0.1 for stationary]
+    /// K, the strength of the wave, or of the P₃ of the jet [default: 1 for rossby-haurwitz, 0.1 for stationary]
     #[arg(long, value_name = "K", value_parser = parse::within(LARGEST), allow_hyphen_values = true)]
     k: Option<f64>,
-    /// a of ln h = -a z in sloshing; negative is upside down, and grows
+    /// a of ln h = -a z in sloshing; negative: upside down and unstable
     #[arg(long, value_name = "A", default_value_t = 1.0, value_parser = parse::within(-20.0..=20.0), allow_hyphen_values = true)]
     stratification: f64,
     /// Drag of the air in sloshing, 1/s

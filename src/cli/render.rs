@@ -26,19 +26,19 @@ pub struct Arguments {
     /// The file to write, .png or .exr
     #[arg(short, value_name = "FILE")]
     output: PathBuf,
-    /// Moment of the film, in seconds from its start
+    /// Time of the film, in seconds from its start
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = parse::time_s)]
     time: f64,
     /// Print the frame plan, and why each pass runs
     #[arg(long)]
     explain: bool,
-    /// Draw the frame N times more, everything but the bakes anew each time, and measure
+    /// Draw the frame N more times, each time anew except for baked tables, and measure it
     #[arg(long, value_name = "N", default_value_t = 0)]
     repeat: u32,
-    /// Between the repeated frames, draw as many with a plain sphere that does one environment lookup, and report both
+    /// Between the repeated frames, draw as many frames of a plain mirror sphere with one environment lookup, and report both
     #[arg(long)]
     yardstick: bool,
-    /// Write what the frame cost to a JSON file
+    /// Write the cost of the frame to a JSON file
     #[arg(long, value_name = "FILE.json")]
     stats: Option<PathBuf>,
     #[command(flatten)]
@@ -61,7 +61,7 @@ fn draw(arguments: &Arguments, painter: &mut Painter<'_>, request: &FrameRequest
     let measures = arguments.repeat > 0 || arguments.stats.is_some();
     let is_reference = arguments.picture.is_reference();
     if is_reference && (arguments.explain || measures) {
-        bail!("--explain, --repeat and --stats tell of the GPU; leave them out with --quality reference");
+        bail!("--explain, --repeat and --stats report on the GPU; leave them out with --quality reference");
     }
     painter.prepare(request)?;
     let progress = Progress::new("render", 1);

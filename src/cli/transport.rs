@@ -43,34 +43,34 @@ pub struct Arguments {
     /// Cells along an edge of the cube
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=1024))]
     cells: u32,
-    /// Steps a period
+    /// Steps per period
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     steps: u32,
-    /// Periods
+    /// Number of periods
     #[arg(long, value_name = "P", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     periods: u32,
-    /// Stop after this part of all steps
+    /// Stop after this fraction of the steps
     #[arg(long, value_name = "F", default_value = "1", value_parser = fraction)]
     until: f64,
     /// Axis of the wind [default: 1,0,0 for sb, 0,0,1 for nd and dv]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::direction, allow_hyphen_values = true)]
     axis: Option<DVec3>,
-    /// Put one feature of the tracer there
+    /// Direction of one feature of the tracer
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::direction, allow_hyphen_values = true)]
     tracer_at: Option<DVec3>,
-    /// What the tracer stands for: `density` or `ratio`; they differ in the divergent wind
+    /// Meaning of the tracer: `density` or `ratio`; they differ in the divergent wind
     #[arg(long, value_name = "density|ratio", default_value = "density")]
     kind: Quantity,
-    /// How the tracer is moved: the flow map remapped rarely, the same with a finer tracer, or at each step
+    /// Transport scheme: the flow map, remapped rarely; the flow map with a finer tracer; or remapping at each step
     #[arg(long, value_name = "bilinear|bicubic|bfecc|map|map-accurate", default_value = "map")]
     scheme: Scheme,
     /// Cells that a cell of the map spans along each side
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     map_coarsening: u32,
-    /// Limiter of over- and undershoots
+    /// Limiter of overshoots and undershoots
     #[arg(long, value_name = "on|off", default_value = "off")]
     limiter: Switch,
-    /// Write every cell to a CSV file
+    /// Write all cells to a CSV file
     #[arg(short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     /// Write a map of the tracer, longitude by latitude, black for 0 and white for 1

@@ -53,7 +53,7 @@ pub enum LoadError {
 #[derive(Debug, Error)]
 pub enum InputError {
     /// There is nothing of that name.
-    #[error("there is no file {}: check its name and folder", path.display())]
+    #[error("file {} does not exist: check its name and folder", path.display())]
     NotFound {
         /// The file asked for.
         path: PathBuf,
@@ -139,7 +139,7 @@ pub enum InputError {
         height: usize,
     },
     /// Too few pixels to be the whole sphere.
-    #[error("{} has only {width}x{height} pixels: an environment needs 2x1 at least", path.display())]
+    #[error("{} has only {width}x{height} pixels: an environment needs at least 2x1", path.display())]
     TooSmall {
         /// The file.
         path: PathBuf,

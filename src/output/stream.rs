@@ -9,7 +9,7 @@ use std::{
 #[derive(Debug, thiserror::Error)]
 pub enum StreamError {
     /// Its reader has stopped, as `head` does: the rest is not needed, and nothing is wrong.
-    #[error("nobody reads the output any more")]
+    #[error("the reader of the output has stopped")]
     Closed,
     /// It cannot be written: a full disk behind it, say.
     #[error("cannot write to standard output: {0}")]

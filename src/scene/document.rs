@@ -132,8 +132,8 @@ fn type_error(source: &SceneSource, error: &Error) -> Located {
 fn plain_words(message: &str) -> String {
     const WORDS: [(&str, &str); 9] = [
         ("expected f64", "expected a number"),
-        ("expected u64", "expected a whole number from 0 on"),
-        ("expected u32", "expected a whole number from 0 on"),
+        ("expected u64", "expected a whole number, 0 or more"),
+        ("expected u32", "expected a whole number, 0 or more"),
         ("wanted string or table", "expected a word in quotes"),
         ("expected a sequence", "expected a list"),
         ("expected struct", "expected the table"),

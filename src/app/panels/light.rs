@@ -76,7 +76,7 @@ fn environment(ui: &mut Ui, model: &mut Model) {
 fn illuminant(ui: &mut Ui, model: &mut Model) {
     let light = &model.scene.light;
     let mut chosen: Option<&str> = None;
-    row(ui, "Illuminant", "The spectrum that white light has", |ui| {
+    row(ui, "Illuminant", "The spectrum of white light", |ui| {
         let list = egui::ComboBox::from_id_salt("illuminant").selected_text(light.illuminant.as_str());
         list.show_ui(ui, |ui| {
             for BuiltIn { name, help, .. } in BUILT_IN {

@@ -122,7 +122,7 @@ pub fn seed(ui: &mut Ui, key: &Key, value: &mut u64) -> bool {
         let label = named(ui, key.label);
         let number = egui::DragValue::new(value).speed(0.1);
         let number = ui.add(number).labelled_by(label.id).on_hover_text(tooltip(key.help));
-        let button = ui.button(format!("New {}", key.label.to_lowercase())).on_hover_text("Draws another seed");
+        let button = ui.button(format!("New {}", key.label.to_lowercase())).on_hover_text("Picks another random seed");
         if button.clicked() {
             *value = crate::app::edit::new_seed();
         }

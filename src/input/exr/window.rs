@@ -22,7 +22,7 @@ pub(super) struct Placement {
 }
 
 impl Placement {
-    /// Refuses pictures that are no environments, and pictures with an empty data window.
+    /// Refuses pictures that are no environments, and pictures whose data window is outside of the display window.
     pub fn of(path: &Path, header: &Header) -> Result<Self, InputError> {
         let (data, display) = (header.data_window(), header.shared_attributes.display_window);
         let (Vec2(width, height), Vec2(stored_width, stored_height)) = (display.size, data.size);

@@ -24,7 +24,7 @@ pub enum UnknownIlluminant {
     #[error("unknown illuminant `{0}`; known are {known}, a black body like `3000 K`, or a file like `lamp.csv`", known = BuiltIn::names())]
     Name(String),
     /// A black body too cold or too hot.
-    #[error("a black body of {0} K is no lamp here; name one from 800 K to 100000 K")]
+    #[error("a black body of {0} K is out of range; use 800 K to 100000 K")]
     Temperature(f64),
 }
 

@@ -12,12 +12,12 @@ use crate::words::words;
 words! {
     /// What moves a film.
     pub enum Flow: "flow" {
-        Free = "free", "Gravity and the air, as in a real film: what is thin rises, what is thick sinks";
+        Free = "free", "Gravity and the air, as in a real film: thin film rises, thick film sinks";
         Rest = "rest", "Nothing moves the film";
         Sloshing = "sloshing", "The film swings as a whole about its rest state";
         Draught = "draught", "Slow, large gusts of the air around the bubble";
         Stirred = "stirred", "Many turning vortices, as after a stir";
-        Jets = "jets", "Bands that turn about the vertical against one another, as the clouds of Jupiter";
+        Jets = "jets", "Bands that turn about the vertical in opposite directions, like the clouds of Jupiter";
     }
 }
 

@@ -12,7 +12,9 @@ use crate::words::words;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FlowCaseError {
     /// A degree and order that no harmonic has, or none that moves.
-    #[error("no such mode as degree {degree}, order {order}: use degrees 1 to 32 and orders {lowest} to the degree")]
+    #[error(
+        "there is no mode of degree {degree} and order {order}: use degrees 1 to 32 and orders {lowest} to the degree"
+    )]
     Mode {
         /// The degree asked for.
         degree: u32,

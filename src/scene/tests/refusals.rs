@@ -121,7 +121,7 @@ fn values_have_their_type() {
         ),
         (
             "[motion]\nseed = -1",
-            "3: `seed` in [motion] is wrong: invalid value: integer `-1`, expected a whole number from 0 on",
+            "3: `seed` in [motion] is wrong: invalid value: integer `-1`, expected a whole number, 0 or more",
         ),
         ("[motion]\nflow = 3", "3: `flow` in [motion] is wrong: expected a word in quotes"),
         ("[camera]\ntarget_m = [\n0, 0]", "3: `target_m` in [camera] is a list of 2; it must hold 3 numbers"),
@@ -147,7 +147,7 @@ fn values_have_their_type() {
         ),
         (
             "[[event]]\nkind = \"motion\"\ntick = 0.5",
-            "4: `tick` in [[event]] is wrong: invalid type: floating point `0.5`, expected a whole number from 0 on",
+            "4: `tick` in [[event]] is wrong: invalid type: floating point `0.5`, expected a whole number, 0 or more",
         ),
         (
             "[[event]]\nkind = \"dance\"",
@@ -202,15 +202,15 @@ fn films_end_where_they_can() {
         ),
         (
             "[[bubble]]\nboundary = \"ring\"\n[motion]\nspin_deg_s = [1, 0, 0]",
-            "5: `spin_deg_s` in [motion] turns films that have a rim over; only a turn about the vertical, [0, 0, z], leaves it in place",
+            "5: `spin_deg_s` in [motion] turns over films that have a rim; only a turn about the vertical, [0, 0, z], leaves the rim in place",
         ),
         (
             "[[bubble]]\nboundary = \"bath\"\n[motion]\nflow = \"stirred\"",
-            "5: `flow` in [motion] would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone",
+            "5: `flow` in [motion] would carry film across a rim; films with a rim move only by `\"free\"` or `\"rest\"`",
         ),
         (
             "[[bubble]]\nboundary = \"bath\"\n[[event]]\ntick = 3\nkind = \"motion\"\nflow = \"stirred\"",
-            "7: `flow` in [[event]] would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone",
+            "7: `flow` in [[event]] would carry film across a rim; films with a rim move only by `\"free\"` or `\"rest\"`",
         ),
         (
             "[[bubble]]\nboundary = \"bath\"\n[[event]]\nkind = \"drag\"\nto_m = [0, 0, 1]",
