@@ -177,9 +177,9 @@ mod tests {
             ("360,1\n360,1\n780,1", "lamp.csv, line 2: 360 nm follows 360 nm"),
             ("360,1\n780,1,1", "lamp.csv, line 2: 3 column(s) instead of 2"),
             ("360\n780", "lamp.csv, line 1: 1 column(s) instead of 2"),
-            ("390,1\n780,1", "lamp.csv: covers 390 to 780 nm, needed are 380 to 780 nm"),
-            ("360,1\n730,1", "lamp.csv: covers 360 to 730 nm, needed are 380 to 780 nm"),
-            ("nm,power\n", "lamp.csv: holds no data"),
+            ("390,1\n780,1", "lamp.csv: covers 390 to 780 nm, but must cover 380 to 780 nm"),
+            ("360,1\n730,1", "lamp.csv: covers 360 to 730 nm, but must cover 380 to 780 nm"),
+            ("nm,power\n", "lamp.csv: has no data"),
             ("360,0\n780,0", "lamp.csv: has no usable power"),
             ("360,1e300\n780,1e300", "lamp.csv: has no usable power"),
         ];

@@ -67,7 +67,7 @@ section! {
     skin_nm: f64 = 0.0, [0.0 ..= 5.0], "Skins", " nm", "thickness of the layer of soap molecules (n = 1.45) on each face, nm; soap has about 2";
     seed: u64 = 1, [whole], "Film seed", "", "random seed of the patches of a `\"blown\"` film";
     cells: u32 = 256, [16 ..= 1024], "Cells", "", "cells of the film along an edge of a panel of the cubed sphere";
-    detail: Detail = Detail::Auto, [word], "Detail", "", "resolution that the film and its flow use; decided once, when the scene is loaded: zooming does not change the film";
+    detail: Detail = Detail::Auto, [word], "Detail", "", "resolution that the film and its flow use; decided once, when a window opens the scene: zooming does not change the film";
 }
 
 impl Film {

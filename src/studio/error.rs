@@ -47,7 +47,7 @@ pub enum Error {
         ticks: u64,
     },
     /// The scene has fewer bubbles.
-    #[error("there is no bubble {index}: the scene has {count} bubbles, counted from 0")]
+    #[error("there is no bubble {index}: the scene has {count}, counted from 0")]
     NoBubble {
         /// The bubble asked for.
         index: usize,

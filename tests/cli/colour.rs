@@ -135,7 +135,7 @@ fn broken_spectra_are_refused_by_file_and_line() {
         ("short.csv", "400,1\n700,1\n", "short.csv: covers 400 to 700 nm"),
         ("zero.csv", "360,0\n780,0\n", "zero.csv: has no usable power"),
         ("ultraviolet.csv", "360,1\n366,0\n780,0\n", "ultraviolet.csv: cannot be seen"),
-        ("empty.csv", "", "empty.csv: holds no data"),
+        ("empty.csv", "", "empty.csv: has no data"),
     ] {
         desk.write(file, text);
         let line = desk.refused(&format!("colour --thickness 300 --cos 1 --illuminant {file}"));

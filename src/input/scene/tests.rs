@@ -26,12 +26,12 @@ fn what_a_scene_names_is_refused_by_line_and_key() {
         ("[light]\nilluminant = \"5 K\"", "s.toml:3: `illuminant` in [light] cannot be used: a black body of 5 K"),
         (
             "[light]\n\nilluminant = \"no.csv\"",
-            "s.toml:4: `illuminant` in [light] cannot be used: there is no file no.csv",
+            "s.toml:4: `illuminant` in [light] cannot be used: file no.csv does not exist",
         ),
         ("[light]\nilluminant = \"words.csv\"", "s.toml:3: `illuminant` in [light] cannot be used: words.csv"),
         (
             "[light]\nenvironment = \"no.exr\"",
-            "s.toml:3: `environment` in [light] cannot be used: there is no file no.exr",
+            "s.toml:3: `environment` in [light] cannot be used: file no.exr does not exist",
         ),
         (
             "[light]\nenvironment = \"text.hdr\"",
@@ -105,7 +105,7 @@ fn a_preset_that_is_mistyped_has_a_neighbour() {
             .starts_with("no scene file or preset is named `windws`; did you mean `windows`? presets: default, ")
     );
     assert!(told("qqqq").starts_with("no scene file or preset is named `qqqq`; presets: default, "));
-    assert!(told("no/such").starts_with("there is no file no/such"));
+    assert!(told("no/such").starts_with("file no/such does not exist"));
 }
 
 #[cfg(unix)]

@@ -312,7 +312,7 @@ mod tests {
         for (text, told) in [
             ("300,1,3533\n800,1,3247\n", "line 1: an extinction coefficient k of 3533"),
             ("300,1,3533\n800,1,3247\n", "if those are the decimal marks, use semicolons"),
-            ("300,1.35,0.2\n800,1.3,0.2\n", "an extinction coefficient k of 0.2 is no clear film's"),
+            ("300,1.35,0.2\n800,1.3,0.2\n", "an extinction coefficient k of 0.2 is too large for a clear film"),
             (
                 "wl,n\n0.3,1.35\n0.8,1.25\n\nwl,n\n0.3,1.3\n0.8,1.2\n",
                 "line 5: a second block begins here, under `wl,n`",
@@ -322,7 +322,7 @@ mod tests {
             ("300,1.353\n400 nm,1.3\n800,1.35\n", "line 2: `400 nm` is not a finite number"),
             ("300,1.353\nend,1.3\n800,1.35\n", "line 2: `end` is not a finite number; words belong"),
             ("300,1.353\n400,\n800,1.35\n", "line 2: 1 column(s) instead of 2"),
-            ("0.4,1.35\n0.7,1.35\n", "covers 400 to 700 nm, needed are 380 to 780 nm; add the missing end"),
+            ("0.4,1.35\n0.7,1.35\n", "covers 400 to 700 nm, but must cover 380 to 780 nm; add the missing end"),
             ("1.6,1.35\n3.2,1.35\n", "write wavelengths in nanometres or micrometres"),
         ] {
             let message = index(text).expect_err(text);

@@ -30,7 +30,7 @@ fn assert_refused(cases: &[Case]) {
 
 #[test]
 fn version_is_required_and_known() {
-    let unknown = |found: &str| format!("version {found} cannot be read here; this program reads `version = 1`");
+    let unknown = |found: &str| format!("version {found} is not supported; this program reads `version = 1`");
     assert_eq!(refusal(""), "s.toml:1: no version; add `version = 1` at the top");
     assert_eq!(refusal("\nversion = 2\nnew_in_2 = 1"), format!("s.toml:2: {}", unknown("2")));
     assert_eq!(refusal("version = \"1\""), format!("s.toml:1: {}", unknown("\"1\"")));

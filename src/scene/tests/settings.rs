@@ -67,7 +67,7 @@ fn the_one_at_fault_is_named_and_not_a_line() {
             "camera={fov_y_deg = 'x', azimuth_deg = 3}",
             "`fov_y_deg` in [camera] is wrong: invalid type: string \"x\", expected a number",
         ),
-        ("version=2", "version 2 cannot be read here; this program reads `version = 1`"),
+        ("version=2", "version 2 is not supported; this program reads `version = 1`"),
         (
             "motion.flow=windy",
             "`flow` in [motion] is wrong: unknown word `windy`, expected one of `free`, `rest`, `sloshing`, `draught`, `stirred`, `jets`",
