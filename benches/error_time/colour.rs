@@ -115,7 +115,7 @@ struct Place {
     errors: [f64; 2],
 }
 
-/// Where a front bends most: farthest below the straight line between its ends, both axes as logarithms. Nothing for fewer than three.
+/// Where a front bends most: farthest below the straight line between its ends, both axes as logarithms. `None` for fewer than three.
 fn knee(front: &[Place], error: impl Fn(&Place) -> f64) -> Option<usize> {
     let (first, last) = (front.first()?, front.last()?);
     let slope = (error(last) / error(first)).ln() / (last.ns / first.ns).ln();

@@ -17,7 +17,7 @@ const HOUR_TICKS: u64 = 216_000;
 const EVENTS: u64 = 20_000;
 /// Frames planned for one number, each a tick after the one before.
 const FRAMES: u64 = 500;
-/// The same where it only shows whether the benchmark works.
+/// Number of runs where it only shows whether the benchmark works.
 const SMOKE_FRAMES: u64 = 20;
 /// Number of runs; the fastest counts, as the least disturbed.
 const RUNS: usize = 5;

@@ -23,7 +23,7 @@ use crate::{
 const TARGET_L2: f64 = 0.01;
 /// Periods of the wind.
 const PERIODS: u32 = 8;
-/// Steps a period, and cells along a cube's edge, of which each scheme takes as many as it needs to pass the target: numbers that leave few
+/// Steps per period, and cells along a cube's edge, of which each scheme takes as many as it needs to pass the target: numbers that leave few
 /// invocations of a workgroup idle, and that maps as coarse as below divide.
 const STEPS: [u32; 4] = [4, 15, 30, 60];
 const CELLS: [usize; 11] = [32, 36, 40, 48, 60, 72, 88, 120, 152, 184, 240];

@@ -26,7 +26,7 @@ fn upward(direction: vec3f) -> vec3f {
     return vec3f(direction.xy, abs(direction.z));
 }
 
-// Height that water climbs at a wall, sqrt(2 gamma / (rho g)), m, and what is left of light that passes its foot.
+// Height that water climbs at a wall, sqrt(2 gamma / (rho g)), m, and the fraction of light that remains after passing its foot.
 const MENISCUS_M: f32 = 0.00226;
 const MENISCUS_LEFT: f32 = 0.2;
 

@@ -13,7 +13,7 @@ struct Diffuse {
     stage: u32,
     // Squared cell angles that liquid spreads over in a tick and in this part of the step, times the stages' weight.
     rate: f32,
-    // The same in any one part at most.
+    // Maximum in any one part.
     max_spread: f32,
     // Factors of the stage before and of that before it.
     before: f32,

@@ -74,7 +74,7 @@ impl Clock {
         self.tick as f64 * motion.tick_s
     }
 
-    /// Wall time until there is another moment to show, s; nothing while the clock stands.
+    /// Wall time until there is another moment to show, s; `None` while the clock is paused.
     #[must_use]
     pub fn until_next_s(&self, motion: &Motion) -> Option<f64> {
         let tick_s = (1.0 - self.fraction) * motion.tick_s / motion.speed;

@@ -21,7 +21,7 @@ pub struct Message {
     pub text: String,
     /// How serious it is.
     pub kind: Kind,
-    /// When it goes, in seconds of the window's clock; nothing until it was first shown.
+    /// When it disappears, in seconds of the window's clock; `None` until it was first shown.
     until_s: Option<f64>,
 }
 

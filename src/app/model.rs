@@ -35,7 +35,7 @@ pub enum Target {
 }
 
 impl Target {
-    /// Name of the kind of file, and its endings, the usual one first.
+    /// Name of the kind of file, and its endings, the default first.
     #[must_use]
     pub fn file_type(self) -> (&'static str, &'static [&'static str]) {
         match self {

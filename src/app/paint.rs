@@ -1,4 +1,4 @@
-//! Puts picture and user interface on the window, and only where they differ from what is there.
+//! Draws picture and user interface into the window, and only where they have changed.
 
 use egui::epaint::ClippedShape;
 use egui::{ClippedPrimitive, Color32, Context, Rect, Shape, TextureId, pos2};

@@ -40,7 +40,7 @@ impl Tool {
 
 /// Shortest time between two events of a stir or a jet, s.
 const STROKE_S: f64 = 0.1;
-/// The same of a drag, whose bubble is to keep up with the pointer.
+/// Shortest time between two events of a drag, s: the bubble must keep up with the pointer.
 const PULL_S: f64 = 0.05;
 /// Longest duration of a stroke, s: film time that passes while nothing is drawn belongs to none.
 const LONGEST_STROKE_S: f64 = 0.5;
@@ -179,7 +179,7 @@ impl Grip {
     }
 }
 
-/// A stir from one place to another, where an angle is a speed in m/s; nothing for a pointer that stands.
+/// A stir from one place to another, where an angle is a speed in m/s; `None` for a pointer at rest.
 fn stroke(bubble: usize, before: DVec3, now: DVec3, speed: f64, ticks: u64) -> Option<Change> {
     let middle = (before + now).try_normalize()?;
     let velocity = speed * (now - before);

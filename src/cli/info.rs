@@ -50,7 +50,7 @@ fn for_people(report: &Value) -> String {
         lines.push(format!("feature    {}: {used}", text(&feature["name"])));
     }
     let limit = |name: &str| report["limits"][name].as_u64().unwrap_or(0);
-    lines.push(format!("textures   up to {} pixels a side", limit("max_texture_dimension_2d")));
+    lines.push(format!("textures   up to {} pixels per side", limit("max_texture_dimension_2d")));
     lines.push(format!("buffers    up to {}", bytes(limit("max_buffer_size"))));
     lines.push(format!("bindings   of storage up to {}", bytes(limit("max_storage_buffer_binding_size"))));
     lines.join("\n") + "\n"

@@ -32,7 +32,7 @@ pub fn passes(renderer: &Renderer) -> FirstFrame {
     }
 }
 
-/// Medians over repeated frames, in milliseconds; nothing without repeats.
+/// Medians over repeated frames, in milliseconds; `None` without repeats.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cost {
     cpu_ms: Option<f64>,

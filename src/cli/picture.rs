@@ -28,7 +28,8 @@ pub struct PictureArguments {
     /// Width and height in pixels
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse::size, allow_hyphen_values = true)]
     size: [u32; 2],
-    /// `fast`, `standard`, `spectral` (wavelengths in the shader) or `reference` (f64 on the CPU; only a film that moves by itself needs a GPU) [default: the scene's]
+    /// `fast`, `standard`, `spectral` (wavelengths in the shader) or `reference` (f64 on the CPU; only a film that moves by itself needs a GPU)
+    /// [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = parse::quality)]
     quality: Option<parse::Quality>,
     /// Colour space of a PNG: `srgb`, or `p3` for wide-gamut displays

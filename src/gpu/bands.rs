@@ -17,7 +17,7 @@ shader_struct! {
     /// One wavelength: see `shaders/optics/band.wgsl`.
     #[derive(PartialEq)]
     pub struct BandSample {
-        /// From light to what is seen of it.
+        /// Matrix from light to its colour.
         pub response: Matrix,
         /// The wavelength.
         pub wavelength_nm: f32,

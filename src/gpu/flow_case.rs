@@ -23,11 +23,11 @@ pub struct FlowOutcome {
     /// Relative error of vorticity; of the stream function for Poisson's equation. For sloshing relative to the largest vorticity of
     /// the swing, for it passes through zero.
     pub l2: f64,
-    /// Relative change of kinetic energy since the start; no number in sloshing, which starts at rest, as the next two.
+    /// Relative change of kinetic energy since the start; NaN in sloshing, which starts at rest, as are the next two.
     pub energy_drift: f64,
-    /// The same of enstrophy.
+    /// The relative drift of enstrophy.
     pub enstrophy_drift: f64,
-    /// The length of the change of angular momentum over its length at the start; no number where that is nothing but rounding.
+    /// The length of the change of angular momentum over its length at the start; NaN where the start is zero but for rounding.
     pub angular_momentum_drift: f64,
     /// The oscillation of the mode, in sloshing.
     pub oscillation: Option<Oscillation>,

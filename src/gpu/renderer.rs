@@ -181,7 +181,7 @@ impl Renderer {
         self.products.radiance.as_ref().map(|target| Readback::of_texture(&self.gpu, &target.texture))
     }
 
-    /// Starts to read back the thickness that a film shows: f32 in nm, in the order of its grid's cells. Nothing for a film without a
+    /// Starts to read back the thickness that a film shows: f32 in nm, in the order of its grid's cells. `None` for a film without a
     /// field. What has evaporated is not taken away.
     pub fn read_film(&self, film: usize) -> Result<Option<(CubedSphere, Readback)>, GpuError> {
         let Some(Some(film)) = self.products.films.get(film) else { return Ok(None) };
@@ -316,7 +316,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// The picture in the scene's own light, and that in each lamp's added to it.
+    /// The picture in the scene's own light, plus the picture in the light of each lamp.
     fn draw(&mut self, key: &DrawKey) -> Result<(), GpuError> {
         if key.full_precision
             && let Some(reason) = missing_for_measurement(&self.gpu.adapter)
@@ -381,7 +381,7 @@ impl Renderer {
     }
 }
 
-/// Tells somebody who watches what is done, once it is; in browsers, where nothing may block, once it is on its way.
+/// Reports work to the watcher once it is done; in browsers, where nothing may block, once it is submitted.
 #[cfg_attr(target_arch = "wasm32", allow(unused_variables, reason = "nothing is waited for"))]
 fn told(watcher: &Option<Box<dyn Fn(u64) + Send>>, gpu: &Gpu, work: u64) -> Result<(), GpuError> {
     if let Some(watcher) = watcher {

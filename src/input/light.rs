@@ -14,7 +14,7 @@ use crate::{
     scene::{Environment, Fault, Light, LightPatch, is_table},
 };
 
-/// Texels that a cube map with patches has along an edge at least: their edges are then sharp to a third of a degree.
+/// Minimum texels along an edge of a cube map with patches: their edges are then sharp to a third of a degree.
 const MIN_PATCHED_SIZE: usize = 256;
 
 /// Loads the environment that a light names, and the lamps that its patches take out of it; file paths start from a folder. What a user

@@ -17,7 +17,7 @@ impl Metadata {
     }
 
     /// This and one entry more. Characters that would break the entry are replaced by spaces: line ends and other control
-    /// characters, and in keys all that is not ASCII. Keys longer than 79 characters, the most that PNG holds, are cut; an
+    /// characters, and in keys all that is not ASCII. Keys longer than 79 characters, the maximum in PNG, are cut; an
     /// empty key becomes `Comment`.
     pub fn with(mut self, key: &str, value: &str) -> Self {
         self.entries.push((clean_key(key), clean_value(value)));

@@ -123,7 +123,7 @@ impl<T: PartialEq> PartialEq for Prefix<T> {
 pub struct Timeline<T>(Prefix<(u64, T)>);
 
 impl<T> Timeline<T> {
-    /// What holds during a tick; nothing before the first.
+    /// The value in force during a tick; `None` before the first.
     #[must_use]
     pub fn at(&self, tick: u64) -> Option<&T> {
         self.in_force(tick as f64).map(|(_, value)| value)

@@ -7,11 +7,11 @@ use std::ops::Range;
 
 use super::FieldKey;
 
-/// Ticks from one checkpoint to the next at least.
+/// Minimum ticks between two checkpoints.
 const SPACING_TICKS: u64 = 60;
 /// Checkpoints of a film at most.
 const MAX_CHECKPOINTS: u64 = 8;
-/// Cells in all checkpoints of a film: eight of 256 cells an edge. Finer films have fewer, but two at least.
+/// Cells in all checkpoints of a film: eight of 256 cells per edge. Finer films have fewer, but at least two.
 const CELLS_KEPT: u64 = MAX_CHECKPOINTS * 6 * 256 * 256;
 
 /// Checkpoints of one film by their slots on the device: the film's key at the tick of each. Those of another past may be among them;
@@ -33,7 +33,7 @@ impl Checkpoints {
         self
     }
 
-    /// Enters the film's state at the end of a step, and returns the slot that it goes to: nothing if it need not be kept.
+    /// Enters the film's state at the end of a step, and returns the slot that it goes to; `None` if it need not be kept.
     pub(super) fn keep(&mut self, state: &FieldKey, step: &Range<u64>) -> Option<usize> {
         let is_due = step.start / SPACING_TICKS < step.end / SPACING_TICKS;
         if !is_due || self.0.iter().any(|kept| kept.moment == state.moment && kept.shares_past(state)) {

@@ -13,9 +13,9 @@ const ROWS: f64 = 1080.0;
 /// at most, as much as far bubbles may from pictures of many samples; a tenth of a second later by less than a tenth of what the film
 /// changes by in a step.
 const HALF_DIAMETER: f64 = 40.0;
-/// Cells along an edge at least.
+/// Minimum cells along an edge.
 const MIN_CELLS: u32 = 16;
-/// Cells along an edge of the grid of a whole flow, at least: 1.4° each. It is four times coarser than finer films: its cells are still a fraction
+/// Minimum cells along an edge of the grid of a whole flow: 1.4° each. It is four times coarser than finer films: its cells are still a fraction
 /// of the smallest eddy, and cubic interpolation of one step's displacement errs by less than can be seen.
 const MIN_FLOW_CELLS: u32 = 64;
 

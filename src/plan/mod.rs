@@ -30,7 +30,7 @@ pub use pass::{Pass, Reason};
 pub use request::{Lamp, Resources, Shot, has_one_film, request};
 pub use story::Story;
 
-/// How much may be done before the next picture must be out.
+/// How much work may be done before the next picture must be shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
     /// All of it: a file is being made.
@@ -47,7 +47,7 @@ pub struct FrameRequest {
     pub picture: TonemapKey,
     /// For each bubble of the scene, in sight or not, whether its film can move: fields of no other films are kept.
     pub has_field: Vec<bool>,
-    /// How much may be done at once.
+    /// How much work may be done at once.
     pub pace: Pace,
 }
 
@@ -308,7 +308,7 @@ impl Planner {
     }
 }
 
-/// Why a product must be made anew, if it must.
+/// Why a product must be made again, or `None` if it is up to date.
 fn changed<K: PartialEq>(
     current: Option<&K>,
     requested: &K,

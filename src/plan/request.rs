@@ -56,7 +56,7 @@ pub struct Shot {
     pub gamut: Gamut,
     /// Whether films are replaced by the yardstick of the frame's cost.
     pub yardstick: bool,
-    /// How much may be done at once.
+    /// How much work may be done at once.
     pub pace: Pace,
 }
 
@@ -149,7 +149,7 @@ fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     }
 }
 
-/// What a lamp's light is beside the scene's own.
+/// The light of a lamp, given the scene's own light.
 fn lamp_light(scene: &Scene, lamp: &Lamp, own: LightKey) -> LightKey {
     let backdrop = match own.backdrop {
         BackdropKey::Environment => BackdropKey::Environment,
@@ -177,14 +177,14 @@ fn table(scene: &Scene, lamp: &Lamp, light: &LightKey, bands: &BandsKey) -> Tabl
     TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full }
 }
 
-/// Whether all films are made of the same. If not, it depends on the moment, by what is seen then, whether a shot is refused.
+/// Whether all films are made of the same material. If not, the films in sight at the moment decide whether a shot is refused.
 #[must_use]
 pub fn has_one_film(scene: &Scene) -> bool {
     let mut films = scene.bubbles.iter().map(|bubble| (&bubble.film.index, bubble.film.skin_nm));
     films.next().is_none_or(|first| films.all(|film| film == first))
 }
 
-/// What all visible films are made of.
+/// The material of all visible films.
 fn material(scene: &Scene, resources: &Resources, bubbles: &[BubbleKey]) -> Result<FilmMaterial, Fault> {
     let Some(first) = bubbles.iter().map(|bubble| bubble.index).min() else { return Ok(FilmMaterial::default()) };
     let film = &scene.bubbles[first].film;
@@ -295,7 +295,7 @@ fn samples(radius_pixels: f64) -> u32 {
     }
 }
 
-/// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; nothing if it is outside.
+/// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; `None` if it is outside.
 fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
     let offset = center_m - camera.eye_m;
     let depth = offset.dot(camera.forward);

@@ -75,7 +75,7 @@ impl Story {
         self.life_cycle(index).map_or(DVec3::ZERO, |life_cycle| life_cycle.path().at(time_s).place_m)
     }
 
-    /// A bubble at a moment; nothing between two lives, or if there is no such bubble.
+    /// A bubble at a moment; `None` between two lives, or if there is no such bubble.
     #[must_use]
     pub fn age(&self, index: usize, moment: Moment) -> Option<Age> {
         self.life_cycle(index)?.at(moment)
@@ -87,7 +87,7 @@ impl Story {
         self.plot().life_cycles.get(index)
     }
 
-    /// What the film of a bubble is at a moment; nothing if there is no such bubble then.
+    /// The film of a bubble at a moment; `None` if there is no such bubble then.
     #[must_use]
     pub fn film_key(&self, index: usize, moment: Moment) -> Option<FilmKey> {
         self.age(index, moment).map(|age| self.film_of_age(index, &age))
@@ -98,7 +98,7 @@ impl Story {
         film(&self.bubbles[index], age, self.grids()[index], &self.motion)
     }
 
-    /// Cells along a panel's edge of a bubble's film, and of its flow where that is coarser; nothing for a film of one thickness.
+    /// Cells along a panel's edge of a bubble's film, and of its flow where that is coarser; `None` for a film of one thickness.
     #[must_use]
     pub fn field_grids(&self, index: usize) -> Option<[u32; 2]> {
         self.bubbles.get(index).filter(|bubble| has_field(bubble)).map(|_| self.grids()[index])

@@ -108,7 +108,7 @@ fn check_count(items: &[Spanned<DeValue>], known: &[Value], offset: usize, path:
     (found != expected).then(|| Located::bad_value(offset, path, reason()))
 }
 
-/// The known item of a list that an item must be like: the one of its kind, where items have kinds. Nothing if there is no such kind, which
+/// The known item of a list that an item must be like: the one of its kind, where items have kinds. `None` if there is no such kind, which
 /// is another error.
 fn known_item<'a>(table: &DeTable, known: &'a [Value]) -> Option<&'a Table> {
     let kind = table.get("kind").and_then(|kind| kind.get_ref().as_str());

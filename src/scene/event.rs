@@ -59,7 +59,7 @@ pub enum Change {
 }
 
 impl Change {
-    /// The bubble that it happens to; nothing if it is all of them.
+    /// The bubble that it acts on; `None` for all bubbles.
     #[must_use]
     pub fn bubble(&self) -> Option<usize> {
         match self {

@@ -43,5 +43,5 @@ fn numbers_that_no_film_has_are_refused() {
     for cosine in [-0.1, 1.1, f64::NAN] {
         assert!(told(colour(100.0, cosine)).contains("give 0 to 1"));
     }
-    assert_eq!(told(Err::<(), _>(Error::Size([0, 5]))).split(':').next(), Some("a picture of 0x5 pixels has none"));
+    assert_eq!(told(Err::<(), _>(Error::Size([0, 5]))).split(':').next(), Some("a picture of 0x5 pixels is empty"));
 }

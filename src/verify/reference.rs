@@ -167,7 +167,7 @@ fn thinnest(film: &FilmKey, thickness_nm: impl Fn(DVec3) -> f64) -> Result<DVec3
     Ok(thinnest.map_or(DVec3::Z, |(_, direction)| direction))
 }
 
-/// A film at its moment: the scheme of the GPU in f64 by the same steps, remapped when as many ticks have passed as there are at most.
+/// A film at its moment: the scheme of the GPU in f64 by the same steps, remapped when the maximum number of ticks has passed.
 pub fn film(key: &FieldKey) -> Result<FlowMap, GridError> {
     let mut film = FlowMap::new(CubedSphere::new(key.cells as usize)?, key.scheme, key.initial.profile())?;
     let mut since_remap = 0;

@@ -86,7 +86,7 @@ fn fields(run: &mut Run<'_>) -> Result<(), GpuError> {
 }
 
 fn deformation() -> Wind {
-    // The usual axis is one.
+    // The default axis is a direction.
     Wind::new(WindKind::NonDivergent, None).unwrap_or_else(|_| unreachable!("the default axis has a direction"))
 }
 

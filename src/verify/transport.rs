@@ -111,7 +111,7 @@ fn range(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(*value), high.max(*value)))
 }
 
-/// Smooth hills converge at the order of the map's interpolation, the fourth: 16 a doubling, of which the coarsest grid, that hardly
+/// Smooth hills converge at the order of the map's interpolation, the fourth: 16 per doubling, of which the coarsest grid, that hardly
 /// resolves the wind, is granted to miss a third. On the finest grid bells, whose slope has a jump, keep to what a prototype with twice as
 /// many remaps reached.
 fn convergence(run: &mut Run<'_>) -> Result<(), GpuError> {

@@ -18,7 +18,7 @@ fn a_frame_alone_is_the_frame_of_a_run() {
     assert_ne!(bytes("run/frame_000000.png"), bytes("run/frame_000005.png"), "the film moves");
     let before = std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap();
     let again = desk.done(&format!("sequence default -o alone --frames 5..5 {size}")).unwrap();
-    assert!(again.err.contains("already there"), "{}", again.err);
+    assert!(again.err.contains("already existed"), "{}", again.err);
     assert_eq!(std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap(), before);
 }
 

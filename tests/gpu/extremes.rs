@@ -28,7 +28,7 @@ fn at_rest(environment: &str) -> LoadedScene {
     loaded
 }
 
-/// The same in light that is 1 from everywhere.
+/// This picture in light that is 1 from everywhere.
 fn in_a_furnace() -> LoadedScene {
     at_rest("furnace")
 }
@@ -62,7 +62,7 @@ fn a_film_of_index_1_is_not_there() {
     }
 }
 
-/// A bubble of few pixels takes the most samples, and a film of 30 um the most bands.
+/// A bubble of few pixels takes the maximum of samples, and a film of 30 µm the maximum of bands.
 #[test]
 fn no_sample_of_a_small_bubble_of_thick_film_is_lost() {
     let Some(mut renderer) = renderer() else { return };

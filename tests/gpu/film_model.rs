@@ -186,7 +186,8 @@ fn hold(gpu: &Gpu, name: &str, key: &FieldKey, ticks: u64) -> State {
 /// it errs by 1e-7; a step looks five up, and random thickness changes by a twentieth from cell to cell: 2e-7 per step, which adds up over
 /// remaps and grows as fast as the flow shears what it has moved. Measured: 6e-6 at largest.
 const THICKNESS: f64 = 1e-5;
-/// The limit for vorticity. It follows from second differences of ψ, in which ε grows by the square of cells a radian, a hundred. Measured: 2e-5.
+/// The limit for vorticity. It follows from second differences of ψ, in which ε grows by the square of the cells per radian, a hundred. Measured:
+/// 2e-5.
 const ZETA: f64 = 4e-5;
 /// This limit beyond a ring, where images are magnified sixfold and where the images of cells on the diagonals of the panels at the poles lie
 /// exactly on the edge between two panels, to either of which rounding may count them. Measured: 7e-5.

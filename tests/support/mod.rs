@@ -50,7 +50,7 @@ pub fn has_tools(tools: &[&str], required_by: &str) -> bool {
     false
 }
 
-/// The device to test on, the same one for all tests of a binary: what one test compiled another need not. Nothing where no adapter is required
+/// The device to test on, the same one for all tests of a binary: what one test compiled another need not. `None` where no adapter is required
 /// and none is there. A test that loses a device, or leaves errors on it, opens its own.
 pub fn gpu() -> Option<Gpu> {
     static SHARED: OnceLock<Option<Gpu>> = OnceLock::new();

@@ -37,7 +37,7 @@ pub struct Surroundings<'a> {
 }
 
 impl Surroundings<'_> {
-    /// What the flow takes thicknesses relative to: the mean of what is left, so that logarithms are as exact as the tracer.
+    /// Reference thickness of the flow: the mean remaining thickness, so that logarithms are as exact as the tracer.
     fn reference_nm(&self) -> f64 {
         self.part.reference_nm(self.mean_nm)
     }

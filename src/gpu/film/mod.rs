@@ -354,7 +354,7 @@ impl Field {
         Readback::of_buffer(gpu, &self.control.block, self.control.block.size())
     }
 
-    /// Copies as many bytes as a step and a lookup of every cell move, and leaves what is kept alone: what steps are measured against.
+    /// Copies as many bytes as a step and a lookup of every cell move, and changes no state: steps are measured against it.
     pub fn copy_state(&self, recorder: &mut Recorder<'_>) {
         for [from, to] in [&self.map.each_ref(), &[&self.tracer, &self.sampled]] {
             recorder.encoder().copy_buffer_to_buffer(from, 0, to, 0, from.size());

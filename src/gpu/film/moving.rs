@@ -137,7 +137,7 @@ impl MovingFilm {
         Ok(())
     }
 
-    /// Makes the state of a slot the film's again; nothing for an empty slot.
+    /// Restores the film's state from a slot; does nothing for an empty slot.
     pub fn restore(&mut self, recorder: &mut Recorder<'_>, slot: usize) {
         let Self { field, motion, watch, checkpoints } = self;
         let Some(checkpoint) = checkpoints.get(slot) else { return };

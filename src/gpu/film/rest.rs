@@ -30,7 +30,7 @@ enum Speed {
     Known(f64),
 }
 
-/// The same, kept aside.
+/// A saved copy of the watch.
 #[derive(Clone, Copy)]
 pub(super) struct KeptRestWatch {
     asked: Option<f64>,

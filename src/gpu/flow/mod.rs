@@ -93,7 +93,7 @@ pub struct FlowSolver {
 }
 
 impl FlowSolver {
-    /// Cells along a panel's edge at least.
+    /// Minimum cells along a panel's edge.
     pub const MIN_CELLS: u32 = 16;
     /// Cells along a panel's edge at most: beyond, the coarse grids are too much for one workgroup.
     pub const MAX_CELLS: u32 = 512;
@@ -218,7 +218,7 @@ impl FlowSolver {
         self.take(recorder, dt_s, forces, 0)
     }
 
-    /// The same for flows whose eddies turn by more than [`FOLLOWED_TURN`](crate::physics::flow::FOLLOWED_TURN) in a step: it is tried
+    /// A step for flows whose eddies turn by more than [`FOLLOWED_TURN`](crate::physics::flow::FOLLOWED_TURN) in a step: it is tried
     /// first, which doubles its cost.
     pub fn step_corrected(
         &mut self,

@@ -18,7 +18,7 @@ shader_struct! {
         pub cells: u32,
         /// What the tracer departs from, nm.
         pub level_nm: f32,
-        /// The same less what has evaporated, nm.
+        /// This level less what has evaporated, nm.
         pub remaining_level_nm: f32,
         /// Thickness of black film, nm.
         pub black_nm: f32,

@@ -44,7 +44,7 @@ shader_struct! {
     pub struct RimValue {
         /// Angle from the middle to the film that is still at rest.
         pub outer_rad: f32,
-        /// The same to where the rim begins.
+        /// Angle to where the hole ends and the rim begins.
         pub inner_rad: f32,
         /// Mean thickness of the rim, nm.
         pub thickness_nm: f32,

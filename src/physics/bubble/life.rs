@@ -158,7 +158,7 @@ impl LifeCycle {
         &self.path
     }
 
-    /// The bubble at a moment; nothing between two lives.
+    /// The bubble at a moment; `None` between two lives.
     #[must_use]
     pub fn at(&self, moment: Moment) -> Option<Age> {
         let life = self.life(moment.tick);

@@ -1,4 +1,4 @@
-//! From the light of a scene to what is seen of it, and to what a camera that is balanced to it shows.
+//! From the light of a scene to its colour, and to the colour in a camera that is balanced to it.
 
 use std::sync::LazyLock;
 
@@ -23,7 +23,7 @@ pub fn daylight_scale() -> DVec3 {
     1.0 / *DAYLIGHT
 }
 
-/// The matrix from RGB light (linear BT.2020, see [`super::Uplift`]) to what is seen of it under an illuminant, linear BT.2020 where
+/// The matrix from RGB light (linear BT.2020, see [`super::Uplift`]) to its colour under an illuminant, linear BT.2020 where
 /// D65's white is (1, 1, 1). For D65 it is the identity within the uplift's residual, 1e-4.
 pub fn seen_light(illuminant: &Illuminant) -> DMat3 {
     // What a film is made of does not matter where nothing meets it.

@@ -18,7 +18,7 @@ pub struct Band {
     pub wavelength_nm: f64,
     /// Refractive index of the film's liquid there.
     pub index: f64,
-    /// From the light, linear BT.2020, to what is seen of it where the film reflects 1 at this wavelength, linear BT.2020.
+    /// Matrix from the light, linear BT.2020, to its colour where the film reflects 1 at this wavelength, linear BT.2020.
     pub response: DMat3,
 }
 
@@ -66,7 +66,7 @@ pub fn fit_bands(optics: &FilmOptics, task: BandTask, count: usize, range_nm: f6
     chosen.iter().enumerate().map(band).collect()
 }
 
-/// For each wavelength of the light, the matrix from BT.2020 light to what is seen of it, where everything is reflected.
+/// For each wavelength of the light, the matrix from BT.2020 light to its colour, where everything is reflected.
 pub fn responses(optics: &FilmOptics) -> Vec<DMat3> {
     let (to_bt2020, to_bt709) = (BT2020.from_xyz(), bt2020_to_bt709());
     let weights = optics.weights();
@@ -153,7 +153,7 @@ struct Fit {
     gram: Vec<f64>,
     /// Products of candidates and targets.
     mixed: Vec<[f64; TARGETS]>,
-    /// Sum over the columns of a response: what is seen of white light, by which wavelengths are chosen.
+    /// Sum over the columns of a response: the response to white light, by which wavelengths are chosen.
     white: Vec<[f64; 3]>,
 }
 

@@ -101,7 +101,7 @@ pub struct SpectrumPoint {
     pub transmittance: f64,
 }
 
-/// The exposure "M2" at which colour errors are measured: 1 / (walls · Rmax), with Rmax the most that one wall reflects at this angle
+/// The exposure "M2" at which colour errors are measured: 1 / (walls · Rmax), with Rmax the maximum reflectance of one wall at this angle
 /// (n at 589 nm). It brings L* near 100 at most at every angle. 0 for a film of index 1, which shows no colour to expose.
 pub fn m2_exposure(film: &FilmMaterial, cos_theta: f64, walls: u32) -> f64 {
     let brightest = f64::from(walls) * film.max_reflectance(cos_theta);

@@ -41,7 +41,7 @@ impl FilmTable {
         [cos_theta.sqrt() * (self.columns - 1) as f64, t * (self.rows - 1) as f64]
     }
 
-    /// All texels, row by row: the film's colour in white light, linear BT.2020, over the most that a film reflects of unpolarised light at
+    /// All texels, row by row: the film's colour in white light, linear BT.2020, over the maximum reflectance of a film for unpolarised light at
     /// the texel's angle. For s light, for p light, and for both together, which is their mean.
     #[must_use]
     pub fn texels(&self, optics: &FilmOptics) -> Vec<FilmTexel> {

@@ -39,7 +39,7 @@ impl Uplift {
         DVec3::from_array(self.rho.each_ref().map(|rho| rho.at_nm(wavelength_nm)))
     }
 
-    /// The matrix from linear BT.709 light to the XYZ of what is left of it after reflection with `reflectance[i]` at wavelength `i` of
+    /// The matrix from linear BT.709 light to the XYZ of the light that remains after reflection with `reflectance[i]` at wavelength `i` of
     /// the weights. Under an illuminant other than D65 nothing is adapted: white light has that illuminant's white.
     pub fn light_matrix(&self, weights: &ColourWeights, reflectance: &[f64]) -> DMat3 {
         let column = |rho: &Spectrum| weights.integrate(|i| rho.at_nm(weights.wavelengths_nm()[i]) * reflectance[i]);

@@ -27,7 +27,7 @@ pub struct Hole {
 pub struct Rim {
     /// Angle from the middle of the hole to the film that is still at rest, radians.
     pub outer_rad: f64,
-    /// The same to where the hole ends and the rim begins.
+    /// Angle to where the hole ends and the rim begins.
     pub inner_rad: f64,
     /// Mean thickness of the rim, which is a round thread of the liquid that was swept, nm.
     pub thickness_nm: f64,

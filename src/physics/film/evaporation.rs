@@ -34,7 +34,7 @@ impl Evaporation {
         self.rates.in_force(ticks).map_or(0.0, |(from, rate)| rate.until(from, ticks, self.tick_s))
     }
 
-    /// The same without rates that come into force at a tick or later.
+    /// This evaporation without rates that come into force at a tick or later.
     #[must_use]
     pub fn until(&self, end: u64) -> Self {
         Self { rates: self.rates.until(end), tick_s: self.tick_s }

@@ -125,8 +125,8 @@ pub struct Split {
     pub parts: u32,
     /// Ticks that each lasts.
     pub part_ticks: f64,
-    /// Part of gravity that the film feels, at most 1. Beyond the most parts there are, gravity is felt as far as they can follow it: such films are
-    /// sorted within a tick anyway.
+    /// Part of gravity that the film feels, at most 1. Beyond the maximum number of parts, gravity is felt as far as they can follow it: such films
+    /// are sorted within a tick anyway.
     pub gravity: f64,
 }
 

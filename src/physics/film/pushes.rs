@@ -42,7 +42,7 @@ impl Pushes {
         acting.collect()
     }
 
-    /// How fast what has pushed the film until a time in ticks may make it shear and turn then, 1/s: the most that any push did, less what drag
+    /// How fast what has pushed the film until a time in ticks may make it shear and turn then, 1/s: the maximum over all pushes, less what drag
     /// and viscosity have left of it.
     #[must_use]
     pub fn strain_1_s(&self, ticks: f64, tick_s: f64, forces: &FlowForces) -> f64 {

@@ -38,7 +38,7 @@ pub struct FlowForces {
 }
 
 impl FlowForces {
-    /// ν dt γ of one viscous stage, or nothing if viscosity does nothing.
+    /// ν dt γ of one viscous stage; `None` without viscosity.
     #[must_use]
     pub fn viscous_stage(&self, dt: f64) -> Option<f64> {
         let step = (self.viscosity * dt).min(MAX_VISCOUS_STEP);

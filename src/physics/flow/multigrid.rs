@@ -20,7 +20,7 @@ const FEW_SWEEPS: usize = 8;
 /// k of `(Δ − k) ψ = f`, in 1/rad²: 0 for Poisson's equation; −0.3 or more otherwise, for at −2 first-degree harmonics have no answer.
 pub type Shift = f64;
 
-/// Cells along an edge of the next coarser grid, or nothing if this one is the coarsest.
+/// Cells along an edge of the next coarser grid; `None` if this grid is the coarsest.
 pub fn coarser(n: usize) -> Option<usize> {
     let coarse = n.div_ceil(2);
     (coarse >= CubedSphere::MIN_N).then_some(coarse)
@@ -128,7 +128,7 @@ impl Multigrid {
         self.levels[0].smoothed(better, f, shift)
     }
 
-    /// The correction that level `l` makes to a residual of the level above; nothing if there is no such level.
+    /// The correction that level `l` makes to a residual of the level above; `None` if there is no such level.
     fn correction(&self, l: usize, residual: &[f64], shift: Shift) -> Option<PaddedField<f64>> {
         let level = self.levels.get(l)?;
         let f = level.averaged(self.levels[l - 1].grid.n(), residual);

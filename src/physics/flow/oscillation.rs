@@ -10,7 +10,7 @@ pub struct Oscillation {
 }
 
 /// The oscillation in samples `dt` apart, by the least-squares recurrence `c(k+1) = p c(k) − q c(k−1)` that all of them obey (Prony
-/// 1795). Nothing for fewer than four samples, or if they hold still.
+/// 1795). `None` for fewer than four samples, or if they are constant.
 #[must_use]
 pub fn fit_oscillation(samples: &[f64], dt: f64) -> Option<Oscillation> {
     if samples.len() < 4 {

@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::operators::CellMetric;
 use crate::physics::sphere::{CubedSphere, HaloTable, PaddedField};
 
-/// Cells from the edge of the region to where nothing flows, at least: what differences of the flow need.
+/// Minimum cells from the edge of the region to where nothing flows, as the differences of the flow need.
 const MIN_WIDTH_CELLS: f64 = 3.0;
 
 /// A round region about the lowest point of a film in which nothing flows.

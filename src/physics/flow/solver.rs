@@ -50,7 +50,7 @@ pub struct FlowSolver {
     multigrid: Multigrid,
     zeta: PaddedField<f64>,
     psi: PaddedField<f64>,
-    /// ψ one step before; nothing before the first step.
+    /// ψ one step before; `None` before the first step.
     psi_before: Option<PaddedField<f64>>,
     /// What stirs the film besides, 1/s².
     forcing: PaddedField<f64>,
@@ -66,8 +66,8 @@ impl FlowSolver {
         Self::bounded(grid, None, None, zeta)
     }
 
-    /// The same of a film that may end at the rim of a cap, across which nothing flows, and that a drop at its lowest point may hold fast, by its
-    /// angular radius in radians.
+    /// Like [`Self::new`], for a film that may end at the rim of a cap, across which nothing flows, and that a drop at its lowest point may hold
+    /// fast, by its angular radius in radians.
     pub fn bounded(
         grid: CubedSphere,
         cap: Option<Cap>,
@@ -122,7 +122,7 @@ impl FlowSolver {
         self.take(dt, forces, log_thickness, 0);
     }
 
-    /// The same for flows whose eddies turn by more than [`FOLLOWED_TURN`] in a step: it is tried first.
+    /// A step for flows whose eddies turn by more than [`FOLLOWED_TURN`] in a step: it is tried first.
     pub fn step_corrected(&mut self, dt: f64, forces: &FlowForces, log_thickness: &PaddedField<f64>) {
         self.take(dt, forces, log_thickness, 1);
     }
@@ -306,7 +306,7 @@ mod tests {
         assert!(largest_after(1.3 * limit) > 1.0, "{}", largest_after(1.3 * limit));
     }
 
-    /// Energy of a weightless vortex pair, which no force drives, over that at the start: the most in steps in which it turns by so much.
+    /// Energy of a weightless vortex pair, which no force drives, over its energy at the start: the maximum over steps in which it turns by `turn`.
     fn max_energy(turn: f64, is_corrected: bool) -> f64 {
         let grid = CubedSphere::new(24).unwrap();
         let center = DVec3::new(0.2, 0.7, 0.5).normalize();

@@ -16,13 +16,13 @@ const NEGLIGIBLE: f64 = 1e-6;
 /// A film under an illuminant, ready to have rays traced through bubbles of it.
 pub(super) struct LightPath<'a> {
     optics: &'a FilmOptics,
-    /// For each wavelength, from light to what is seen of it; together they show white daylight as (1, 1, 1).
+    /// For each wavelength, the matrix from light to its colour; together they show white daylight as (1, 1, 1).
     responses: Vec<DMat3>,
     /// Direction that a polariser lets pass.
     polariser: Option<DVec3>,
 }
 
-/// What comes along a ray: for each direction, the matrix from the light there to what is seen of it.
+/// The light along a ray: for each direction, the matrix from the light there to its colour.
 pub(super) struct Arrivals {
     /// On what stands straight behind the bubble.
     pub straight: DMat3,
@@ -43,7 +43,7 @@ impl<'a> LightPath<'a> {
     }
 
     /// Follows a ray (a unit vector) from an eye in units of the radius, the bubble's center at the origin and stretched by a symmetric
-    /// matrix, or of a radius in m and standing on a bath; nothing if it misses.
+    /// matrix, or of a radius in m and standing on a bath; `None` if it misses.
     pub fn trace(
         &self,
         eye: DVec3,
@@ -78,7 +78,7 @@ impl<'a> LightPath<'a> {
         Some(Arrivals { straight: factors.straight, reflected })
     }
 
-    /// How many inner reflections to follow, by the most that any film reflects at this angle.
+    /// How many inner reflections to follow, by the maximum reflectance of any film at this angle.
     fn inner_reflections(&self, cos_theta: f64) -> usize {
         let r2 = amplitudes(self.optics.film().reference_index(), cos_theta).s.powi(2);
         let max = 4.0 * r2 / (1.0 + r2).powi(2);

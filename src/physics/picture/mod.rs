@@ -51,7 +51,7 @@ pub struct PictureScene<'a> {
     pub spheres: Vec<FilmSphere<'a>>,
     /// Light that arrives from a direction.
     pub surroundings: &'a (dyn Fn(DVec3) -> DVec3 + Sync),
-    /// Light straight behind the bubbles, or nothing where that is the surroundings.
+    /// Radiance behind the bubbles; `None` where the environment is seen.
     pub backdrop: Option<DVec3>,
     /// Direction along which the electric field passes a polariser before the camera. The light that it takes from unpolarised light is
     /// given back.

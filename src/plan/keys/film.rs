@@ -16,7 +16,7 @@ use crate::physics::{
 /// The boundary of a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmBoundary {
-    /// The cap that it is, if there is nothing below a rim.
+    /// The cap of film above a rim, if the film has a rim and ends there.
     pub cap: Option<Cap>,
     /// Angular radius of the drop at its bottom, if there is one, radians.
     pub drop_rad: Option<f64>,
@@ -29,7 +29,7 @@ pub struct FilmBoundary {
 pub struct FieldKey {
     /// Cells along a panel's edge.
     pub cells: u32,
-    /// The same of its flow; as many as the film has where that is fewer.
+    /// Cells along a panel's edge of its flow; at most as many as the film has.
     pub flow_cells: u32,
     /// Thickness at tick 0.
     pub initial: InitialFilm,
@@ -39,13 +39,13 @@ pub struct FieldKey {
     pub tick_s: f64,
     /// How the liquid is moved.
     pub scheme: Scheme,
-    /// The most ticks from one remap of the flow map to the next.
+    /// Maximum ticks between two remaps of the flow map.
     pub remap_ticks: u32,
-    /// What evaporates; empty for films whose motion does not depend on it.
+    /// Evaporation; empty for films whose motion does not depend on it.
     pub evaporation: Evaporation,
     /// Laws, as far as the moment has seen them; the first holds from tick 0.
     pub flows: Timeline<FlowLaw>,
-    /// What pushes it; empty for films that nothing can push.
+    /// Pushes; empty for films that cannot be pushed.
     pub pushes: Pushes,
     /// Where the bubble goes, in radii, which a film that moves by itself feels.
     pub path: CenterPath,
@@ -54,7 +54,7 @@ pub struct FieldKey {
 }
 
 impl FieldKey {
-    /// The cap that the film is, if there is nothing below a rim.
+    /// The cap of film above a rim, if the film has a rim and ends there.
     #[must_use]
     pub fn cap(&self) -> Option<Cap> {
         self.boundary.as_ref().and_then(|boundary| boundary.cap)
@@ -72,7 +72,7 @@ impl FieldKey {
         self.boundary.as_ref().and_then(|boundary| boundary.regeneration)
     }
 
-    /// The same film at another moment.
+    /// This film at another moment.
     #[must_use]
     pub fn at(&self, moment: Moment) -> Self {
         Self { moment, ..self.clone() }

@@ -33,7 +33,7 @@ impl OpticsKey {
         FilmOptics::new(self.film.clone(), &self.illuminant)
     }
 
-    /// The same as fine as films up to a thickness need, see [`FilmOptics::resolving`].
+    /// These optics, as finely resolved as films up to a thickness need, see [`FilmOptics::resolving`].
     #[must_use]
     pub fn spectra_to(&self, thickest_nm: f64) -> FilmOptics {
         FilmOptics::resolving(self.film.clone(), &self.illuminant, thickest_nm)
@@ -60,7 +60,7 @@ pub struct TableKey {
 impl TableKey {
     /// Columns of a full table.
     pub const COLUMNS: u32 = 64;
-    /// Thickness that the table spans at least, in nm.
+    /// Minimum thickness range of the table, in nm.
     pub const MIN_RANGE_NM: f64 = 1500.0;
     /// Rows for [`TableKey::MIN_RANGE_NM`]: 0.73 nm a row.
     pub const MIN_ROWS: u32 = 2048;
@@ -76,7 +76,7 @@ impl TableKey {
         Self { optics, max_thickness_nm, columns: Self::COLUMNS, rows, coloured: false, polarised: false }
     }
 
-    /// The same range with fewer rows: what a window shows until the full table is there.
+    /// A table of this range with fewer rows, which a window shows until the full table is baked.
     #[must_use]
     pub fn coarser(&self, factor: u32) -> Self {
         Self { rows: (self.rows / factor).max(2), ..self.clone() }
@@ -131,7 +131,7 @@ impl BandsKey {
         alone.max(self.needed(self.measured_beside_table()).min(Self::MAX))
     }
 
-    /// Thickness, in nm, up to which as many as there is room for resolve the products' fringes.
+    /// Thickness, in nm, up to which the maximum number of bands resolves the fringes of the products.
     #[must_use]
     pub fn resolved_nm(&self) -> f64 {
         let measured = if self.needs_table() { self.measured_beside_table() } else { self.measured() };
@@ -144,7 +144,7 @@ impl BandsKey {
         (measured * self.bands_over_water() * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
     }
 
-    /// How many times as many bands as water a film of the same thickness needs. One of a denser liquid has more fringes, and as its faces
+    /// Ratio of the bands that a film needs to the bands for water of the same thickness. A denser liquid has more fringes, and as its faces
     /// reflect more they are sharper: measured from index 2 to 4, so that `fast` and `standard` err in the
     /// mean no more than for water. Up to 1.4, water's do.
     fn bands_over_water(&self) -> f64 {

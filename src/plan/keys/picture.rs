@@ -95,7 +95,7 @@ pub enum BackdropKey {
 pub struct LightKey {
     /// Factor on the environment's radiance, linear BT.2020.
     pub gain: DVec3,
-    /// From the environment's light to what is seen of it under the illuminant: linear BT.2020, where (1, 1, 1) is daylight's white.
+    /// Matrix from the environment's light to its colour under the illuminant: linear BT.2020, where (1, 1, 1) is daylight's white.
     pub seen: DMat3,
     /// Factor that makes daylight's white (1, 1, 1).
     pub scale: DVec3,

@@ -53,7 +53,7 @@ impl FieldKey {
         (0..split.parts).map(part).collect()
     }
 
-    /// How film leaves at its rim until a time in ticks, if it does, and the most ticks between two remaps.
+    /// How film leaves at its rim until a time in ticks, if it does, and the maximum ticks between two remaps.
     fn draining(&self, free: &FreeFlow, ticks: f64) -> Option<(DrainLaw, u32)> {
         let regeneration = self.regeneration();
         if regeneration.is_none() && free.drainage == 0.0 {

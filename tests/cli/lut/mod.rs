@@ -41,7 +41,7 @@ fn truth(layer: usize, (cos_theta, thickness_nm): (f64, f64)) -> DVec3 {
     BT2020.from_xyz() * [0.5 * (s + p), s, p][layer]
 }
 
-/// Mean and maximum of differences, as parts of the most that a film reflects at the angle.
+/// Mean and maximum of differences, as fractions of the maximum reflectance at the angle.
 fn differences(layer: usize, found: impl Iterator<Item = DVec3>) -> (f64, f64) {
     let error = |(film, found): ((f64, f64), DVec3)| {
         (found - truth(layer, film)).abs().max_element() / OPTICS.film().max_reflectance(film.0)

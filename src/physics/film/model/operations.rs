@@ -1,4 +1,4 @@
-//! The film model as a list: what is done in a step, in order.
+//! The film model as a list: the operations of a step, in order.
 //!
 //! Each operation is a pass on the device, with the shader's name, and a function in f64 here. `Film` executes these lists; the device records the same
 //! passes in the same order, and `tests/gpu/film_model.rs` holds the two together.

@@ -12,7 +12,7 @@ use glam::DVec3;
 use super::compose_map::lookup;
 use crate::physics::sphere::{Cap, PaddedField};
 
-/// Where the liquid at unit vector `x`, the place in padded storage, or at its image was at the last remap. Nothing if it is where it was, at the
+/// Where the liquid at unit vector `x`, the place in padded storage, or at its image was at the last remap. `None` if it is where it was, at the
 /// same place of storage.
 fn origin(x: DVec3, place: usize, map: Option<&PaddedField<DVec3>>, cap: Option<Cap>) -> Option<DVec3> {
     match (cap.filter(|cap| !cap.contains(x)), map) {

@@ -19,7 +19,7 @@ pub struct FilmStep {
     pub law: FlowLaw,
     /// The steps of a film's own flow, in order; empty for other films.
     pub parts: Vec<FreePart>,
-    /// How the film drains, if it does, and the most ticks between two remaps that this allows.
+    /// How the film drains, if it does, and the maximum ticks between two remaps that this allows.
     pub drain: Option<(DrainLaw, u32)>,
     /// How it collapses to black film, if any of it may.
     pub blackening: Option<BlackeningLaw>,
