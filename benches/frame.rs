@@ -11,7 +11,7 @@ use soapfilm::{
 const SIZES: [[u32; 2]; 2] = [[1280, 720], [1920, 1080]];
 /// A picture that shows whether the benchmark works: `cargo bench --bench frame -- --test`.
 const SMOKE: [[u32; 2]; 1] = [[320, 180]];
-const PASSES: [&str; 7] = ["bake_table", "fit_bands", "seed_field", "step_field", "show_field", "draw", "tonemap"];
+const PASSES: [&str; 7] = ["bake_table", "fit_quadrature", "seed_field", "step_field", "show_field", "draw", "tonemap"];
 
 fn frame(criterion: &mut Criterion) {
     let gpu = pollster::block_on(Gpu::headless(&AdapterChoice::default().or_env())).expect("an adapter to measure on");

@@ -9,10 +9,10 @@ import package::light::environment::{Light, backdrop_radiance, environment_radia
 import package::light::stored::storable;
 import package::light::water::{crossing, past_meniscus, upward};
 import package::optics::airy::{cos_refracted, surface_reflectance};
-import package::optics::band::Band;
+import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::{FILTERED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{BANDS, EVERYTHING, FURTHER, Hits, INNER, Walls, band_radiance, resolved};
+import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls, resolved, sample_radiance};
 import package::sphere::axes::perpendicular;
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::path::{Path, footprint, polarisation_along};
@@ -73,7 +73,7 @@ struct Bubble {
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;
 @group(0) @binding(8) var film: texture_2d_array<f32>;
-@group(0) @binding(9) var<uniform> bands: array<Band, 256>;
+@group(0) @binding(9) var<uniform> quadrature: array<QuadratureSample, 256>;
 @group(0) @binding(10) var<uniform> film_balance: Balance;
 @group(0) @binding(11) var<storage, read> film_map: array<vec4f>;
 @group(0) @binding(12) var<storage, read> film_tracer: array<f32>;
@@ -330,9 +330,9 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
         walls.further[FURTHER - 1u] += more;
     }
     var seen = vec3f(0.0);
-    let products = resolved(walls, bands[0].gap_nm);
-    for (var k = 0u; k < BANDS; k++) {
-        seen += band_radiance(bands[k], path.cos_theta, products, polarisation);
+    let products = resolved(walls, quadrature[0].gap_nm);
+    for (var k = 0u; k < WAVELENGTHS; k++) {
+        seen += sample_radiance(quadrature[k], path.cos_theta, products, polarisation);
     }
     if (EVERYTHING == 0u) {
         let nm = walls.first.walls_nm;

@@ -203,8 +203,8 @@ fn load_light(
     if known {
         return Ok((Resources { illuminant, ..resources }, notes));
     }
-    let (environment, lamps) = load_environment(light, folder, &mut notes)?;
-    Ok((Resources { environment, illuminant, lamps, ..resources }, notes))
+    let (environment, spectral_lights) = load_environment(light, folder, &mut notes)?;
+    Ok((Resources { environment, illuminant, spectral_lights, ..resources }, notes))
 }
 
 #[cfg(test)]
@@ -280,7 +280,10 @@ mod tests {
         arrived.recv_timeout(PATIENCE).unwrap();
         let read = load_scene(&saved).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(read.resources.illuminant.spectrum(), loaded.resources.illuminant.spectrum());
-        assert_eq!(read.resources.lamps[0].illuminant.spectrum(), loaded.resources.lamps[0].illuminant.spectrum());
+        assert_eq!(
+            read.resources.spectral_lights[0].illuminant.spectrum(),
+            loaded.resources.spectral_lights[0].illuminant.spectrum()
+        );
         assert_eq!(read.resources.liquids.len(), 1);
 
         files.save_scene(old.join("again.toml"), loaded.scene.clone(), loaded.folder);

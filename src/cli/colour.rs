@@ -224,7 +224,7 @@ fn film_of(fields: &[String], [thickness, cosine, back, exit]: [usize; 4]) -> an
     Ok(FilmPoint { cos_theta, walls })
 }
 
-/// Unpolarised XYZ through the table, the bands and the shader functions of pictures.
+/// Unpolarised XYZ through the table, the wavelengths and the shader functions of pictures.
 fn through_shaders(
     arguments: &Arguments,
     key: &OpticsKey,

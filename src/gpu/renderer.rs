@@ -6,13 +6,13 @@ use glam::DVec3;
 
 use super::{
     abilities::missing_for_measurement,
-    bands::Bands,
     device::{Gpu, GpuError},
     draw::{DrawInputs, DrawPass, pixels_shaded, strips},
     environment::Environment,
     film::{Field, MovingFilm, rules},
     formats::{PICTURE_FORMAT, radiance_format},
     passes::{add_light::add_light, bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
+    quadrature::Quadrature,
     readback::Readback,
     timing::{Counts, Recorder, TimeLog},
 };
@@ -31,8 +31,8 @@ struct Products {
     films: Vec<Option<MovingFilm>>,
     holes: Vec<Option<OpenHole>>,
     radiance: Option<Target>,
-    /// The picture in the light of one lamp, and its sum with those before.
-    lamp: Option<Target>,
+    /// The picture in one spectral light, and its sum with the pictures before.
+    added: Option<Target>,
     sum: Option<Target>,
     picture: Option<Target>,
 }
@@ -42,7 +42,7 @@ struct Products {
 struct LightProducts {
     table: Option<Table>,
     baking: Option<Table>,
-    bands: Option<Bands>,
+    quadrature: Option<Quadrature>,
     environment: Option<Environment>,
 }
 
@@ -51,7 +51,7 @@ impl Products {
     fn keep(&mut self, state: &GpuState) {
         self.lights.truncate(state.lights.len());
         if state.lights.len() <= 1 {
-            (self.lamp, self.sum) = (None, None);
+            (self.added, self.sum) = (None, None);
         }
         self.films.truncate(state.fields.len());
         let films = self.films.iter_mut().zip(&state.fields);
@@ -205,8 +205,8 @@ impl Renderer {
                 Ok(())
             }
             Pass::BakeTable { light, key, rows } => self.bake(*light, key, rows.clone()),
-            Pass::FitBands { light, key } => {
-                self.light(*light).bands = Some(Bands::fit(&self.gpu, key));
+            Pass::FitQuadrature { light, key } => {
+                self.light(*light).quadrature = Some(Quadrature::fit(&self.gpu, key));
                 Ok(())
             }
             Pass::SeedField { film, key } => self.seed(*film, key),
@@ -316,7 +316,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// The picture in the scene's own light, plus the picture in the light of each lamp.
+    /// The picture in the scene's own light, plus the picture in each spectral light.
     fn draw(&mut self, key: &DrawKey) -> Result<(), GpuError> {
         if key.full_precision
             && let Some(reason) = missing_for_measurement(&self.gpu.adapter)
@@ -326,14 +326,14 @@ impl Renderer {
         let format = radiance_format(key.full_precision);
         let mut radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
         self.draw_light(key, 0, &radiance)?;
-        for light in 1..=key.lamps.len() {
-            let [lamp, sum] = [self.products.lamp.take(), self.products.sum.take()]
-                .map(|slot| Target::fit(slot, &self.gpu, "lamp", key.size, format));
-            self.draw_light(key, light, &lamp)?;
+        for light in 1..=key.spectral_lights.len() {
+            let [added, sum] = [self.products.added.take(), self.products.sum.take()]
+                .map(|slot| Target::fit(slot, &self.gpu, "spectral light", key.size, format));
+            self.draw_light(key, light, &added)?;
             let mut recorder = Recorder::new(&self.gpu);
-            add_light(&mut recorder, key.full_precision, [&radiance.view, &lamp.view], &sum.view)?;
+            add_light(&mut recorder, key.full_precision, [&radiance.view, &added.view], &sum.view)?;
             Self::submit(&self.times, &mut self.counts, recorder);
-            self.products.lamp = Some(lamp);
+            self.products.added = Some(added);
             self.products.sum = Some(std::mem::replace(&mut radiance, sum));
         }
         self.products.radiance = Some(radiance);
@@ -350,13 +350,13 @@ impl Renderer {
         let (films, holes) = (&self.products.films, &self.products.holes);
         let hole = |film: usize| holes.get(film).and_then(Option::as_ref);
         let film = |film: usize| films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());
-        let (table, bands) = (products.table.as_ref(), products.bands.as_ref());
+        let (table, quadrature) = (products.table.as_ref(), products.quadrature.as_ref());
         let Some(lighting) = key.lights().nth(light) else { return Ok(()) };
         let pass = DrawPass::new(
             &self.gpu,
             key,
             lighting,
-            &DrawInputs { environment, table, bands, film: &film, hole: &hole },
+            &DrawInputs { environment, table, quadrature, film: &film, hole: &hole },
         )?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);

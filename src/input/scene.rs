@@ -102,10 +102,15 @@ fn no_such_scene(name: String) -> LoadError {
 
 /// Loads all that a scene names; file paths start from a folder.
 fn load_resources(scene: &Scene, folder: &Path, notes: &mut Vec<String>) -> Result<Resources, LoadError> {
-    let (environment, lamps) = load_environment(&scene.light, folder, notes)?;
+    let (environment, spectral_lights) = load_environment(&scene.light, folder, notes)?;
     let illuminant = load_illuminant(&scene.light.illuminant, folder, notes);
     let illuminant = illuminant.map_err(|error| Fault::unusable("illuminant", error).inside("light"))?;
-    Ok(Resources { environment, illuminant: illuminant.into(), lamps, liquids: load_liquids(scene, folder, notes)? })
+    Ok(Resources {
+        environment,
+        illuminant: illuminant.into(),
+        spectral_lights,
+        liquids: load_liquids(scene, folder, notes)?,
+    })
 }
 
 /// A liquid by its name or index, or from the `.csv` file of that path. What a user should know of how it was read is added to `notes`.

@@ -22,12 +22,12 @@ pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary,
-    FilmKey, FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey,
+    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary, FilmKey,
+    FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey, QuadratureKey,
     RestingFilm, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
 };
 pub use pass::{Pass, Reason};
-pub use request::{Lamp, Resources, Shot, has_one_film, request};
+pub use request::{Resources, Shot, SpectralLight, has_one_film, request};
 pub use story::Story;
 
 /// How much work may be done before the next picture must be shown.
@@ -73,8 +73,8 @@ pub struct LightState {
     pub table: Option<TableKey>,
     /// A table that is being baked, and how many of its rows are done.
     pub baking: Option<(TableKey, u32)>,
-    /// The bands.
-    pub bands: Option<BandsKey>,
+    /// The quadrature.
+    pub quadrature: Option<QuadratureKey>,
     /// The environment.
     pub environment: Option<EnvironmentKey>,
 }
@@ -143,7 +143,7 @@ impl fmt::Display for Plan {
                 Pass::OpenHole { film, key } => format!("film {film}, {:.4} s after it burst", key.hole.seconds),
                 Pass::Draw(key) => format!("{}x{}, bubbles: {}", key.size[0], key.size[1], key.bubbles.len()),
                 Pass::Tonemap(key) => format!("exposure {} EV", key.exposure_ev),
-                Pass::FitBands { key, .. } => {
+                Pass::FitQuadrature { key, .. } => {
                     format!("{} wavelengths, {}, films to {} nm", key.count(), key.quality.name(), key.range_nm)
                 }
                 Pass::UploadEnvironment { key, .. } => format!("6x{0}x{0} texels", key.size()),
@@ -174,11 +174,11 @@ pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
     let mut picture = request.picture.clone();
     let draw = &mut picture.draw;
     let (has_bubbles, needs_environment) = (!draw.bubbles.is_empty(), draw.needs_environment());
-    planner.after.lights.resize_with(1 + draw.lamps.len(), LightState::default);
-    for (light, lighting) in std::iter::once(&mut draw.lighting).chain(&mut draw.lamps).enumerate() {
+    planner.after.lights.resize_with(1 + draw.spectral_lights.len(), LightState::default);
+    for (light, lighting) in std::iter::once(&mut draw.lighting).chain(&mut draw.spectral_lights).enumerate() {
         if has_bubbles {
             lighting.table = lighting.table.as_ref().map(|table| planner.table(light, table));
-            planner.bands(light, &lighting.bands);
+            planner.quadrature(light, &lighting.quadrature);
         }
         if needs_environment {
             planner.environment(light, &lighting.environment);
@@ -210,7 +210,7 @@ impl Planner {
     /// Forgets what no picture of the scene can need: lights, films and holes of other scenes. A film out of sight stays, for its past is long.
     fn drop_unneeded(&mut self, request: &FrameRequest) {
         let draw = &request.picture.draw;
-        self.after.lights.truncate(1 + draw.lamps.len());
+        self.after.lights.truncate(1 + draw.spectral_lights.len());
         self.after.fields.truncate(request.has_field.len());
         for (field, _) in self.after.fields.iter_mut().zip(&request.has_field).filter(|(_, has_field)| !**has_field) {
             *field = None;
@@ -269,11 +269,11 @@ impl Planner {
         self.complete = false;
     }
 
-    fn bands(&mut self, light: usize, requested: &BandsKey) {
-        let current = &mut self.after.lights[light].bands;
+    fn quadrature(&mut self, light: usize, requested: &QuadratureKey) {
+        let current = &mut self.after.lights[light].quadrature;
         if let Some(reason) = changed(current.as_ref(), requested, |_, _| "film, light or quality") {
             *current = Some(requested.clone());
-            self.push(Pass::FitBands { light, key: requested.clone() }, reason);
+            self.push(Pass::FitQuadrature { light, key: requested.clone() }, reason);
         }
     }
 

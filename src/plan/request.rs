@@ -5,8 +5,8 @@ use std::{collections::BTreeMap, sync::Arc};
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, FrameRequest, LightKey, Lighting,
-    Moment, OpticsKey, Pace, Story, TableKey, TonemapKey, exposed_ev,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, FrameRequest, LightKey, Lighting, Moment,
+    OpticsKey, Pace, QuadratureKey, Story, TableKey, TonemapKey, exposed_ev,
     films::{cap, has_field},
     range_nm,
 };
@@ -28,15 +28,15 @@ pub struct Resources {
     pub environment: Arc<CubeMap>,
     /// The light's spectrum.
     pub illuminant: Arc<Illuminant>,
-    /// Lamps of other spectra, which the environment lacks.
-    pub lamps: Vec<Lamp>,
+    /// Light of other illuminants, which the environment lacks.
+    pub spectral_lights: Vec<SpectralLight>,
     /// Liquids from files, by the paths that the scene gives them.
     pub liquids: BTreeMap<String, FilmIndex>,
 }
 
-/// All light of one spectrum that is not the scene's own.
+/// All light of one illuminant other than the scene's own.
 #[derive(Clone, Debug)]
-pub struct Lamp {
+pub struct SpectralLight {
     /// Where it comes from, in linear BT.2020.
     pub environment: Arc<CubeMap>,
     /// Its spectrum.
@@ -94,8 +94,9 @@ impl Story {
         bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
         let film = material(scene, resources, &bubbles)?;
         let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
-        let own = Lamp { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
-        let lighting = |lamp: &Lamp, light: LightKey| lighting(scene, lamp, light, &film, range_nm);
+        let own =
+            SpectralLight { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
+        let lighting = |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &film, range_nm);
         let light = light(scene, resources, &camera);
         let draw = DrawKey {
             size: shot.size,
@@ -104,7 +105,11 @@ impl Story {
             yardstick: shot.yardstick,
             camera,
             lighting: lighting(&own, light),
-            lamps: resources.lamps.iter().map(|lamp| lighting(lamp, lamp_light(scene, lamp, light))).collect(),
+            spectral_lights: resources
+                .spectral_lights
+                .iter()
+                .map(|source| lighting(source, light_of(scene, source, light)))
+                .collect(),
             bubbles,
             on_bath: bath_m.is_some(),
         };
@@ -149,31 +154,31 @@ fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     }
 }
 
-/// The light of a lamp, given the scene's own light.
-fn lamp_light(scene: &Scene, lamp: &Lamp, own: LightKey) -> LightKey {
+/// The light of another illuminant, given the scene's own light.
+fn light_of(scene: &Scene, source: &SpectralLight, own: LightKey) -> LightKey {
     let backdrop = match own.backdrop {
         BackdropKey::Environment => BackdropKey::Environment,
         // A colour behind the bubbles is seen by the scene's own light.
         BackdropKey::Colour(_) => BackdropKey::Colour(DVec3::ZERO),
     };
-    LightKey { gain: DVec3::splat(scene.light.intensity), seen: seen_light(&lamp.illuminant), backdrop, ..own }
+    LightKey { gain: DVec3::splat(scene.light.intensity), seen: seen_light(&source.illuminant), backdrop, ..own }
 }
 
-fn lighting(scene: &Scene, lamp: &Lamp, light: LightKey, film: &FilmMaterial, range_nm: f64) -> Lighting {
-    let optics = OpticsKey { film: film.clone(), illuminant: lamp.illuminant.clone() };
-    let bands = BandsKey { optics, range_nm, quality: scene.view.quality };
-    let table = bands.needs_table().then(|| table(scene, lamp, &light, &bands));
-    Lighting { light, environment: EnvironmentKey(lamp.environment.clone()), table, bands }
+fn lighting(scene: &Scene, source: &SpectralLight, light: LightKey, film: &FilmMaterial, range_nm: f64) -> Lighting {
+    let optics = OpticsKey { film: film.clone(), illuminant: source.illuminant.clone() };
+    let quadrature = QuadratureKey { optics, range_nm, quality: scene.view.quality };
+    let table = quadrature.needs_table().then(|| table(scene, source, &light, &quadrature));
+    Lighting { light, environment: EnvironmentKey(source.environment.clone()), table, quadrature }
 }
 
-fn table(scene: &Scene, lamp: &Lamp, light: &LightKey, bands: &BandsKey) -> TableKey {
-    let full = TableKey::full(bands.optics.clone(), bands.range_nm);
+fn table(scene: &Scene, source: &SpectralLight, light: &LightKey, quadrature: &QuadratureKey) -> TableKey {
+    let full = TableKey::full(quadrature.optics.clone(), quadrature.range_nm);
     let is_grey = |rgb: DVec3| rgb.max_element() - rgb.min_element() <= 1e-12 * rgb.max_element();
     let backdrop = match light.backdrop {
         BackdropKey::Colour(rgb) => is_grey(rgb),
         BackdropKey::Environment => true,
     };
-    let neutral = lamp.environment.is_neutral() && is_grey(light.gain) && backdrop;
+    let neutral = source.environment.is_neutral() && is_grey(light.gain) && backdrop;
     TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full }
 }
 

@@ -74,7 +74,7 @@ fn cases() -> Vec<Case> {
         cases.push(water(light, Standard, 1500.0, 2, standard));
         cases.push(water(light, Spectral, 1500.0, 2, spectral));
     }
-    // More bands for thicker films keep `fast` what it is for thin ones.
+    // More wavelengths for thicker films keep `fast` what it is for thin ones.
     cases.extend([3000.0, 10_000.0, 30_000.0].map(|thickest_nm| water("D65", Fast, thickest_nm, 2, fast)));
     // Beyond the last visible fringe of one wall. Two walls of nearly one thickness show fringes however thick they are, and so do one and
     // another of nearly twice its thickness.

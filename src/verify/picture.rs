@@ -11,7 +11,7 @@ use crate::{
         colour::{BT2020, Gamut, bt709_to_bt2020, ciede2000, xyz_to_lab},
         environment::CubeMap,
     },
-    plan::{DrawKey, FrameRequest, Lamp, Moment, Pace, Resources, Shot, request},
+    plan::{DrawKey, FrameRequest, Moment, Pace, Resources, Shot, SpectralLight, request},
     scene::{Backdrop, Bubble, Camera, Film, FilmStateName, Flow, Motion, Quality, Scene, View},
 };
 
@@ -21,7 +21,7 @@ const SIZE: [u32; 2] = [256, 144];
 const LAMPS: usize = 6;
 /// Lights of the scenes in turn.
 const LIGHTS: [&str; 4] = ["D65", "A", "LED", "FL2"];
-/// Limits on the mean and the 99.9th percentile of CIEDE2000. That percentile lies at the rim, where a pixel spans many fringes and much of
+/// Limits on the mean and the 99.9th percentile of CIEDE2000. That percentile lies at the limb, where a pixel spans many fringes and much of
 /// the surroundings, of which both pictures take samples.
 const LIMITS: [(Quality, [f64; 2]); 3] =
     [(Quality::Fast, [1.0, 8.0]), (Quality::Standard, [0.3, 3.0]), (Quality::Spectral, [0.05, 0.6])];
@@ -30,7 +30,7 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut renderer = Renderer::new(pollster::block_on(run.gpu.another())?);
     let scenes = if run.is_long() { 12 } else { LIGHTS.len() };
     let lamps = ["sodium", "A"].into_iter().take(run.short_or_full(1, 2));
-    let lamps: Vec<_> = lamps.map(lamplit_scene).collect::<Result<_, _>>()?;
+    let lamps: Vec<_> = lamps.map(mixed_light_scene).collect::<Result<_, _>>()?;
     measure(run, &mut renderer, "daylight and a lamp", lamps)?;
     // A truth takes a minute: a short run computes only the room with a lamp, where all kinds of light meet.
     if run.extent == Extent::Short {
@@ -69,11 +69,11 @@ fn measure(
 }
 
 /// A scene in daylight, some of whose soft lamps are of another illuminant: the lamps of another random scene.
-fn lamplit_scene(illuminant: &str) -> Result<(Scene, Resources), GpuError> {
+fn mixed_light_scene(illuminant: &str) -> Result<(Scene, Resources), GpuError> {
     let (scene, mut resources) = random_scene(0)?;
     let (_, other) = random_scene(1)?;
     let illuminant = Arc::new(illuminant.parse().map_err(|error| GpuError::Refused(format!("{error}")))?);
-    resources.lamps = vec![Lamp { environment: other.environment, illuminant }];
+    resources.spectral_lights = vec![SpectralLight { environment: other.environment, illuminant }];
     Ok((scene, resources))
 }
 
@@ -116,7 +116,12 @@ fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
     let environment = Arc::new(CubeMap::from_fn(128, 1, light));
     Ok((
         scene,
-        Resources { environment, illuminant: Arc::new(illuminant), lamps: Vec::new(), liquids: BTreeMap::new() },
+        Resources {
+            environment,
+            illuminant: Arc::new(illuminant),
+            spectral_lights: Vec::new(),
+            liquids: BTreeMap::new(),
+        },
     ))
 }
 

@@ -58,9 +58,9 @@ pub fn needs_device(bubble: &BubbleKey) -> bool {
 /// A film's grid that is too coarse or too fine, or one that [`needs_device`] and is not there.
 pub fn radiance(key: &DrawKey, films: &MovedFilms, progress: &(dyn Fn() + Sync)) -> Result<Vec<DVec3>, ReferenceError> {
     let mut sum = radiance_in(key, &key.lighting, films, progress)?;
-    for lamp in &key.lamps {
-        let lamp = radiance_in(key, lamp, films, progress)?;
-        sum.iter_mut().zip(lamp).for_each(|(sum, lamp)| *sum += lamp);
+    for spectral_light in &key.spectral_lights {
+        let added = radiance_in(key, spectral_light, films, progress)?;
+        sum.iter_mut().zip(added).for_each(|(sum, added)| *sum += added);
     }
     Ok(sum)
 }
@@ -73,7 +73,7 @@ fn radiance_in(
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<DVec3>, ReferenceError> {
     let light = &lighting.light;
-    let optics = lighting.bands.optics.spectra_to(lighting.bands.range_nm);
+    let optics = lighting.quadrature.optics.spectra_to(lighting.quadrature.range_nm);
     let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
     let scene = PictureScene {
         size: key.size,

@@ -62,7 +62,7 @@ fn a_film_of_index_1_is_not_there() {
     }
 }
 
-/// A bubble of few pixels takes the maximum of samples, and a film of 30 µm the maximum of bands.
+/// A bubble of few pixels takes the maximum of samples, and a film of 30 µm the maximum of wavelengths.
 #[test]
 fn no_sample_of_a_small_bubble_of_thick_film_is_lost() {
     let Some(mut renderer) = renderer() else { return };

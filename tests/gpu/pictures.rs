@@ -255,9 +255,9 @@ fn small_bubbles_do_not_twinkle() {
     assert!(max > 0.0 && spread <= 0.005, "{energies:?}");
 }
 
-/// Pixels on either side of the outline that count as the rim: light grazes the film there, thick films have fringes as narrow as pixels,
+/// Pixels on either side of the outline that count as the limb: light grazes the film there, thick films have fringes as narrow as pixels,
 /// and reflections squeeze the room together.
-const RIM_PIXELS: f64 = 4.0;
+const LIMB_PIXELS: f64 = 4.0;
 
 /// How far the GPU's picture is from the f64 one.
 struct Distance {
@@ -265,8 +265,8 @@ struct Distance {
     mean: f64,
     /// Largest difference of pixels that the bubble's outline stays clear of, in the same units.
     inside_max: f64,
-    /// Largest difference of the others, in units of the light's white, all of which a film reflects at the rim.
-    rim_max: f64,
+    /// Largest difference of the others, in units of the light's white, all of which a film reflects at the limb.
+    limb_max: f64,
 }
 
 fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedScene, time_s: f64) -> Distance {
@@ -280,20 +280,20 @@ fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedS
     let errors: Vec<f64> = seen.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element() / scale).collect();
     let eye = camera(&request);
     let limb = (0.05 / eye.eye_m.length()).asin();
-    let at_rim = |k: usize| {
+    let at_limb = |k: usize| {
         let position = DVec2::new((k % 160) as f64 + 0.5, (k / 160) as f64 + 0.5);
-        // Not a number, and so never at the rim, with the camera inside.
-        (eye.ray(size, position).angle_between(-eye.eye_m) - limb).abs() < RIM_PIXELS * eye.pixel_height_m
+        // Not a number, and so never at the limb, with the camera inside.
+        (eye.ray(size, position).angle_between(-eye.eye_m) - limb).abs() < LIMB_PIXELS * eye.pixel_height_m
     };
-    let part = |rim: bool| {
-        let errors = errors.iter().enumerate().filter(|(k, _)| at_rim(*k) == rim).map(|(_, error)| *error);
+    let part = |limb: bool| {
+        let errors = errors.iter().enumerate().filter(|(k, _)| at_limb(*k) == limb).map(|(_, error)| *error);
         errors.fold(0.0, f64::max)
     };
     let (mean, _) = mean_and_max(errors.iter().copied());
     let white = request.picture.draw.lighting.light.gain.max_element() / scale;
-    let distance = Distance { mean, inside_max: part(false), rim_max: part(true) / white };
-    let Distance { mean, inside_max, rim_max } = distance;
-    eprintln!("measured: GPU - f64 picture, {name}: mean {mean:.5}, max {inside_max:.4}, at the rim {rim_max:.4}");
+    let distance = Distance { mean, inside_max: part(false), limb_max: part(true) / white };
+    let Distance { mean, inside_max, limb_max } = distance;
+    eprintln!("measured: GPU - f64 picture, {name}: mean {mean:.5}, max {inside_max:.4}, at the limb {limb_max:.4}");
     distance
 }
 
@@ -312,12 +312,12 @@ fn the_picture_in_even_light_is_the_f64_one() {
         [(&moving, "stirred film at 0.51 s, even light"), (&still_film, "uniform 320 nm, even light, black card")];
     for (loaded, name) in films.into_iter().take(short_or_long(1, 2)) {
         let distance = distance_from_reference(&mut renderer, name, loaded, 0.51);
-        assert!(distance.mean <= 0.01 && distance.inside_max <= 0.05 && distance.rim_max <= 0.12, "{name}");
+        assert!(distance.mean <= 0.01 && distance.inside_max <= 0.05 && distance.limb_max <= 0.12, "{name}");
     }
 }
 
 /// With a tent around it, filtered lookups of the environment stand against averages over samples: edges of lamps differ by a part of
-/// their contrast within a pixel, and most where the rim squeezes them.
+/// their contrast within a pixel, and most where the limb squeezes them.
 #[test]
 fn the_pictures_of_presets_are_the_f64_ones() {
     let Some(mut renderer) = renderer() else { return };
@@ -327,7 +327,7 @@ fn the_pictures_of_presets_are_the_f64_ones() {
         loaded.resources.environment = tent.clone();
         loaded.scene.bubbles[0].film.cells = 64;
         let distance = distance_from_reference(&mut renderer, name, &loaded, 0.0);
-        assert!(distance.mean <= 0.012 && distance.inside_max <= 0.15 && distance.rim_max <= 0.12, "{name}");
+        assert!(distance.mean <= 0.012 && distance.inside_max <= 0.15 && distance.limb_max <= 0.12, "{name}");
     }
 }
 

@@ -2,9 +2,9 @@
 
 use crate::{
     gpu::{
-        bands::{BandSample, spectrum_samples},
         device::{Gpu, GpuError},
         kernel::{Read, Rgba16Float, Uniform, Written2dArray, WrittenFormat, kernels, overrides, shader_struct},
+        quadrature::{QuadratureSample, spectrum_samples},
         timing::Recorder,
         uniform_buffer::UniformBuffer,
     },
@@ -67,7 +67,7 @@ kernels! {
     struct BakeTable {
         overrides table_kind: TableOverrides;
         @0 bake: Uniform<BakeUniform>;
-        @1 samples: Read<[BandSample]>;
+        @1 samples: Read<[QuadratureSample]>;
         // Filterable and storable on every adapter.
         @2 table: Written2dArray<Rgba16Float>;
     }

@@ -7,9 +7,9 @@ use super::{
 };
 use crate::{
     gpu::{
-        bands::{BandOverrides, BandSample, MAX_BANDS},
         control::BalanceBlock,
         kernel::{Matrix, Read, Sampler, Texture2dArray, TextureCube, Uniform, kernels, overrides, shader_struct},
+        quadrature::{MAX_WAVELENGTHS, QuadratureOverrides, QuadratureSample},
         rings::SIDES,
     },
     physics::{film::HOLE_MERIDIANS, transport::Scheme},
@@ -94,7 +94,7 @@ kernels! {
     struct Shade {
         overrides shape: RingOverrides;
         overrides table_kind: TableOverrides;
-        overrides summed: BandOverrides;
+        overrides summed: QuadratureOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
@@ -104,7 +104,7 @@ kernels! {
         @6 table: Texture2dArray;
         @7 table_sampler: Sampler;
         @8 film: Texture2dArray;
-        @9 bands: Uniform<[BandSample; MAX_BANDS]>;
+        @9 quadrature: Uniform<[QuadratureSample; MAX_WAVELENGTHS]>;
         @10 film_balance: Uniform<BalanceBlock>;
         @11 film_map: Read<[[f32; 4]]>;
         @12 film_tracer: Read<[f32]>;
@@ -117,7 +117,7 @@ kernels! {
     struct ShadeMirror {
         overrides shape: RingOverrides;
         overrides table_kind: TableOverrides;
-        overrides summed: BandOverrides;
+        overrides summed: QuadratureOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;

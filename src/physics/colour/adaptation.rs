@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use glam::{DMat3, DVec3};
 
-use super::{BT2020, ColourWeights, FilmOptics, Illuminant, RgbSpace, bands::responses};
+use super::{BT2020, ColourWeights, FilmOptics, Illuminant, RgbSpace, quadrature::responses};
 use crate::physics::optics::FilmIndex;
 
 /// Cone responses of the Bradford adaptation (ICC.1:2022, annex E.2).

@@ -8,7 +8,7 @@ use crate::physics::{
     optics::{Polarised, amplitudes},
 };
 
-/// Inner reflections followed at most; only rays within a hair of the rim have more to give.
+/// Inner reflections followed at most; only rays within a hair of the limb have more to give.
 const MAX_INNER: usize = 64;
 /// What may be left to the last direction before following it further is pointless.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -83,7 +83,7 @@ impl<'a> LightPath<'a> {
         let r2 = amplitudes(self.optics.film().reference_index(), cos_theta).s.powi(2);
         let max = 4.0 * r2 / (1.0 + r2).powi(2);
         let needed = NEGLIGIBLE.ln() / max.ln();
-        // `most` is 1 at the very rim, where no number of reflections is enough.
+        // `max` is 1 exactly at the limb, where no number of reflections is enough.
         if needed.is_finite() && needed > 0.0 { (needed.ceil() as usize).clamp(1, MAX_INNER) } else { MAX_INNER }
     }
 

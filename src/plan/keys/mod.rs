@@ -8,7 +8,7 @@ mod rest;
 mod step;
 
 pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};
-pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
+pub use optics::{OpticsKey, QuadratureKey, TableKey, range_nm};
 pub use picture::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey, exposed_ev,
 };

@@ -1,10 +1,10 @@
-//! Keys of what films look like in a light: tables and bands.
+//! Keys of what films look like in a light: tables and wavelengths.
 
 use std::sync::Arc;
 
 use crate::{
     physics::{
-        colour::{BandTask, FilmOptics, Illuminant},
+        colour::{FilmOptics, Illuminant, QuadratureTask},
         optics::FilmMaterial,
     },
     scene::Quality,
@@ -89,7 +89,7 @@ impl TableKey {
     }
 }
 
-/// The range of tables and bands for films up to a thickness, in nm: steps of 250 nm, so that small edits make nothing anew.
+/// The range of tables and wavelengths for films up to a thickness, in nm: steps of 250 nm, so that small edits make nothing anew.
 #[must_use]
 pub fn range_nm(thickest_nm: f64) -> f64 {
     ((thickest_nm / 250.0).ceil() * 250.0).max(TableKey::MIN_RANGE_NM)
@@ -97,7 +97,7 @@ pub fn range_nm(thickest_nm: f64) -> f64 {
 
 /// The fitted wavelengths that shaders sum over.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BandsKey {
+pub struct QuadratureKey {
     /// Film and light.
     pub optics: OpticsKey,
     /// Thickness that they are fitted to, in nm.
@@ -106,16 +106,16 @@ pub struct BandsKey {
     pub quality: Quality,
 }
 
-impl BandsKey {
-    /// Bands at most: what the smallest uniform buffers have room for.
+impl QuadratureKey {
+    /// Maximum number of wavelengths, which the smallest uniform buffers have room for.
     pub const MAX: usize = 256;
-    /// Bands at most where there is no table: with more of them, a table and fewer bands are as good and cheaper.
+    /// Maximum number of wavelengths without a table: with more of them, a table and fewer wavelengths are as good and cheaper.
     const MAX_ALONE: usize = 120;
 
-    /// What the bands are summed for.
+    /// The task of the sum.
     #[must_use]
-    pub fn task(&self) -> BandTask {
-        if self.needs_table() { BandTask::CrossTerms } else { BandTask::Everything }
+    pub fn task(&self) -> QuadratureTask {
+        if self.needs_table() { QuadratureTask::CrossTerms } else { QuadratureTask::Everything }
     }
 
     /// Whether single walls come from a table.
@@ -131,23 +131,23 @@ impl BandsKey {
         alone.max(self.needed(self.measured_beside_table()).min(Self::MAX))
     }
 
-    /// Thickness, in nm, up to which the maximum number of bands resolves the fringes of the products.
+    /// Thickness, in nm, up to which the maximum number of wavelengths resolves the fringes of the products.
     #[must_use]
     pub fn resolved_nm(&self) -> f64 {
         let measured = if self.needs_table() { self.measured_beside_table() } else { self.measured() };
         // A fiftieth less than measured is no less good, and makes it 30 µm.
-        1.02 * Self::MAX as f64 / (measured * self.bands_over_water()) * TableKey::MIN_RANGE_NM
+        1.02 * Self::MAX as f64 / (measured * self.wavelengths_over_water()) * TableKey::MIN_RANGE_NM
     }
 
-    /// Bands needed, given the number that is enough for 1500 nm of water: it grows with the number of fringes.
+    /// Wavelengths needed, given the number that is enough for 1500 nm of water: it grows with the number of fringes.
     fn needed(&self, measured: f64) -> usize {
-        (measured * self.bands_over_water() * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
+        (measured * self.wavelengths_over_water() * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
     }
 
-    /// Ratio of the bands that a film needs to the bands for water of the same thickness. A denser liquid has more fringes, and as its faces
-    /// reflect more they are sharper: measured from index 2 to 4, so that `fast` and `standard` err in the
-    /// mean no more than for water. Up to 1.4, water's do.
-    fn bands_over_water(&self) -> f64 {
+    /// Ratio of the wavelengths that a film needs to the wavelengths for water of the same thickness. A denser liquid has more fringes, and as its
+    /// faces reflect more they are sharper: measured from index 2 to 4, so that `fast` and `standard` err in the mean no more than for water. Up to
+    /// 1.4, water's do.
+    fn wavelengths_over_water(&self) -> f64 {
         1.0 + 4.3 * (self.optics.film.reference_index() - 1.4).max(0.0)
     }
 

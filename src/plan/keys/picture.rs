@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{BandsKey, FilmKey, OpenHoleKey, Opening, TableKey};
+use super::{FilmKey, OpenHoleKey, Opening, QuadratureKey, TableKey};
 use crate::physics::{colour::Gamut, environment::CubeMap, film::Cap};
 
 /// The light around the bubbles.
@@ -123,7 +123,7 @@ pub struct DrawKey {
     /// The scene's own light.
     pub lighting: Lighting,
     /// Lights of other illuminants. Light adds up: the picture is the sum of the pictures in each light alone.
-    pub lamps: Vec<Lighting>,
+    pub spectral_lights: Vec<Lighting>,
     /// The bubbles that can be seen, farthest first.
     pub bubbles: Vec<BubbleKey>,
     /// Whether they stand on a bath, which is a mirror of water at the height of their centers.
@@ -139,8 +139,8 @@ pub struct Lighting {
     pub environment: EnvironmentKey,
     /// The table, where the quality has one.
     pub table: Option<TableKey>,
-    /// The bands.
-    pub bands: BandsKey,
+    /// The quadrature.
+    pub quadrature: QuadratureKey,
 }
 
 /// Stops in which pictures of half floats are exposed. Half floats have sixteen between black and white to spare, so that small changes of the
@@ -156,7 +156,7 @@ pub fn exposed_ev(exposure_ev: f64) -> i32 {
 impl DrawKey {
     /// All lights, the scene's own first.
     pub fn lights(&self) -> impl Iterator<Item = &Lighting> {
-        std::iter::once(&self.lighting).chain(&self.lamps)
+        std::iter::once(&self.lighting).chain(&self.spectral_lights)
     }
 
     /// Whether any light from the environment can reach the picture.
@@ -176,7 +176,7 @@ impl DrawKey {
             "the camera"
         } else if self.lighting != other.lighting {
             self.lighting.difference(&other.lighting)
-        } else if self.lamps != other.lamps {
+        } else if self.spectral_lights != other.spectral_lights {
             "a light of another illuminant"
         } else if self.bubbles != other.bubbles {
             "a bubble or its film"
@@ -193,7 +193,7 @@ impl Lighting {
         } else if self.table != other.table {
             "the table"
         } else {
-            "the bands"
+            "the quadrature"
         }
     }
 }

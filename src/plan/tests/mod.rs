@@ -30,7 +30,7 @@ fn resources() -> Resources {
     Resources {
         environment: Arc::new(CubeMap::constant(DVec3::ONE)),
         illuminant: Arc::new(Illuminant::default()),
-        lamps: Vec::new(),
+        spectral_lights: Vec::new(),
         liquids: BTreeMap::new(),
     }
 }
@@ -80,20 +80,20 @@ fn event(tick: u64, flow: Flow) -> Event {
 
 #[test]
 fn each_light_has_what_it_needs_and_loses_nothing_to_another() {
-    let lamp = |illuminant: &str| Lamp {
+    let spectral_light = |illuminant: &str| SpectralLight {
         environment: Arc::new(CubeMap::constant(DVec3::ONE)),
         illuminant: Arc::new(illuminant.parse().unwrap()),
     };
-    let lit = |lamps: Vec<Lamp>| {
-        request(&uniform_scene(), &Resources { lamps, ..resources() }, &shot(0, Pace::Whole)).unwrap()
+    let lit = |spectral_lights: Vec<SpectralLight>| {
+        request(&uniform_scene(), &Resources { spectral_lights, ..resources() }, &shot(0, Pace::Whole)).unwrap()
     };
     let alone = plan(&lit(vec![]), &GpuState::default());
-    let both = plan(&lit(vec![lamp("A")]), &alone.after);
+    let both = plan(&lit(vec![spectral_light("A")]), &alone.after);
     assert_eq!(both.after.lights.len(), 2);
     let mut passes = names(&both);
     passes.dedup();
-    assert_eq!(passes, ["bake_table", "fit_bands", "upload_environment", "draw", "tonemap"]);
-    assert!(plan(&lit(vec![lamp("A")]), &both.after).is_empty());
+    assert_eq!(passes, ["bake_table", "fit_quadrature", "upload_environment", "draw", "tonemap"]);
+    assert!(plan(&lit(vec![spectral_light("A")]), &both.after).is_empty());
     assert_eq!(names(&plan(&lit(vec![]), &both.after)), ["draw", "tonemap"]);
 }
 
@@ -102,8 +102,16 @@ fn the_first_picture_makes_everything_once() {
     let first = names(&plan(&frame_request(&stirred_scene(), 30, Pace::Whole), &GpuState::default()));
     let mut order = first.clone();
     order.dedup();
-    let expected =
-        ["bake_table", "fit_bands", "upload_environment", "seed_field", "step_field", "show_field", "draw", "tonemap"];
+    let expected = [
+        "bake_table",
+        "fit_quadrature",
+        "upload_environment",
+        "seed_field",
+        "step_field",
+        "show_field",
+        "draw",
+        "tonemap",
+    ];
     assert_eq!(order, expected);
 }
 

@@ -195,7 +195,8 @@ fn vanishes(renderer: &mut Renderer, mut loaded: LoadedScene, moment: Moment) ->
     let (light, is_neutral) = (&mut loaded.scene.light, loaded.resources.environment.is_neutral());
     light.constant.get_or_insert(if is_neutral { [1.0; 3] } else { [1.0, 0.5, 0.25] });
     (light.patches, loaded.scene.view.backdrop) = (Vec::new(), Backdrop::Environment);
-    (loaded.resources.environment, loaded.resources.lamps) = (Arc::new(CubeMap::constant(DVec3::ONE)), Vec::new());
+    (loaded.resources.environment, loaded.resources.spectral_lights) =
+        (Arc::new(CubeMap::constant(DVec3::ONE)), Vec::new());
     let request = frame_request(&loaded, moment).unwrap();
     if request.picture.draw.on_bath {
         return Ok(());
