@@ -83,7 +83,7 @@ fn a_small_bubble_far_from_the_origin_looks_the_same() {
     let Some(mut renderer) = renderer() else { return };
     let place = |center_m: [f64; 3]| {
         let mut loaded = at_rest("windows");
-        loaded.scene.bubbles[0] = Bubble { radius_mm: 1.0, center_m: center_m, ..loaded.scene.bubbles[0].clone() };
+        loaded.scene.bubbles[0] = Bubble { radius_mm: 1.0, center_m, ..loaded.scene.bubbles[0].clone() };
         loaded.scene.camera = Camera { target_m: center_m, distance_m: 0.005, ..Camera::default() };
         loaded
     };
