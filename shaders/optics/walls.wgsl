@@ -106,7 +106,7 @@ fn wall_reflectances(sample: QuadratureSample, cos_theta: f32, hits: Hits) -> Re
 }
 
 // The part of L - B at one wavelength, in light of that wavelength.
-fn sample_radiance(sample: QuadratureSample, cos_theta: f32, walls: Walls, polarisation: vec2f) -> vec3f {
+fn wavelength_radiance(sample: QuadratureSample, cos_theta: f32, walls: Walls, polarisation: vec2f) -> vec3f {
     let r = wall_reflectances(sample, cos_theta, walls.first);
     var s = polarisation.x * first_factors(r.s);
     var p = polarisation.y * first_factors(r.p);

@@ -12,7 +12,7 @@ import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::{FILTERED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls, resolved, sample_radiance};
+import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::path::{Path, footprint, polarisation_along};
@@ -332,7 +332,7 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     var seen = vec3f(0.0);
     let products = resolved(walls, quadrature[0].gap_nm);
     for (var k = 0u; k < WAVELENGTHS; k++) {
-        seen += sample_radiance(quadrature[k], path.cos_theta, products, polarisation);
+        seen += wavelength_radiance(quadrature[k], path.cos_theta, products, polarisation);
     }
     if (EVERYTHING == 0u) {
         let nm = walls.first.walls_nm;

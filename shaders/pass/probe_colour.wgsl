@@ -3,7 +3,7 @@
 import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::film_reflection;
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{EVERYTHING, Hits, INNER, WAVELENGTHS, Walls, resolved, sample_radiance};
+import package::optics::walls::{EVERYTHING, Hits, INNER, WAVELENGTHS, Walls, resolved, wavelength_radiance};
 
 // Front, back and exit wall of one ray. Mirrors `ProbePoint` in src/gpu/passes/probe_colour.rs.
 struct ProbePoint {
@@ -45,7 +45,7 @@ fn probe_colour(@builtin(global_invocation_id) id: vec3u) {
     walls.first = Hits(vec4f(at.front_nm, at.back_nm, at.exit_nm, at.exit_nm), vec4f(0.0), steps);
     walls = resolved(walls, quadrature[0].gap_nm);
     for (var k = 0u; k < WAVELENGTHS; k++) {
-        seen += sample_radiance(quadrature[k], at.cos_theta, walls, UNPOLARISED);
+        seen += wavelength_radiance(quadrature[k], at.cos_theta, walls, UNPOLARISED);
     }
     colours[id.x] = vec4f(seen, 1.0);
 }
