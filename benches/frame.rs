@@ -55,7 +55,7 @@ fn frame_request(size: [u32; 2], yardstick: bool) -> FrameRequest {
     request(&loaded.scene, &loaded.resources, &shot).expect("a scene that can be drawn")
 }
 
-/// One frame, everything but the bakes anew.
+/// One frame, drawn again except for baked tables.
 fn draw(renderer: &mut Renderer, request: &FrameRequest) {
     renderer.forget_picture();
     renderer.render(request).expect("a frame");

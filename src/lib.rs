@@ -1,6 +1,6 @@
 //! Soap bubbles with correct thin-film interference, on wgpu.
 //!
-//! A picture takes three lines; [`studio`] does it, and also reads films and tells colours:
+//! A picture takes three lines; [`studio`] does it, and also reads films and computes colours:
 //!
 //! ```no_run
 //! let scene = soapfilm::load_scene("windows")?;

@@ -93,7 +93,7 @@ fn sum_of_parts(local: u32) -> f32 {
     return workgroup_sum(sum, local);
 }
 
-// Takes the field as it is for what must be conserved from now on.
+// Makes the present amount the one to be conserved from now on.
 @compute @workgroup_size(256)
 fn count_spared(@builtin(local_invocation_index) local: u32) {
     let excess = sum_of_parts(local);

@@ -1,7 +1,7 @@
 // Interpolation of fields on the cubed sphere at any direction, by Lagrange weights. Panels are stored with halos, so no lookup sees an edge.
 // Weights are computed here: filtering hardware has 8 bits for what needs 20.
 //
-// A pass that looks fields up says where they are by two functions of its own:
+// A pass that looks fields up defines two functions for them:
 //     fn map_value(map: u32, place: u32) -> vec4f     the value of one of its maps at a place in padded storage
 //     fn tracer_value(place: u32) -> f32              a value of its tracer
 

@@ -38,7 +38,7 @@ impl Capture {
         Ok(Self { readback, size, radiance, path, metadata: metadata(model) })
     }
 
-    /// Hands the picture to a worker once it has arrived; tells whether it is still on its way.
+    /// Hands the picture to a worker once it has arrived; returns whether it is still pending.
     pub fn poll(&self, gpu: &Gpu, files: &Files) -> Result<bool, GpuError> {
         gpu.device.poll(wgpu::PollType::Poll).map_err(|error| GpuError::Lost(error.to_string()))?;
         let Some(bytes) = self.readback.try_take() else { return Ok(true) };

@@ -2,7 +2,7 @@
 //!
 //! The rule for all controls: what moves the films (the keys that [`MotionChange`] has) is an event at the clock's tick, and so is what the
 //! pointer does to a film; the past stays as it was. At tick 0 nothing has happened yet, and the change is one of how the scene begins.
-//! Everything else holds for the whole history: editing it changes the past too, and a film that would have begun otherwise is blown anew.
+//! Everything else holds for the whole history: editing it changes the past too, and a film that would have begun differently is blown again.
 
 use super::history;
 use crate::scene::{Bubble, Camera, Change, Event, FilmIndexName, Light, Motion, MotionChange, Scene, View};
@@ -20,7 +20,7 @@ pub enum Edit {
     Bubble(usize, Box<Bubble>),
     /// A new list of bubbles.
     Bubbles(Vec<Bubble>),
-    /// Every film blown anew, in another breath of air.
+    /// Every film blown again, with a new seed for film and flow.
     Reseed,
     /// Another motion, from now on as far as it can change.
     Motion(Box<Motion>),

@@ -249,7 +249,7 @@ impl View {
         }
     }
 
-    /// Makes everything on the device anew if the device is lost; reads changed shaders.
+    /// Recreates everything on the device if the device is lost; reloads changed shaders.
     fn recover(&mut self, model: &mut Model) -> Result<(), AppError> {
         // A loss is told by a callback, which comes when the device is polled.
         let _ = self.stage.renderer.gpu.device.poll(wgpu::PollType::Poll);

@@ -45,7 +45,7 @@ pub enum Action {
     Quit,
 }
 
-/// A key, what it does, and how the help says so.
+/// A key, its action, and its line in the help.
 pub struct Binding {
     /// The key with its modifiers.
     pub shortcut: KeyboardShortcut,

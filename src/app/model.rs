@@ -99,7 +99,7 @@ pub struct Model {
     pub loading: Option<String>,
     /// Ticks that the films are behind the clock.
     pub behind_ticks: u64,
-    /// What is to be said.
+    /// Messages to show.
     pub messages: Messages,
     /// What pictures cost.
     pub costs: Costs,
@@ -111,7 +111,7 @@ impl Model {
     /// A window on a scene, its clock running.
     #[must_use]
     pub fn new(mut loaded: LoadedScene) -> Self {
-        // The camera moves from now on, and no film shall begin anew for that.
+        // The camera moves from now on, which must not restart a film.
         settle_detail(&mut loaded.scene);
         let mut messages = Messages::default();
         warn(&mut messages, &loaded);
@@ -176,7 +176,7 @@ impl Model {
         self.furthest_tick.max(self.clock.tick).max(last_event)
     }
 
-    /// Makes a change of the scene, or says why there can be no such scene; tells whether it was made. The only way to change a scene.
+    /// Makes a change of the scene, or reports why it is not valid; returns whether it was made. The only way to change a scene.
     pub fn edit(&mut self, edit: Edit) -> bool {
         let tick = self.clock.tick;
         let back = self.scene.change(|scene| edit.apply(scene, tick));
@@ -191,7 +191,7 @@ impl Model {
         true
     }
 
-    /// Blows every film anew, in another breath of air.
+    /// Blows every film again, with a new seed for film and flow.
     pub fn new_seeds(&mut self) {
         self.clock.reset();
         let motion = Motion { seed: new_seed(), ..self.motion() };

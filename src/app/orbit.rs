@@ -152,7 +152,7 @@ mod tests {
             camera = step(&camera, -0.2);
         }
         assert!(camera.distance_m > 0.24);
-        // In and out by the same amount is no move.
+        // In and out by the same amount is no movement.
         let there_and_back = step(&step(&at(0.24), 0.7), -0.7);
         assert!((there_and_back.distance_m - 0.24).abs() < 1e-12);
     }

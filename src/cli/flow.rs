@@ -80,7 +80,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     drop(progress);
     anyhow::ensure!(
         is_finite(&outcome),
-        "the flow has left the numbers that a GPU holds: take more --steps, or less of what drives it"
+        "the flow is no longer finite on the GPU: take more --steps, or weaker driving"
     );
     let mut line = format!("{}: l2 {:.3e}", case.kind().name(), outcome.l2);
     if outcome.energy_drift.is_finite() {
@@ -91,7 +91,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         line += &format!(", growth {:.6} (exact {:.6})", found.growth, case.growth());
     }
     let cpu_ms = outcome.cpu.as_secs_f64() * 1e3;
-    print(format_args!("{line}; {} dispatches and {cpu_ms:.2} ms of process CPU a step\n", outcome.dispatches))?;
+    print(format_args!("{line}; {} dispatches and {cpu_ms:.2} ms of process CPU per step\n", outcome.dispatches))?;
     if let Some(path) = &arguments.json {
         write_text(path, &serde_json::to_string_pretty(&report(arguments, &case, &outcome))?)?;
     }
@@ -112,7 +112,7 @@ fn case(arguments: &Arguments) -> anyhow::Result<FlowCase> {
     let (mode, k) = (Mode::new(degree, order, u32::from(sloshes))?, arguments.k.unwrap_or(default));
     anyhow::ensure!(
         !sloshes || arguments.stratification != 0.0,
-        "without stratification nothing sloshes: use another than 0"
+        "without stratification nothing sloshes: use a value other than 0"
     );
     let case = FlowCase::new(arguments.case, arguments.axis, mode, arguments.omega, k)?;
     Ok(case.with_film(arguments.stratification, arguments.drag))

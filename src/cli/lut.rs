@@ -179,7 +179,7 @@ fn description(arguments: &Arguments, metadata: &Metadata) -> String {
     let rows = ["R", "G", "B"].into_iter().zip(0..);
     let to_bt709 = rows.map(|(name, row)| format!("  {name} = {}\n", weighted(matrix.row(row), ["r", "g", "b"])));
     format!(
-        "{}: what a film of {} reflects under {}\n\n{}\n{LOADING}\nFrom linear BT.2020 r, g, b to linear BT.709 (sRGB primaries):\n{}\n{PHYSICS_IS_LESS_CERTAIN}\n",
+        "{}: the colour that a film of {} reflects under {}\n\n{}\n{LOADING}\nFrom linear BT.2020 r, g, b to linear BT.709 (sRGB primaries):\n{}\n{PHYSICS_IS_LESS_CERTAIN}\n",
         arguments.output.file_name().unwrap_or_default().to_string_lossy(),
         arguments.film,
         arguments.illuminant,

@@ -43,7 +43,7 @@ pub struct Cost {
 /// Frames drawn before any is measured.
 const WARM_UP: u32 = 3;
 
-/// Draws a frame again and again, everything but the bakes anew, and takes medians. Yardstick frames alternate with the others, so
+/// Draws a frame repeatedly, except for baked tables, and takes medians. Yardstick frames alternate with the others, so
 /// that both see the same machine.
 pub fn frames(renderer: &mut Renderer, request: &FrameRequest, repeats: u32, yardstick: bool) -> anyhow::Result<Cost> {
     let mut plain = request.clone();

@@ -2,7 +2,7 @@
 //!
 //! Every command names the adapter it used on stderr, fails with one clear line there and a non-zero exit, and never leaves a
 //! half-written file. Exit codes: 0, done; 1, it cannot be done; 2, the arguments make no sense; 141, the reader of standard output has
-//! stopped, as `head` does, which is no error and ends the program without a word.
+//! stopped, as `head` does, which is not an error and ends the program without a message.
 
 mod colour;
 mod failure;
@@ -38,7 +38,7 @@ use crate::{
     scene::Setting,
 };
 
-/// Said wherever errors of colours are: small ones make the numerics invisible, and are no claim about a real film.
+/// Accompanies all errors of colours: small ones concern the numerics alone, and are no claim about a real film.
 const PHYSICS_IS_LESS_CERTAIN: &str = "Colours are less certain than the numerics: an error of 0.001 in the index of the film changes them by a mean dE2000 of 0.44, an error of 1 nm in its thickness by 0.64.";
 
 /// Soap bubbles with correct thin-film interference and a film that flows.
@@ -126,7 +126,7 @@ struct SceneSettings {
 }
 
 impl SceneSettings {
-    /// Loads a scene with these settings, and says on stderr what of it no real bubble does, and how its files were read where that is in doubt.
+    /// Loads a scene with these settings; warns on stderr about unphysical values, and notes how its files were read where that is in doubt.
     fn load(&self, name: &Path) -> Result<LoadedScene, LoadError> {
         let loaded = load_scene_with(name, &self.settings)?;
         for warning in loaded.scene.warnings() {
@@ -188,13 +188,13 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
     }
 }
 
-/// Says on stderr what a user should know of how files were read.
+/// Prints on stderr what a user should know of how files were read.
 fn tell_notes(notes: &[String]) {
     notes.iter().for_each(|note| tell(format_args!("note: {note}")));
 }
 
-/// Does something that tells by its result all that a user needs to know: drivers that are not there complain at length when others are looked
-/// for. Who asks for logs by `RUST_LOG` gets them.
+/// Runs something whose result tells the user everything: missing drivers log long complaints when others are looked
+/// for. `RUST_LOG` shows these logs.
 fn without_logs<T>(action: impl FnOnce() -> T) -> T {
     let level = log::max_level();
     if std::env::var_os("RUST_LOG").is_none() {

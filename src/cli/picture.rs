@@ -119,7 +119,7 @@ impl<'a> Painter<'a> {
         Ok(self.story.request(&self.loaded.resources, &shot).map_err(|fault| self.loaded.source.locate(fault))?)
     }
 
-    /// What the file says about itself.
+    /// The metadata of the file.
     pub fn metadata(&self, time_s: f64) -> Metadata {
         Metadata::new()
             .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))

@@ -91,7 +91,7 @@ enum Switch {
 
 fn fraction(text: &str) -> Result<f64, String> {
     let value = parse::finite(text)?;
-    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a part lies between 0 and 1".to_owned()) }
+    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a fraction lies between 0 and 1".to_owned()) }
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
@@ -102,7 +102,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let gpu = arguments.adapter.open()?;
     let (moved, norms) = measured(&gpu, &case)?;
     let finite = [norms.l1, norms.l2, norms.linf, norms.min, norms.max].iter().all(|norm| norm.is_finite());
-    anyhow::ensure!(finite, "the tracer has left the numbers that a GPU holds: take more --steps, or another --scheme");
+    anyhow::ensure!(finite, "the tracer is no longer finite on the GPU: take more --steps, or another --scheme");
     print(format_args!(
         "{} steps of {}, {} remaps: l1 {:.6}, l2 {:.6}, linf {:.6}, range {:.6} to {:.6}\n",
         case.steps,
@@ -139,7 +139,7 @@ fn case(arguments: &Arguments) -> anyhow::Result<Case> {
     let map_cells = arguments.cells.div_ceil(arguments.map_coarsening) as usize;
     anyhow::ensure!(
         map_cells >= CubedSphere::MIN_N,
-        "the map would have {map_cells} cells along an edge, {} are the fewest: lower --map-coarsening, or raise --cells",
+        "the map would have {map_cells} cells along an edge, and the minimum is {}: lower --map-coarsening, or raise --cells",
         CubedSphere::MIN_N
     );
     Ok(Case {

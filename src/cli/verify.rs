@@ -65,7 +65,7 @@ fn measure(arguments: &Arguments, gpu: &Gpu) -> anyhow::Result<Vec<Check>> {
     for part in &parts {
         let done = progress.parts(part.seconds(), part.checks());
         let mut report = |check: Check| {
-            // Minutes of measuring would follow that nobody reads; no file has been begun.
+            // Minutes of measuring would follow without a reader; no file has been begun.
             print(&line(&check)).unwrap_or_else(|error| std::process::exit(failure::report(&error.into()).into()));
             done.add(1);
             checks.push(check);

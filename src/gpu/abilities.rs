@@ -1,5 +1,5 @@
 //! What an adapter must be able to do. One that lacks something is refused when it is opened, with the name of what it lacks: some backends
-//! would draw nothing instead, and say so in a log that nobody reads.
+//! would draw nothing instead, and report it only in a log.
 
 use wgpu::{DownlevelFlags, TextureFormat, TextureUsages};
 

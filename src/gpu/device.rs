@@ -67,7 +67,7 @@ pub enum GpuError {
     NoDevice {
         /// The adapter's name.
         adapter: String,
-        /// What the driver said.
+        /// The message of the driver.
         reason: String,
     },
     /// The adapter cannot make pictures in full precision, as EXR files have it.

@@ -143,7 +143,7 @@ impl Renderer {
             return Ok(());
         }
         let result = plan.steps.iter().try_for_each(|(pass, _)| self.run(pass)).and_then(|()| self.gpu.check());
-        // After a failure the state is unknown: everything is made anew.
+        // After a failure the state is unknown: everything is recreated.
         self.state = if result.is_ok() { plan.after.clone() } else { GpuState::default() };
         self.products.keep(&self.state);
         for (field, film) in self.state.fields.iter_mut().zip(&self.products.films) {

@@ -77,7 +77,7 @@ pub enum InputError {
     Unreadable {
         /// The file asked for.
         path: PathBuf,
-        /// What the system said.
+        /// The message of the system.
         reason: io::Error,
     },
     /// No bytes in it.
@@ -182,7 +182,7 @@ pub enum InputError {
 }
 
 impl InputError {
-    /// What the system said about opening or reading `path`, in our words.
+    /// The message of the system about opening or reading `path`, reworded.
     pub(super) fn from_io(path: &Path, reason: io::Error) -> Self {
         let path = path.to_owned();
         match reason.kind() {

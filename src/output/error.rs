@@ -35,7 +35,7 @@ pub enum OutputError {
         path: PathBuf,
         /// The folder.
         folder: PathBuf,
-        /// What the system said.
+        /// The message of the system.
         reason: io::Error,
     },
     /// Writing began but failed: a full disk, or content that its format cannot hold.
@@ -43,7 +43,7 @@ pub enum OutputError {
     Write {
         /// The file asked for.
         path: PathBuf,
-        /// What the system or the encoder said.
+        /// The message of the system or the encoder.
         reason: io::Error,
     },
 }

@@ -37,7 +37,7 @@ pub struct ExrPicture<'a, const N: usize> {
     pub pixels: &'a [[f32; N]],
     /// The primaries of R, G and B.
     pub primaries: Option<ExrPrimaries>,
-    /// What the file says about itself, a line `key: value` each in the `comments` attribute.
+    /// Metadata, one line `key: value` each in the `comments` attribute.
     pub metadata: &'a Metadata,
 }
 

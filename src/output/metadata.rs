@@ -1,4 +1,4 @@
-//! What a picture says about itself.
+//! The metadata of a picture.
 
 use super::FrameRate;
 

@@ -32,7 +32,7 @@ pub fn print(text: impl Display) -> Result<(), StreamError> {
     Ok(write!(out, "{text}").and_then(|()| out.flush())?)
 }
 
-/// Tells the user a line on standard error. A line that cannot be written is no reason to stop the work.
+/// Prints a line on standard error. A line that cannot be written does not stop the work.
 pub fn tell(line: impl Display) {
     let _ = io::stderr().write_all(format!("{line}\n").as_bytes());
 }

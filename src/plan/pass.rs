@@ -23,7 +23,7 @@ pub enum Pass {
         /// Rows to bake.
         rows: Range<u32>,
     },
-    /// Fits and sends the wavelengths.
+    /// Fits and uploads the quadrature wavelengths.
     FitQuadrature {
         /// Index of the light.
         light: usize,

@@ -46,7 +46,7 @@ impl Bubble {
             && !(lowest..=highest).contains(&self.rim_deg)
         {
             let reason =
-                format!("is {}; a {}'s must be within {lowest} ..= {highest}", self.rim_deg, self.boundary.name());
+                format!("is {}; for a {} it must be within {lowest} ..= {highest}", self.rim_deg, self.boundary.name());
             return Err(Fault::new("rim_deg", reason));
         }
         if self.boundary != Boundary::Free && self.regeneration > 0.0 && self.patch_mm > 0.25 * self.radius_mm {

@@ -94,7 +94,7 @@ fn find_strays_in_items(items: &[Spanned<DeValue>], known: &[Value], path: &KeyP
             }
             // A list would be taken for a table's values in the order of the code.
             other => {
-                let reason = format!("must be a table and holds a value of the type {}", other.type_str());
+                let reason = format!("must be a table, but is a value of the type {}", other.type_str());
                 strays.push(Located::bad_value(item.span().start, &path.item(index), reason));
             }
         }

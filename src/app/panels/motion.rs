@@ -45,7 +45,7 @@ fn clock(ui: &mut Ui, model: &mut Model) {
     }
 }
 
-/// The film's whole history on a line. Going back moves the film anew from a checkpoint: the same history gives the same film.
+/// The film's whole history on a line. Going back moves the film again from a checkpoint: the same history gives the same film.
 fn time_line(ui: &mut Ui, model: &mut Model) {
     model.furthest_tick = model.furthest_tick.max(model.clock.tick);
     let tick_s = model.scene.motion.tick_s;
@@ -60,7 +60,7 @@ fn time_line(ui: &mut Ui, model: &mut Model) {
     }
 }
 
-/// What moves the film; tells whether a slider is being dragged, as the functions below do.
+/// The keys that move the film; returns whether a slider is being dragged, as the functions below do.
 fn flow(ui: &mut Ui, motion: &mut Motion) -> bool {
     let keys = Motion::KEYS;
     choice(ui, &keys.flow, &mut motion.flow);
@@ -134,7 +134,7 @@ fn method(ui: &mut Ui, motion: &mut Motion) -> bool {
     speed.dragged()
 }
 
-/// Rows that are folded away until somebody asks for them; tells whether one is being dragged.
+/// Rows that are collapsed at first; returns whether a slider in them is being dragged.
 fn more<const N: usize>(ui: &mut Ui, title: &str, rows: impl FnOnce(&mut Ui) -> [Response; N]) -> bool {
     let shown = egui::CollapsingHeader::new(title).default_open(false).show_unindented(ui, rows);
     shown.body_returned.is_some_and(|rows| rows.iter().any(Response::dragged))

@@ -10,7 +10,7 @@ pub(super) struct Checkpoint {
     pub(super) watch: KeptRestWatch,
 }
 
-/// The state of a field. What spreads, blackens or drains it is set anew by each step.
+/// The state of a field. Its diffusion, black film and drainage are set again by each step.
 pub(super) struct FieldCheckpoint {
     buffers: Copies,
     map_is_identity: bool,

@@ -32,7 +32,7 @@ pub struct Surroundings<'a> {
     pub part: &'a FreePart,
     /// The air's own motion.
     pub air: &'a PrescribedFlow,
-    /// Mean thickness, which says how well the air drags the film along, nm.
+    /// Mean thickness, on which the drag of the air depends, nm.
     pub mean_nm: f64,
 }
 

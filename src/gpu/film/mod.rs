@@ -3,8 +3,8 @@
 //! The tracer is the thickness's departure from the film's *level*, its mean: f32 then resolves what a well mixed film still varies by, where
 //! of the thickness itself it would round the last waves away before they have calmed, and their rounded pattern would drive a flow for ever.
 //!
-//! The film is moved as a flow map: `map(x)` says where the liquid at x was at the last remap, and the thickness is the tracer of that remap
-//! looked up there. Each step composes the map with one backtrace; a remap looks the tracer up once for good and makes the map the identity.
+//! The film is moved as a flow map: `map(x)` is the place of the liquid at x at the last remap, and the thickness is the tracer of that remap
+//! looked up there. Each step composes the map with one backtrace; a remap looks the tracer up, stores it, and resets the map to the identity.
 //! Remapping at every step is the classic semi-Lagrangian scheme; remapping rarely keeps filaments sharp, for the error then grows with the
 //! number of remaps and not of steps (Taylor & Nave, arXiv 2106.13170, 2302.01205). When the map has become too distorted is measured and
 //! decided on the device, so that no frame waits for it.

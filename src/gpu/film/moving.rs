@@ -84,7 +84,7 @@ impl MovingFilm {
         }
     }
 
-    /// Whether the film rests through a step; if that moves it again, it is watched anew.
+    /// Whether the film rests through a step; if the step moves it again, it is watched again.
     fn stays_at_rest(&mut self, key: &FieldKey, step: &Range<u64>) -> bool {
         let Some(rest) = self.watch.rest() else { return false };
         let stays = key.undisturbed(step) == Some(rest.law);

@@ -1,4 +1,4 @@
-//! Remaps: what is done to a film for good when its map is looked through, and what may only be done then.
+//! Remaps: the tracer is looked up through the map and stored, with the operations that are only possible then.
 
 use super::Field;
 use crate::gpu::{
@@ -111,7 +111,7 @@ impl Field {
         kernel.settle_tracer(recorder, STEP_FIELD, groups[2])
     }
 
-    /// Sums what a field on the tracer's grid has too much, and does with it what is said.
+    /// Sums the excess of a field on the tracer's grid, and corrects it as told.
     fn account(
         &self,
         recorder: &mut Recorder<'_>,

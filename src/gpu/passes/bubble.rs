@@ -56,7 +56,7 @@ shader_struct! {
 }
 
 overrides! {
-    /// What tells one ring from another. A film in a scene is moved as a flow map where it is looked up through one, and always limited.
+    /// The constants that distinguish rings. A film in a scene is moved as a flow map where it is looked up through one, and always limited.
     pub struct RingOverrides {
         const SIDES: u32 = SIDES;
         const HOLE_MERIDIANS: u32 = HOLE_MERIDIANS as u32;

@@ -8,7 +8,7 @@ fn desk(text: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-/// What is said of a scene below its version that can be read but not used, after its folder.
+/// The message about a scene that can be read but not used, given its text below the version, without its folder.
 fn refusal(text: &str) -> String {
     let (folder, path) = desk(text);
     for (name, content) in [("short.csv", "400,1\n500,1\n"), ("words.csv", "360,a\n"), ("text.hdr", "no picture")] {

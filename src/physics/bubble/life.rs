@@ -179,7 +179,7 @@ impl LifeCycle {
 
     /// The life that a tick falls into, with the time until the next one.
     fn life(&self, tick: u64) -> Arc<Life> {
-        // What is found is whole even where somebody else panicked.
+        // What is found is whole even where another thread panicked.
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         while let Some(born) = found.next_born().filter(|born| *born <= tick) {
             let generation = found.spans.len() as u32;

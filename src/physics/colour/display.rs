@@ -205,8 +205,8 @@ mod tests {
         assert_eq!(into_gamut(Gamut::Srgb, DVec3::splat(-1.0), Bleach::default()), DVec3::ZERO);
     }
 
-    /// By how much the hue of a colour of BT.2020 turns on its way to the display, degrees; 0 of what is shown nearly grey, whose hue is nobody's
-    /// business, and nothing of what is shown as it is.
+    /// By how much the hue of a colour of BT.2020 turns on its way to the display, degrees; 0 for colours that are shown nearly grey, whose hue is
+    /// irrelevant, and for colours that are shown unchanged.
     fn turn_of_hue(gamut: Gamut, radiance: DVec3) -> Option<f64> {
         let (toned, bleach) = tone_curve(radiance);
         let linear = gamut.from_bt2020() * toned;

@@ -17,7 +17,7 @@ const TEMPERATURES_K: std::ops::RangeInclusive<f64> = 800.0..=100_000.0;
 /// and fainter ones would be nothing but XYZ far from any colour.
 const MIN_SEEN: f64 = 2e-5;
 
-/// A name that is no built-in illuminant's.
+/// A name of no built-in illuminant.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum UnknownIlluminant {
     /// No light of that name.

@@ -79,7 +79,7 @@ mod tests {
         }
     }
 
-    /// The table of the Vulkan specification, "Cube Map Face Selection", typed anew: major axis, then the axes of s and t.
+    /// The table of the Vulkan specification, "Cube Map Face Selection", typed independently: major axis, then the axes of s and t.
     #[test]
     fn orientation_is_that_of_the_vulkan_table() {
         let table = [

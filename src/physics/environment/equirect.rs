@@ -96,7 +96,7 @@ impl Equirect {
         across(row).lerp(across(row + 1), weight.y)
     }
 
-    /// The pixel at a column and row that may lie outside: columns wrap, and past a pole the picture goes on half a turn away.
+    /// The pixel at a column and row that may lie outside: columns wrap, and past a pole the picture continues half a turn away.
     fn pixel(&self, column: i64, row: i64) -> DVec3 {
         let (width, last_row) = (self.width as i64, self.height as i64 - 1);
         let across_pole = row < 0 || row > last_row;

@@ -83,7 +83,7 @@ fn leave_out(file: &str, table: &Table, k: &[(usize, f64)], notes: &mut Vec<Stri
         let hint = table.separator.hint();
         return Err(SpectrumError::Absorbing { file: file.into(), line, k, hint });
     }
-    notes.push(format!("{file}: extinction coefficients k, {k} at most, are left out, as films are clear here"));
+    notes.push(format!("{file}: extinction coefficients k, at most {k}, are ignored, as films are clear here"));
     Ok(())
 }
 
@@ -129,13 +129,13 @@ fn hint(text: &str) -> &'static str {
     if text.is_empty() {
         "a field is empty: fill it in, or leave the line out"
     } else if has_digit && text.contains(',') {
-        "decimal marks are either all commas or all points, and nothing parts thousands"
+        "decimal marks are either all commas or all points, without thousands separators"
     } else if has_digit && text.contains([';', ' ', '\t']) {
         "separate the columns of all lines in the same way"
     } else if has_digit {
         "write the number alone, without a unit"
     } else {
-        "words belong into a heading, or into lines that start with #"
+        "words belong in a heading, or in lines that start with #"
     }
 }
 
@@ -162,7 +162,7 @@ fn covering(file: &str, rows: Vec<Row>, block: &Block, notes: &mut Vec<String>) 
         notes.push(format!("{file}: wavelengths are taken as {unit}: {first_nm} to {last_nm} nm"));
     }
     if first_nm > FIRST_NM {
-        notes.push(format!("{file}: the value at {first_nm} nm is taken down to {FIRST_NM} nm too"));
+        notes.push(format!("{file}: the value at {first_nm} nm is also used down to {FIRST_NM} nm"));
     }
     Ok(visible(rows))
 }
@@ -279,7 +279,7 @@ mod tests {
     fn the_first_value_goes_on_below_380_nm() {
         let (spectrum, notes) = read("380,2\n390,3\n780,1\n");
         assert_eq!((spectrum.at(0), spectrum.at(20), spectrum.at(30)), (2.0, 2.0, 3.0));
-        assert_eq!(notes, ["lamp.csv: the value at 380 nm is taken down to 360 nm too"]);
+        assert_eq!(notes, ["lamp.csv: the value at 380 nm is also used down to 360 nm"]);
         assert_eq!(read("360,2\n780,1\n").1.len(), 0);
     }
 
@@ -294,7 +294,7 @@ mod tests {
     fn extinction_of_clear_films_is_left_out() {
         let (plain, notes) = index("wl,n\n0.3,1.35\n0.8,1.25\n").expect("valid");
         assert_eq!(notes.len(), 1);
-        let k = "n.csv: extinction coefficients k, 0.000003 at most, are left out, as films are clear here";
+        let k = "n.csv: extinction coefficients k, at most 0.000003, are ignored, as films are clear here";
         for text in [
             "wl,n,k\n0.3,1.35,1e-6\n0.8,1.25,3e-6\n",
             "0.3;1,35;0,000001\n0.8;1,25;0,000003\n".replace("0.", "0,").as_str(),

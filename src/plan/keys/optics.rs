@@ -1,4 +1,4 @@
-//! Keys of what films look like in a light: tables and wavelengths.
+//! Keys of the colours of films in a light: tables and quadrature wavelengths.
 
 use std::sync::Arc;
 
@@ -89,7 +89,7 @@ impl TableKey {
     }
 }
 
-/// The range of tables and wavelengths for films up to a thickness, in nm: steps of 250 nm, so that small edits make nothing anew.
+/// The range of tables and wavelengths for films up to a thickness, in nm: steps of 250 nm, so that small edits recompute nothing.
 #[must_use]
 pub fn range_nm(thickest_nm: f64) -> f64 {
     ((thickest_nm / 250.0).ceil() * 250.0).max(TableKey::MIN_RANGE_NM)

@@ -43,7 +43,7 @@ fn honours_chromaticities() {
         openexr::attribute::Chromaticities { red: chromaticities.blue, green: chromaticities.blue, ..chromaticities };
     let (environment, told) = load_told("a.exr", &Exr { chromaticities: Some(grey), ..Exr::default() }.bytes());
     assert_pixels(&environment, BT709.to_bt2020().unwrap());
-    assert_eq!(told, ["has chromaticities of no colour space and is taken as BT.709"]);
+    assert_eq!(told, ["has chromaticities of no valid colour space and is read as BT.709"]);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! When the tracer is looked up for good and a new map begun: the twin of `shaders/pass/decide_remap.wgsl`.
+//! When the tracer is looked up and stored, and a new map begins: the twin of `shaders/pass/decide_remap.wgsl`.
 //!
 //! A map is interpolated by cubics, which err halfway between cells by 3/128 of its fourth difference. With D the angle between cells and ε the
 //! limit, it is remapped where along either axis

@@ -38,7 +38,7 @@ pub const FREE_STEP: [Operation; 7] = [
 /// A step of a film that is moved by a flow in closed form.
 pub const PRESCRIBED_STEP: [Operation; 3] = [Operation::TraceStep, Operation::ComposeMap, Operation::DecideRemap];
 
-/// What is done to a film when its map is looked through for good.
+/// The operations on a film at a remap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RemapOperation {
     /// The tracer is looked up through the map: `sample_tracer`.
