@@ -118,7 +118,7 @@ mod tests {
 
     /// Every edit, taken back by what it returns, leaves the scene as it was.
     #[test]
-    fn what_an_edit_returns_takes_it_back() {
+    fn an_edit_returns_its_inverse() {
         let stirred = MotionChange { flow: Some(Flow::Stirred), ..MotionChange::default() };
         let events = vec![Event { tick: 30, change: Change::Motion(stirred) }];
         let scene = Scene { events, ..Scene::default() };
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn what_moves_the_film_changes_from_now_on_and_the_method_for_ever() {
+    fn motion_changes_from_now_on_and_the_method_for_the_whole_history() {
         let mut scene = Scene::default();
         Edit::Motion(Motion { drainage: 7.0, speed: 2.0, ..Motion::default() }.into()).apply(&mut scene, 60);
         assert_eq!([59, 60].map(|tick| scene.motion_at(tick).drainage), [0.0, 7.0]);
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn a_film_is_blown_anew_where_it_would_have_begun_otherwise() {
+    fn a_film_is_blown_again_if_its_beginning_changes() {
         let bubble = Bubble::default();
         let anew = |change: fn(&mut Bubble)| {
             let mut other = bubble.clone();

@@ -274,7 +274,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn what_changes_while_time_runs_is_an_event() {
+    fn a_change_while_the_clock_runs_becomes_an_event() {
         let mut model = model();
         model.clock.tick = 120;
         let change = MotionChange { flow: Some(Flow::Stirred), ..MotionChange::default() };
@@ -284,7 +284,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn another_film_begins_anew_and_an_index_is_everyones() {
+    fn another_film_starts_again_and_an_index_applies_to_all_bubbles() {
         let mut model = Model::new(load_scene("trio").unwrap());
         model.clock.tick = 50;
         let mut bubble = model.scene.bubbles[2].clone();

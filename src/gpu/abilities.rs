@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_missing_of_a_format_is_named() {
+    fn missing_abilities_of_a_format_are_named() {
         let need = &FORMATS[0];
         let all = wgpu::TextureFormatFeatures {
             allowed_usages: TextureUsages::all(),

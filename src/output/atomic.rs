@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn what_killed_runs_have_left_is_cleared_and_what_others_write_is_not() {
+    fn temporary_files_of_killed_runs_are_removed_and_those_in_use_are_kept() {
         let folder = tempfile::tempdir().unwrap();
         let [left, locked] = [".soapfilm-left.part", ".soapfilm-locked.part"].map(|name| folder.path().join(name));
         fs::write(&left, "half").unwrap();

@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_rate_is_refused() {
+    fn an_invalid_frame_rate_is_refused() {
         for wrong in [
             "",
             ".",

@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn what_would_break_an_entry_is_replaced() {
+    fn characters_that_break_a_metadata_entry_are_replaced() {
         let metadata = Metadata::new().with(" a:\u{e9}\n b ", "two\nlines\0").with("", "x").with(&"k".repeat(200), "y");
         let entries: Vec<_> = metadata.entries().map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
         let expected = [("a b", "two lines "), ("Comment", "x"), (&"k".repeat(79), "y")];

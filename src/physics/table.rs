@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn what_parses_as_no_number_is_a_heading_but_nan() {
+    fn a_line_without_any_number_is_a_heading_and_nan_is_a_number() {
         for (text, rows) in [("nan,1\n", 1), ("inf\n", 1), ("foo,1\n", 1), ("foo,bar\n", 0), ("380,5;1,5e-3\n", 1)] {
             assert_eq!(Table::parse(text).blocks[0].rows.len(), rows, "{text}");
         }

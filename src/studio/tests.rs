@@ -20,7 +20,7 @@ fn times_are_reached_or_refused() {
 }
 
 #[test]
-fn colours_are_those_of_the_reference() {
+fn colours_match_the_reference() {
     use crate::physics::{
         colour::{FilmOptics, Illuminant, Walls},
         optics::FilmMaterial,

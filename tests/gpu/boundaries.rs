@@ -30,7 +30,7 @@ fn a_film_on_a_bath_is_a_function_of_its_scene_and_tick() {
 }
 
 #[test]
-fn a_bath_looks_as_its_f64_twin_does() {
+fn a_bath_matches_its_f64_twin() {
     let Some(mut renderer) = renderer() else { return };
     for preset in ["bath", "ring"] {
         let mut loaded = load(preset);

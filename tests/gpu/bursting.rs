@@ -44,7 +44,7 @@ fn black_part(grid: CubedSphere, values: &[f64]) -> f64 {
 }
 
 #[test]
-fn what_collapses_to_black_film_is_not_lost() {
+fn a_collapse_to_black_film_loses_no_liquid() {
     let Some(mut renderer) = renderer() else { return };
     // 28 nm at the top, 114 nm at the bottom: the upper third is thin enough to collapse, and nothing evaporates.
     let mut loaded = thin(60.0);
@@ -126,7 +126,7 @@ fn rims(renderer: &mut Renderer, request: &FrameRequest) -> (Vec<RimValue>, Hole
 }
 
 #[test]
-fn a_hole_opens_as_its_f64_twin_does() {
+fn a_hole_matches_its_f64_twin() {
     let Some(mut renderer) = renderer() else { return };
     let loaded = pricked([0.5, -0.3, 0.6]);
     for time_s in [0.4, 0.9, 1.6] {

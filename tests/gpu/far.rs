@@ -154,7 +154,7 @@ fn change(from: &Lab, to: &Lab) -> DVec3 {
 
 /// Freshly blown, and a second later, when gravity has drawn the patches out.
 #[test]
-fn far_blown_bubbles_change_as_they_must() {
+fn far_blown_bubbles_change_little_more_than_the_truth() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = load("default");
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
@@ -180,7 +180,7 @@ fn blown(detail: Detail, diameter: f64, time_s: f64) -> FrameRequest {
 /// A film on coarser grids: as blown within the limits of a far bubble that is sorted, and a little later within a tenth of what the next tick
 /// changes, as far bubbles that drift must be.
 #[test]
-fn half_of_the_cells_show_a_far_bubble_as_it_is() {
+fn a_far_bubble_with_half_of_the_cells_looks_the_same() {
     let (Some(mut full), Some(mut half)) = (renderer(), renderer()) else { return };
     for (time_s, limits) in [(0.0, Some([0.2, 3.0])), (0.1, None)] {
         for diameter in diameters().iter().copied() {
@@ -216,7 +216,7 @@ fn colours(request: &FrameRequest, picture: &[DVec3], white: f64) -> [DVec3; 2] 
 /// When small differences have grown, a film on coarser grids is another one of the same kind, at a fraction of the work: the mean and the spread of
 /// its colours differ by no more than the colours of films of other seeds, which at this time are 2 to 5 apart.
 #[test]
-fn half_of_the_cells_sort_themselves_alike() {
+fn a_film_with_half_of_the_cells_sorts_itself_alike() {
     let Some(mut renderer) = renderer() else { return };
     let mut white = None;
     let found = [Detail::Full, Detail::Half].map(|detail| {

@@ -196,7 +196,7 @@ const RING_ZETA: f64 = 1.5e-4;
 const COUNTED_NM: f64 = 5e-5;
 
 #[test]
-fn a_free_film_is_the_f64_one() {
+fn a_free_film_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     for (cells, seed) in [(16, 2), (24, 3)] {
         let end = hold(&gpu, "free", &key(cells, seed, FlowLaw::Free(FREE)), 16);
@@ -205,7 +205,7 @@ fn a_free_film_is_the_f64_one() {
 }
 
 #[test]
-fn a_film_that_ends_somewhere_is_the_f64_one() {
+fn a_film_with_a_boundary_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     let boundaries = [("bath", ending(Some(Cap::HEMISPHERE), None, None)), ("drop", ending(None, Some(0.4), None))];
     for (name, boundary) in boundaries {
@@ -218,7 +218,7 @@ fn a_film_that_ends_somewhere_is_the_f64_one() {
 }
 
 #[test]
-fn a_film_that_spreads_is_the_f64_one() {
+fn a_film_with_diffusion_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     for diffusion in [4e-4, 0.05, 2.0] {
         let law = FlowLaw::Free(FreeFlow { diffusion, ..FREE });
@@ -227,7 +227,7 @@ fn a_film_that_spreads_is_the_f64_one() {
 }
 
 #[test]
-fn a_film_that_thins_and_turns_black_is_the_f64_one() {
+fn a_film_that_thins_and_turns_black_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     let initial = InitialFilm::Blown { thickness_nm: 120.0, stratification: 0.0, seed: 6 };
     let evaporation = Evaporation::new(&Timeline::from_iter([(0, 100.0), (9, 400.0)]), TICK_S);
@@ -237,7 +237,7 @@ fn a_film_that_thins_and_turns_black_is_the_f64_one() {
 }
 
 #[test]
-fn a_film_that_drains_and_regenerates_is_the_f64_one() {
+fn a_film_that_drains_and_regenerates_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     // Fifteen hundred times as fast as in life.
     let law = FlowLaw::Free(FreeFlow { drainage: 1e-10, ..FREE });
@@ -257,7 +257,7 @@ fn a_film_that_drains_and_regenerates_is_the_f64_one() {
 }
 
 #[test]
-fn a_film_that_is_pushed_is_the_f64_one() {
+fn a_pushed_film_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     let push = |at: DVec3, velocity: DVec3, rate: f64, ticks: Range<u64>| {
         (ticks, Push { center: at.normalize(), sharpness: Push::sharpness_of(0.3), velocity, rate })
@@ -272,7 +272,7 @@ fn a_film_that_is_pushed_is_the_f64_one() {
 }
 
 #[test]
-fn a_film_in_a_flow_in_closed_form_is_the_f64_one() {
+fn a_film_in_a_closed_form_flow_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     let stirred = FlowLaw::Prescribed { flow: Flow::Stirred, strength: 1.0, seed: 2 };
     hold(&gpu, "stirred", &key(24, 1, stirred), 60);

@@ -95,7 +95,7 @@ fn a_film_sloshes_with_and_without_drag_and_overturns() {
 /// Everything at once, step by step. f32 rounds each step's ζ and ψ to 6e-8 and each trace's origin to as much; ten steps and the sums
 /// inside them add up to some 1e-6. Both take the mean away at the start of each step, by the metric.
 #[test]
-fn the_gpu_does_what_its_f64_twin_does() {
+fn the_gpu_matches_its_f64_twin() {
     let Some(gpu) = gpu() else { return };
     let forces = FlowForces { gravity: DVec3::new(0.3, -0.2, -2.0), drag: 0.5, air_drag: 1.5, viscosity: 0.01 };
     let start = case(FlowCaseKind::RossbyHaurwitz, (1, 1), 0.3);

@@ -63,7 +63,7 @@ fn twin(steps: u32) -> Vec<f64> {
 }
 
 #[test]
-fn pushes_do_on_the_device_what_they_do_in_f64() {
+fn pushes_on_the_device_match_their_f64_twin() {
     let Some(gpu) = gpu() else { return };
     let (stir, blow) = events();
     let mut scene = weightless(CELLS);
@@ -113,7 +113,7 @@ fn dragged(preset: &str, to_m: [f64; 3]) -> LoadedScene {
 }
 
 #[test]
-fn a_pushed_bubble_is_the_f64_one() {
+fn a_pushed_bubble_matches_the_f64_picture() {
     let Some(mut renderer) = renderer() else { return };
     for (to_m, largest_stretch, limit) in [([0.0, 0.05, 0.02], 0.02, 5e-4), ([0.0, 0.3, 0.1], 0.2, 3e-3)] {
         let mut loaded = dragged("default", to_m);

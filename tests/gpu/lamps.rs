@@ -42,7 +42,7 @@ fn a_lamp_of_the_same_illuminant_changes_nothing() {
 /// The preset's lamp in the tent, whose lamps are soft, against the f64 picture: the limits are as for the other presets, for filtered
 /// lookups of the environment against averages over samples.
 #[test]
-fn the_picture_in_two_lights_is_the_f64_one() {
+fn the_picture_in_two_lights_matches_the_f64_picture() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = load("two_lights");
     loaded.scene.bubbles[0].film.cells = 64;

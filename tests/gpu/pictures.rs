@@ -301,7 +301,7 @@ fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedS
 /// colours are saturated), and light of the third inner reflection on given to the second, which is the same light here. At the outline:
 /// one analytic coverage and one ray a pixel against 64 rays, where the film turns from 10 % to 100 % of reflectance within a pixel.
 #[test]
-fn the_picture_in_even_light_is_the_f64_one() {
+fn the_picture_in_even_light_matches_the_f64_picture() {
     let Some(mut renderer) = renderer() else { return };
     let mut still_film = uniform(320.0, even_light());
     still_film.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
@@ -319,7 +319,7 @@ fn the_picture_in_even_light_is_the_f64_one() {
 /// With a tent around it, filtered lookups of the environment stand against averages over samples: edges of lamps differ by a part of
 /// their contrast within a pixel, and most where the limb squeezes them.
 #[test]
-fn the_pictures_of_presets_are_the_f64_ones() {
+fn the_pictures_of_presets_match_the_f64_pictures() {
     let Some(mut renderer) = renderer() else { return };
     let tent = load("default").resources.environment;
     for name in ["lamplight", "inside", "bands"].into_iter().take(short_or_long(1, 3)) {

@@ -26,7 +26,7 @@ fn mean_nm(film: &[FilmCell]) -> f64 {
 }
 
 #[test]
-fn pictures_are_those_of_the_renderer() {
+fn studio_pictures_match_the_renderer() {
     let (Some(mut studio), Some(mut renderer)) = (studio(), support::renderer()) else { return };
     let loaded = load_scene("furnace").unwrap();
     let request = support::still(&loaded, [40, 30], 0.5);
@@ -67,7 +67,7 @@ fn films_keep_their_liquid_wherever_the_camera_looks() {
 }
 
 #[test]
-fn what_is_no_film_has_no_thickness() {
+fn cells_beyond_a_rim_have_no_film() {
     let Some(mut studio) = studio() else { return };
     let bath = scene(|scene| scene.bubbles[0].boundary = Boundary::Bath);
     for cell in studio.film(&bath, 0, 0.0).unwrap() {

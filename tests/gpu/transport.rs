@@ -60,7 +60,7 @@ fn moved(
 /// The same steps in f64. Per step and cell f32 rounds the position to 6e-8 (which the steepest slope of bells of radius 1/2,
 /// 0.9 π a radian, turns into 2e-7) and the sums of a lookup to as much; 60 steps that add in the worst case are 2.5e-5.
 #[test]
-fn the_gpu_does_what_its_f64_twin_does() {
+fn the_gpu_matches_its_f64_twin() {
     let Some(gpu) = gpu() else { return };
     let wind = Wind::new(WindKind::NonDivergent, None).unwrap();
     let tracer = Tracer::new(TracerKind::CosineBells, wind.tracer_rotation());

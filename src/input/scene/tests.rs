@@ -20,7 +20,7 @@ fn refusal(text: &str) -> String {
 
 /// The errors that are found after the text has been read name their line and key like all others.
 #[test]
-fn what_a_scene_names_is_refused_by_line_and_key() {
+fn a_bad_file_of_a_scene_is_refused_by_line_and_key() {
     for (text, told) in [
         ("[light]\nilluminant = \"D66\"", "s.toml:3: `illuminant` in [light] cannot be used: unknown illuminant `D66`"),
         ("[light]\nilluminant = \"5 K\"", "s.toml:3: `illuminant` in [light] cannot be used: a black body of 5 K"),
@@ -56,7 +56,7 @@ fn what_a_scene_names_is_refused_by_line_and_key() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused_by_line_and_key() {
+fn a_scene_that_cannot_be_drawn_is_refused_by_line_and_key() {
     let shot = Shot {
         size: [64, 36],
         moment: Default::default(),

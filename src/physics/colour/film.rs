@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_reflected_passes() {
+    fn reflectance_and_transmittance_are_consistent() {
         let optics = water();
         for point in optics.spectrum(0.5, one(333.0)) {
             assert!((point.reflectance + point.transmittance - 1.0).abs() < 1e-15, "{point:?}");

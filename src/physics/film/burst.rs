@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn no_film_leaves_no_rim() {
+    fn a_hole_without_film_has_no_rim() {
         let hole = Hole::open(|_| 0.0, DVec3::X, 1e-3, RADIUS_M);
         assert!(hole.rim.iter().all(|rim| rim.thickness_nm == 0.0 && rim.outer_rad.is_finite()));
     }

@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_evaporates_adds_up() {
+    fn evaporation_adds_up() {
         let film = Evaporation::new(&[(0, 30.0), (60, 60.0), (120, 0.0)].into_iter().collect(), 0.1);
         assert_eq!([0.0, 10.0, 60.0, 70.0, 500.0].map(|ticks| film.nm(ticks)), [0.0, 30.0, 180.0, 240.0, 540.0]);
         assert_eq!(film.until(60).nm(70.0), 210.0);

@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn speeds_are_those_of_a_film_at_all_times() {
+    fn prescribed_flows_have_the_speeds_of_a_film_at_all_times() {
         for seed in 0..4 {
             for flow in flows() {
                 for t in 0..40 {

@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn what_pushes_later_makes_no_difference() {
+    fn later_pushes_make_no_difference() {
         let [few, many] = [5, 9].map(|count| pushes(count).into_iter().collect::<Pushes>());
         assert!(few != many && few == many.until(41) && few.since(12) == many.until(41).since(12));
     }

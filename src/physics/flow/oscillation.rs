@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_found_in_nothing() {
+    fn an_oscillation_needs_samples_that_swing() {
         assert_eq!(fit_oscillation(&[1.0, 2.0, 3.0], 1.0), None);
         assert_eq!(fit_oscillation(&[0.0; 9], 1.0), None);
     }

@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn what_nobody_sees_is_not_checked() {
+    fn values_at_invisible_wavelengths_are_not_checked() {
         let (n, _) = index("10,0.98\n300,1.5\n800,1.25\n100000,0.1\n").expect("valid");
         assert_eq!(n, index("300,1.5\n800,1.25\n").expect("valid").0);
         assert_eq!(read("200,-0.1\n300,1\n800,1\n900,-0.1\n").0, Spectrum::constant(1.0));

@@ -4,7 +4,7 @@ use super::*;
 
 /// Where nobody left checkpoints.
 #[test]
-fn going_back_in_time_seeds_anew() {
+fn going_back_in_time_seeds_again() {
     let back = ["seed_field", "step_field", "show_field", "draw", "tonemap"];
     assert_eq!(between((&stirred_scene(), 30), (&stirred_scene(), 20)), back);
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::*;
 
 #[test]
-fn another_past_seeds_anew_and_another_future_does_not() {
+fn a_changed_past_seeds_again_and_a_changed_future_does_not() {
     let mut sloshing_at_3 = stirred_scene();
     sloshing_at_3.events.push(event(3, Flow::Sloshing));
     let mut sloshing_at_30 = stirred_scene();
@@ -67,7 +67,7 @@ fn steps(scene: &Scene, tick: u64) -> Vec<Range<u64>> {
 }
 
 #[test]
-fn what_stirs_a_film_strains_it_until_drag_and_viscosity_have_calmed_it() {
+fn a_stir_strains_a_film_until_drag_and_viscosity_calm_it() {
     let mut scene = preset("default").unwrap();
     let strain = |scene: &Scene, tick| match &frame_request(scene, tick, Pace::Whole).picture.draw.bubbles[0].film {
         FilmKey::Field(film) => film.strain_until(tick as f64),
@@ -233,7 +233,7 @@ fn films_share_the_cells_of_a_frame_and_all_get_on() {
 }
 
 #[test]
-fn what_no_picture_of_the_scene_can_need_is_dropped() {
+fn products_that_the_scene_cannot_need_are_dropped() {
     let (three, mut one) = (side_by_side(3), side_by_side(1));
     let state = after(&three, 4);
     assert_eq!(state.fields.iter().flatten().count(), 3);

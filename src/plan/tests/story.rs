@@ -35,7 +35,7 @@ fn frames_share_their_histories() {
 }
 
 #[test]
-fn a_camera_that_moves_leaves_a_story_as_it_is_and_an_event_does_not() {
+fn a_story_changes_with_an_event_and_not_with_the_camera() {
     let mut story = Story::new(eventful(60));
     let before = field(&story, 3000);
     story.change(|scene| scene.camera.azimuth_deg += 10.0);
@@ -48,7 +48,7 @@ fn a_camera_that_moves_leaves_a_story_as_it_is_and_an_event_does_not() {
 
 /// After an edit of the future, what is there is compared once with the new history, and shared from then on.
 #[test]
-fn what_is_there_shares_the_history_that_it_was_planned_by() {
+fn the_gpu_state_shares_the_history_that_it_was_planned_by() {
     let mut story = Story::new(eventful(20));
     story.change(|scene| scene.bubbles[0].film.cells = 16);
     let mut state = GpuState::default();

@@ -105,7 +105,7 @@ fn tables_and_lists_are_told_apart() {
 }
 
 #[test]
-fn words_that_are_not_known_are_told_those_that_are() {
+fn an_unknown_word_is_answered_with_the_known_words() {
     let known: Vec<_> = Flow::ALL.iter().map(|flow| format!("`{}`", flow.name())).collect();
     let message = refusal(&with_version("[motion]\nflow = \"windy\""));
     let told = format!("unknown word `windy`, expected one of {}", known.join(", "));

@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_spot_loses_is_found_around_it() {
+    fn the_film_around_a_black_spot_gains_what_the_spot_loses() {
         let (tracer, halo) = film(|x| 60.0 - 25.0 * (-(x - DVec3::X).length_squared() / 0.05).exp());
         let after = collapse(&tracer, &law(0.0), LEVEL_NM, 6, &halo);
         let areas = tracer.grid().areas();

@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_counted_is_not_restored() {
+    fn counted_losses_are_not_restored() {
         let film = field(|x| x.z);
         let mut liquid = Liquid::of(&film, None);
         liquid.unbind();

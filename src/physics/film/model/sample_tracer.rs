@@ -57,14 +57,14 @@ mod tests {
     }
 
     #[test]
-    fn what_has_not_moved_is_the_same_to_the_bit() {
+    fn a_tracer_without_a_map_is_equal_to_the_bit() {
         let tracer = tracer();
         assert_eq!(sample_tracer(&tracer, None, None), tracer);
         assert_eq!(felt_tracer(&tracer, None, None), tracer.cells());
     }
 
     #[test]
-    fn what_is_beyond_a_rim_is_the_image_of_what_is_within() {
+    fn vorticity_beyond_a_rim_mirrors_the_vorticity_within() {
         let (cap, tracer) = (Cap::HEMISPHERE, tracer());
         let sampled = sample_tracer(&tracer, None, Some(cap));
         let grid = tracer.grid();
