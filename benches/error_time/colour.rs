@@ -108,7 +108,7 @@ pub fn front(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     save_plot("front", ["CPU time of a point, ns", "two walls, mean dE2000"], &series)
 }
 
-/// What a number of wavelengths costs a point, in nanoseconds, and its largest and mean error.
+/// Cost of a number of wavelengths per point, in nanoseconds, and its largest and mean error.
 struct Place {
     count: usize,
     ns: f64,
@@ -124,7 +124,7 @@ fn knee(front: &[Place], error: impl Fn(&Place) -> f64) -> Option<usize> {
     inner.iter().max_by(|a, b| below(a).total_cmp(&below(b))).map(|place| place.count)
 }
 
-/// Two walls at each quality: wavelengths, milliseconds to fit them, and nanoseconds a point; and what a frame of the default scene costs beside
+/// Two walls at each quality: wavelengths, milliseconds to fit them, and nanoseconds per point; and the cost of a frame of the default scene beside
 /// a plain mirror sphere.
 pub fn qualities(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
     let columns = ["bands", "max_nm", "fit_cpu_ms", "ns_per_point", "max_dE", "mean_dE", "over_mirror"];

@@ -16,7 +16,7 @@ struct Path {
     cos_theta: f32,
     // Angle that the sample spans.
     pixel: f32,
-    // Rate at which theta turns as the ray turns, radians a radian.
+    // Rate at which theta turns as the ray turns, radians per radian.
     theta_rate: f32,
     // sin of the angle between the ray and the direction to the center.
     sin_view: f32,

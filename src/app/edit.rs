@@ -16,13 +16,13 @@ pub enum Edit {
     View(View),
     /// Another light.
     Light(Light),
-    /// Another bubble in the place of one. All films in a picture are made of the same, so that what this film is made of holds for all.
+    /// Another bubble in the place of one. All films in a picture are of one material, so that the material of this film applies to all.
     Bubble(usize, Box<Bubble>),
     /// A new list of bubbles.
     Bubbles(Vec<Bubble>),
     /// Every film blown again, with a new seed for film and flow.
     Reseed,
-    /// Another motion, from now on as far as it can change.
+    /// Another motion; the keys that can change do so from now on.
     Motion(Box<Motion>),
     /// Something happens now.
     Happens(Change),

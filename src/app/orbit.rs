@@ -54,7 +54,7 @@ fn shifted(camera: &Camera, shift: DVec2) -> Camera {
     Camera { target_m: target.to_array(), ..camera.clone() }
 }
 
-/// Changes the distance by a factor, in such a way that it reaches zero, and leaves it again.
+/// Changes the distance by a factor, but so that it can reach zero and leave it again.
 fn zoomed(camera: &Camera, reach_m: f64, zoom: f64) -> Camera {
     let near = NEAR * reach_m;
     let distance = (camera.distance_m + near) * (-zoom.clamp(-20.0, 20.0)).exp() - near;

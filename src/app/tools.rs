@@ -147,7 +147,7 @@ impl Grip {
         }
     }
 
-    /// What the tool does with what the pointer did since the last event, if it is time for that; the last of it when it lets go.
+    /// The event of the tool for the pointer's path since the last event, if it is due; the last event when the button is released.
     fn act(&mut self, story: &Story, tick: u64, lets_go: bool) -> Option<Change> {
         let tick_s = story.motion.tick_s;
         let shortest_s = match self.tool {

@@ -40,7 +40,7 @@ pub struct Case {
     pub traces_per_step: u32,
 }
 
-/// Runge-Kutta steps a period of the wind with which following it errs by less than 0.005 in l2 of bells after eight periods. Of the
+/// Runge-Kutta steps per period of the wind with which following it errs by less than 0.005 in l2 of bells after eight periods. Of the
 /// fastest wind each is half a radian.
 const TRACES_PER_PERIOD: u32 = 32;
 

@@ -27,7 +27,7 @@ impl Checkpoints {
         usable.max_by_key(|(_, kept)| kept.moment.tick)
     }
 
-    /// The same checkpoints, where those that a film can go on from have its histories: then both are compared at once.
+    /// These checkpoints, where each one that a film can go on from shares the film's histories: then they are compared at once.
     pub(super) fn sharing(mut self, requested: &FieldKey) -> Self {
         self.0.iter_mut().filter(|kept| requested.continues(kept)).for_each(|kept| *kept = requested.at(kept.moment));
         self

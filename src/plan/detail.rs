@@ -9,7 +9,7 @@ use crate::scene::{Boundary, Bubble, Change, Detail, Scene};
 
 /// Rows of the picture that bubbles are measured in.
 const ROWS: f64 = 1080.0;
-/// Diameter in them up to which half of the cells along an edge show the same: as blown, colours differ by 0.12 (CIEDE2000) on average and by 3
+/// Diameter in pixels up to which half of the cells along an edge look the same: as blown, colours differ by 0.12 (CIEDE2000) on average and by 3
 /// at most, as much as far bubbles may from pictures of many samples; a tenth of a second later by less than a tenth of what the film
 /// changes by in a step.
 const HALF_DIAMETER: f64 = 40.0;
@@ -38,7 +38,8 @@ pub fn settle_detail(scene: &mut Scene) {
     }
 }
 
-/// What `auto` means for a bubble. A film that ends somewhere takes all of its cells, for what rises from its rim is few of them wide.
+/// The detail that `auto` chooses for a bubble. A film with a boundary takes all of its cells, for patches that rise from its rim are a few cells
+/// wide.
 fn settled(scene: &Scene, index: usize, bubble: &Bubble) -> Detail {
     match bubble.film.detail {
         Detail::Auto if bubble.boundary != Boundary::Free => Detail::Full,

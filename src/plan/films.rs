@@ -9,7 +9,7 @@ use crate::{
     scene::{Bubble, Motion},
 };
 
-/// Whether the film of a bubble can move: one of a single thickness looks the same however it flows.
+/// Whether the film of a bubble can move: a film of one thickness looks the same however it flows.
 pub(super) fn has_field(bubble: &Bubble) -> bool {
     !matches!(initial_film(bubble), InitialFilm::Uniform { .. })
 }

@@ -33,9 +33,9 @@ pub use story::Story;
 /// How much work may be done before the next picture must be shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
-    /// All of it: a file is being made.
+    /// All work: a file is being made.
     Whole,
-    /// A frame's worth, the rest later: a window is waiting. A new table starts coarse, and a film catches up in portions; since people in
+    /// The work of one frame, the rest later: a window is waiting. A new table starts coarse, and a film catches up in portions; since people in
     /// windows go back in time, it leaves checkpoints.
     Frame,
 }

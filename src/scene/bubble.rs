@@ -100,7 +100,7 @@ impl Value for FilmIndexName {
 }
 
 words! {
-    /// How many of its cells a film takes.
+    /// The part of its cells that a film takes.
     pub enum Detail: "detail" {
         Auto = "auto", "Half if the bubble is `free` and never, wherever it is dragged, more than 40 pixels across in a picture of 1080 rows, else full";
         Full = "full", "All of these cells";

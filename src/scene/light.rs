@@ -104,7 +104,7 @@ section! {
 }
 
 words! {
-    /// How exactly the shaders compute colours. In all of them single walls and coloured light are right; they differ in the products of two
+    /// Accuracy of the colours in shaders. Single walls and coloured light are accurate at all qualities; they differ in the products of two
     /// and more walls, which colours cannot be multiplied for.
     #[derive(Default)]
     pub enum Quality: "quality" {

@@ -69,7 +69,7 @@ macro_rules! change {
                 Self { $($name: newer.$name.or(self.$name),)+ }
             }
 
-            /// What leads from a motion to another, as far as an event can.
+            /// The change that leads from one motion to another, in the keys that an event can change.
             #[must_use]
             pub fn between(before: &Motion, after: &Motion) -> Self {
                 Self { $($name: (before.$name != after.$name).then_some(after.$name),)+ }

@@ -14,7 +14,7 @@ use crate::{
 };
 use glam::DVec3;
 
-/// A test on 60 cells an edge (1.5°) in 120 steps a period.
+/// A test on 60 cells per edge (1.5°) in 120 steps per period.
 struct Test {
     wind: WindKind,
     tracer: TracerKind,

@@ -75,7 +75,7 @@ fn viscosity_wears_a_harmonic_down() {
     assert!(found.l2 <= 3e-3, "{found:?}");
 }
 
-/// 60 steps a period: the leapfrog is fast by (2π/60)²/24 = 4.6e-4.
+/// 60 steps per period: the leapfrog is fast by (2π/60)²/24 = 4.6e-4.
 #[test]
 fn a_film_sloshes_with_and_without_drag_and_overturns() {
     let Some(gpu) = gpu() else { return };

@@ -75,7 +75,7 @@ fn film(ui: &mut Ui, film: &mut Film) {
     }
     if film.state != FilmStateName::Uniform {
         options_of(ui, keys.cells.label, &mut film.cells, &CELLS);
-        // A window has settled whether a film takes all of its cells or half of them.
+        // The window has settled whether a film takes all or half of its cells.
         choice_of(ui, keys.detail.label, &mut film.detail, &[Detail::Full, Detail::Half]);
     }
 }

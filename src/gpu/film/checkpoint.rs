@@ -1,4 +1,4 @@
-//! A film's state kept aside, so that the film can go on from there again with the same bits.
+//! A saved state of a film, from which the film can go on again with the same bits.
 
 use super::{Field, rest::KeptRestWatch};
 use crate::gpu::{copies::Copies, flow::FlowCheckpoint, timing::Recorder};

@@ -8,7 +8,7 @@ use crate::{
     },
 };
 
-/// Grids that there is room for: enough for 8 · 2¹¹ cells an edge.
+/// Grids that there is room for: enough for 8 · 2¹¹ cells per edge.
 pub const MAX_LEVELS: usize = 12;
 
 shader_struct! {

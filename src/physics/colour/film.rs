@@ -29,7 +29,7 @@ impl FilmOptics {
     /// water, or of another liquid with as many fringes.
     ///
     /// Light that grazes a film is resonant in it, and fringes are then much narrower than their distance. With fewer samples some fall between
-    /// two: at cos θ from 0.02 to 0.26, CIEDE2000 0.7 for films to 10 µm and 1.6 for films to 30 µm with a sample a nanometre, below 0.03 with
+    /// two: at cos θ from 0.02 to 0.26, CIEDE2000 0.7 for films to 10 µm and 1.6 for films to 30 µm with one sample per nanometre, below 0.03 with
     /// these.
     pub fn resolving(film: impl Into<FilmMaterial>, illuminant: &Illuminant, thickest_nm: f64) -> Self {
         let film = film.into();

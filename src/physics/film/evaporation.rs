@@ -17,7 +17,7 @@ struct Rate {
 }
 
 impl Evaporation {
-    /// Evaporation at rates in nm a second, for ticks of a length in seconds.
+    /// Evaporation at rates in nm per second, for ticks of a length in seconds.
     #[must_use]
     pub fn new(rates_nm_s: &Timeline<f64>, tick_s: f64) -> Self {
         let mut last = (0, Rate { nm_s: 0.0, before_nm: 0.0 });

@@ -1,4 +1,4 @@
-//! Prescribed flow (model T1): a divergence-free velocity in closed form, the same whenever and wherever it is asked for.
+//! Prescribed flow (model T1): a divergence-free velocity in closed form, with the same value at every evaluation.
 
 use std::f64::consts::TAU;
 
@@ -32,7 +32,7 @@ pub struct Wave {
     pub amplitude: f64,
     /// Rate σ at which the pattern runs along k, rad/s.
     pub drift_rad_s: f64,
-    /// Rate ω at which it swings to and fro, rad/s; 0 for a steady one.
+    /// Angular frequency ω of its oscillation, rad/s; 0 for a steady one.
     pub swing_rad_s: f64,
     /// Phase φ of the swing, radians.
     pub swing_phase: f64,
@@ -51,7 +51,7 @@ pub struct Vortex {
     pub strength: f64,
     /// Sharpness κ.
     pub sharpness: f64,
-    /// Rate ω at which it swings to and fro, rad/s; 0 for a steady one.
+    /// Angular frequency ω of its oscillation, rad/s; 0 for a steady one.
     pub swing_rad_s: f64,
     /// Phase φ of the swing, radians.
     pub swing_phase: f64,

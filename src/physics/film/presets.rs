@@ -52,7 +52,7 @@ const JETS_STREAM: u32 = 4;
 
 impl PrescribedFlow {
     /// The draught that air never stops to make: slow and large-scale, swinging with many periods of 2 to 9 s, so that the film goes
-    /// to and fro and is not mixed away. About 0.12 rad/s at strength 1, in proportion to it.
+    /// back and forth and is not mixed away. About 0.12 rad/s at strength 1, in proportion to it.
     pub fn draught(seed: u32, strength: f64) -> Self {
         let mut random = Random::new(seed, DRAUGHT_STREAM);
         let mut waves: Vec<Wave> = (0..DRAUGHT_WAVES).map(|_| draught_wave(&mut random)).collect();

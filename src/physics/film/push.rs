@@ -49,7 +49,7 @@ impl Push {
         strength * (self.sharpness * x.dot(self.center.cross(self.velocity - u)) - zeta)
     }
 
-    /// The same push for a step of `dt_s` seconds in which it acts for `acting_s`: the rate that an explicit step must have for a push alone
+    /// This push for a step of `dt_s` seconds in which it acts for `acting_s`: the rate that an explicit step must have for a push alone
     /// to do exactly what it does. It never exceeds 1/`dt_s`, so that no push is too strong for any step.
     #[must_use]
     pub fn in_step(&self, acting_s: f64, dt_s: f64) -> Self {

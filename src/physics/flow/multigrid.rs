@@ -2,7 +2,7 @@
 //!
 //! A cycle is a sawtooth: the residual of the finest grid is averaged down to the coarsest, solved there, and on the way back up each grid
 //! interpolates the correction and smooths it by a few damped Jacobi sweeps with Chebyshev weights. The finest grid differences to fourth
-//! order and the coarse ones to second. Grids need not nest: of N cells an edge the next has ⌈N/2⌉, so any N will do. The larger k is, the
+//! order and the coarse ones to second. Grids need not nest: of N cells per edge the next has ⌈N/2⌉, so any N will do. The larger k is, the
 //! fewer grids there is work for.
 
 use std::f64::consts::PI;
@@ -118,7 +118,7 @@ impl Multigrid {
         self.levels[0].residual(psi, f, shift)
     }
 
-    /// One cycle from a first guess. Grids of fewer than 16 cells an edge have none below them and are only smoothed.
+    /// One cycle from a first guess. Grids of fewer than 16 cells per edge have none below them and are only smoothed.
     pub fn cycle(&self, psi: &PaddedField<f64>, f: &[f64], shift: Shift) -> PaddedField<f64> {
         let Some(correction) = self.correction(1, &self.residual(psi, f, shift), shift) else {
             return self.levels[0].smoothed(psi.clone(), f, shift);

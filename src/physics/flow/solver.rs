@@ -381,7 +381,7 @@ mod tests {
     fn a_stratified_film_sloshes_and_an_inverted_one_overturns() {
         for drag in [0.0, 0.4] {
             let (case, found) = slosh(1.0, drag);
-            // A leapfrog of 60 steps a period is fast by (2π/60)²/24 = 4.6e-4.
+            // A leapfrog of 60 steps per period is fast by (2π/60)²/24 = 4.6e-4.
             assert!((found.frequency / case.frequency() - 1.0).abs() < 1e-3, "{found:?}");
             assert!((found.growth + 0.5 * drag).abs() < 1e-3, "{found:?}");
         }

@@ -58,7 +58,7 @@ impl FieldKey {
         !later.law_differs_until(earlier)
     }
 
-    /// Whether both began alike and are moved in the same way: then they differ in their moments and in what drove them alone.
+    /// Whether both began alike and are moved in the same way: then they differ only in their moments and in the laws and pushes that drove them.
     #[must_use]
     pub fn is_same_film(&self, other: &Self) -> bool {
         (self.cells, self.flow_cells) == (other.cells, other.flow_cells)

@@ -62,7 +62,7 @@ impl TableKey {
     pub const COLUMNS: u32 = 64;
     /// Minimum thickness range of the table, in nm.
     pub const MIN_RANGE_NM: f64 = 1500.0;
-    /// Rows for [`TableKey::MIN_RANGE_NM`]: 0.73 nm a row.
+    /// Rows for [`TableKey::MIN_RANGE_NM`]: 0.73 nm per row.
     pub const MIN_ROWS: u32 = 2048;
     /// Rows at most: the smallest limit on textures that adapters have.
     const MAX_ROWS: u32 = 8192;

@@ -35,7 +35,7 @@ fn seconds(boundary: &str, count: usize) -> f64 {
     (0..3).map(|_| run()).fold(f64::INFINITY, f64::min)
 }
 
-/// Four times as many events cost about four times as much; where each of them looked at all others it would be sixteen times.
+/// Four times as many events cost about four times as much; if each event looked at all others, they would cost sixteen times as much.
 #[test]
 fn the_cost_of_events_grows_as_their_number() {
     for boundary in ["free", "bath", "ring"] {

@@ -285,7 +285,7 @@ fn bubbles_too_large_to_be_round_are_warned_of() {
 }
 
 /// Real films: of 20 to 2000 mm²/s with their surfaces, up to 3 µm thick, on bubbles from a centimetre to a metre, in gravity no stronger
-/// than the Earth's, losing 100 nm a second at most, drawn with patches of millimetres.
+/// than the Earth's, losing 100 nm per second at most, drawn with patches of millimetres.
 #[test]
 fn presets_have_constants_of_real_films() {
     for name in preset_names() {
