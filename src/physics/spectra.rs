@@ -186,7 +186,7 @@ mod tests {
         let index = |text| {
             Spectrum::index_from_csv("glass.csv", text, &mut Vec::new()).expect_err("must be refused").to_string()
         };
-        assert!(index("nm,n\n360,1.5\n780,0.9").starts_with("glass.csv, line 3: a refractive index of 0.9"));
+        assert!(index("nm,n\n360,1.5\n780,0.9").starts_with("glass.csv, line 3: refractive index 0.9"));
         assert!(index("360,1.5\n500,NaN").starts_with("glass.csv, line 2: `NaN` is not"));
         for (text, expected) in cases {
             let message = refusal(text).to_string();

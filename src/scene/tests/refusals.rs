@@ -135,8 +135,8 @@ fn values_have_their_type() {
             "[[event]]\nkind = \"stir\"\nat = [1, 0, 0, 0]",
             "4: `at` in [[event]] is a list of 4; it must hold 3 numbers",
         ),
-        ("bubble = [{}, 3]", "2: [[bubble]] number 2 must be a table and holds a value of the type integer"),
-        ("bubble = [[[0, 0, 0], 50]]", "2: [[bubble]] must be a table and holds a value of the type array"),
+        ("bubble = [{}, 3]", "2: [[bubble]] number 2 must be a table, but is a value of the type integer"),
+        ("bubble = [[[0, 0, 0], 50]]", "2: [[bubble]] must be a table, but is a value of the type array"),
         (
             "[camera]\ntarget_m = 3",
             "3: `target_m` in [camera] is wrong: invalid type: integer `3`, expected a list of three numbers",
@@ -190,7 +190,7 @@ fn films_end_where_they_can() {
         ),
         (
             "[[bubble]]\nboundary = \"ring\"\nrim_deg = 160",
-            "4: `rim_deg` in [[bubble]] is 160; a ring's must be within 30 ..= 150",
+            "4: `rim_deg` in [[bubble]] is 160; for a ring it must be within 30 ..= 150",
         ),
         (
             "[[bubble]]\nboundary = \"bath\"\nradius_mm = 5",
