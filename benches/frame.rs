@@ -5,13 +5,13 @@ use soapfilm::{
     gpu::{AdapterChoice, Gpu, Renderer},
     input::load_scene,
     physics::colour::Gamut,
-    plan::{Have, Moment, Pace, Plan, Shot, Want, plan, want},
+    plan::{FrameRequest, GpuState, Moment, Pace, Plan, Shot, plan, request},
 };
 
 const SIZES: [[u32; 2]; 2] = [[1280, 720], [1920, 1080]];
 /// A picture that shows whether the benchmark works: `cargo bench --bench frame -- --test`.
 const SMOKE: [[u32; 2]; 1] = [[320, 180]];
-const PASSES: [&str; 7] = ["bake_table", "fit_bands", "seed_field", "step_field", "show_field", "draw", "tonemap"];
+const PASSES: [&str; 7] = ["bake_table", "fit_quadrature", "seed_field", "step_field", "show_field", "draw", "tonemap"];
 
 fn frame(criterion: &mut Criterion) {
     let gpu = pollster::block_on(Gpu::headless(&AdapterChoice::default().or_env())).expect("an adapter to measure on");
@@ -19,17 +19,17 @@ fn frame(criterion: &mut Criterion) {
     let mut renderer = Renderer::new(gpu);
     let is_smoke = std::env::args().any(|argument| argument == "--test");
     for size in if is_smoke { SMOKE.to_vec() } else { SIZES.to_vec() } {
-        let (bubble, mirror) = (wanted(size, false), wanted(size, true));
+        let (bubble, mirror) = (frame_request(size, false), frame_request(size, true));
         draw(&mut renderer, &bubble);
         draw(&mut renderer, &mirror);
         let mut group = criterion.benchmark_group(format!("{}x{}", size[0], size[1]));
         group.sample_size(20);
-        for (name, want) in [("frame", &bubble), ("mirror_yardstick", &mirror)] {
-            group.bench_function(name, |bencher| bencher.iter(|| draw(&mut renderer, want)));
+        for (name, request) in [("frame", &bubble), ("mirror_yardstick", &mirror)] {
+            group.bench_function(name, |bencher| bencher.iter(|| draw(&mut renderer, request)));
         }
         draw(&mut renderer, &bubble);
         for pass in PASSES {
-            let only = only(&bubble, pass, renderer.have());
+            let only = only(&bubble, pass, renderer.state());
             group.bench_function(BenchmarkId::new("pass", pass), |bencher| {
                 bencher.iter(|| {
                     renderer.execute(&only).expect("a plan that ran before");
@@ -42,7 +42,7 @@ fn frame(criterion: &mut Criterion) {
 }
 
 /// The default scene a few ticks in, so that every pass has something to do, a whole step and the part of one included.
-fn wanted(size: [u32; 2], yardstick: bool) -> Want {
+fn frame_request(size: [u32; 2], yardstick: bool) -> FrameRequest {
     let loaded = load_scene("default").expect("the preset");
     let shot = Shot {
         size,
@@ -52,22 +52,22 @@ fn wanted(size: [u32; 2], yardstick: bool) -> Want {
         yardstick,
         pace: Pace::Whole,
     };
-    want(&loaded.scene, &loaded.resources, &shot).expect("a scene that can be drawn")
+    request(&loaded.scene, &loaded.resources, &shot).expect("a scene that can be drawn")
 }
 
-/// One frame, everything but the bakes anew.
-fn draw(renderer: &mut Renderer, want: &Want) {
+/// One frame, drawn again except for baked tables.
+fn draw(renderer: &mut Renderer, request: &FrameRequest) {
     renderer.forget_picture();
-    renderer.bring(want).expect("a frame");
+    renderer.render(request).expect("a frame");
     renderer.gpu.wait().expect("a device that works");
 }
 
 /// The part of a plan from nothing that has this name.
-fn only(want: &Want, name: &str, have: &Have) -> Plan {
-    let whole = plan(want, &Have::default());
+fn only(request: &FrameRequest, name: &str, state: &GpuState) -> Plan {
+    let whole = plan(request, &GpuState::default());
     let steps: Vec<_> = whole.steps.into_iter().filter(|(pass, _)| pass.name() == name).collect();
     assert!(!steps.is_empty(), "no pass is named {name}");
-    Plan { steps, after: have.clone(), complete: true }
+    Plan { steps, after: state.clone(), complete: true }
 }
 
 criterion_group!(benches, frame);

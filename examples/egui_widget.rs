@@ -1,4 +1,4 @@
-//! A bubble as an egui widget: an image that is drawn anew when its size or time changes. Here a test harness in memory stands in for the
+//! A bubble as an egui widget: an image that is drawn again when its size or time changes. Here a test harness in memory stands in for the
 //! window; in an application call `BubbleImage::show` in the same way.
 //!
 //!     cargo run --example egui_widget

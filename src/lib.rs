@@ -1,6 +1,6 @@
 //! Soap bubbles with correct thin-film interference, on wgpu.
 //!
-//! A picture takes three lines; [`studio`] does it, and also reads films and tells colours:
+//! A picture takes three lines; [`studio`] does it, and also reads films and computes colours:
 //!
 //! ```no_run
 //! let scene = soapfilm::load_scene("windows")?;
@@ -23,7 +23,7 @@
 //! | [`output`], [`input`] | files: pictures, tables and reports out; environments and spectra in | windows, GPUs |
 //! | [`verify`] | whether it is right: measurements against references | windows, files |
 //! | [`gpu`] | HOW: one module for each pass, named like its shader, what composes them, and the executor that walks a plan | windows, files |
-//! | [`plan`] | WHEN: a pure function from what is wanted and what is there to the passes in between | wgpu, windows, files |
+//! | [`plan`] | WHEN: a pure function from a frame request and the state of the GPU to the passes in between | wgpu, windows, files |
 //! | [`scene`] | WHAT is shown: plain data, TOML, presets, events | how it is computed or drawn |
 //! | [`physics`] | what is TRUE: f64 on the CPU | wgpu, scene files |
 

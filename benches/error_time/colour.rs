@@ -1,20 +1,20 @@
-//! Colours: lookup tables of several sizes, numbers of bands, and the qualities of pictures.
+//! Colours: lookup tables of several sizes, numbers of wavelengths, and the qualities of pictures.
 
 use anyhow::Context;
 use glam::DVec3;
 use soapfilm::{
     gpu::{
         Gpu, GpuError, Renderer,
-        bands::Bands,
         passes::bake_table::Table,
         passes::probe_colour::{ColourProbe, ProbePoint},
+        quadrature::Quadrature,
     },
     input::load_scene,
     physics::{
-        colour::{BT2020, BandTask, Gamut, Illuminant, Walls, m2_delta_e},
+        colour::{BT2020, Gamut, Illuminant, QuadratureTask, Walls, m2_delta_e},
         optics::FilmMaterial,
     },
-    plan::{BandsKey, Moment, OpticsKey, Pace, Shot, TableKey, want},
+    plan::{Moment, OpticsKey, Pace, QuadratureKey, Shot, TableKey, request},
     scene::Quality,
 };
 
@@ -34,10 +34,10 @@ const TABLES: [(u32, u32, f64); 7] = [
     (128, 2048, 1500.0),
     (64, 4096, 3000.0),
 ];
-/// Numbers of bands: beside a table, and alone.
-const FRONT: [(BandTask, &str, &[usize]); 2] = [
-    (BandTask::CrossTerms, "table and bands", &[3, 4, 6, 9, 13, 18, 24, 36]),
-    (BandTask::Everything, "bands alone", &[9, 13, 18, 24, 36, 48]),
+/// Numbers of wavelengths: beside a table, and alone.
+const FRONT: [(QuadratureTask, &str, &[usize]); 2] = [
+    (QuadratureTask::CrossTerms, "table and wavelengths", &[3, 4, 6, 9, 13, 18, 24, 36]),
+    (QuadratureTask::Everything, "wavelengths alone", &[9, 13, 18, 24, 36, 48]),
 ];
 /// Thickest film of the front, in nm.
 const FRONT_NM: f64 = 1500.0;
@@ -65,9 +65,9 @@ pub fn tables(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     for (columns, rows, max_nm) in TABLES.into_iter().take(if smoke { 1 } else { TABLES.len() }) {
         let key = TableKey { columns, rows, ..TableKey::full(water(), max_nm) };
         let (table, cpu_ms, wall_ms) = timed(|| bake(gpu, &key))?;
-        let bands = BandsKey { optics: water(), range_nm: max_nm, quality: Quality::Standard };
+        let quadrature = QuadratureKey { optics: water(), range_nm: max_nm, quality: Quality::Standard };
         let points = points(if smoke { 500 } else { FILMS }, max_nm, false);
-        let probe = ColourProbe::with_table(table, Bands::fit(gpu, &bands));
+        let probe = ColourProbe::with_table(table, Quadrature::fit(gpu, &quadrature));
         let [worst, mean] = colour_error(&points, &probe.measure(gpu, &probes(&points))?);
         report.row(&[f64::from(columns), f64::from(rows), max_nm, cpu_ms, wall_ms, worst, mean]);
         series.push(Series { name: format!("{columns}x{rows}, {max_nm} nm"), points: vec![[cpu_ms, worst]] });
@@ -76,7 +76,7 @@ pub fn tables(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     save_plot("tables", ["CPU time of the bake, ms", "one wall, largest dE2000"], &series)
 }
 
-/// Two walls by several numbers of bands: which of them a quality should have.
+/// Two walls by several numbers of wavelengths: which of them a quality should have.
 pub fn front(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     let columns = ["everything", "bands", "ns_per_point", "max_dE", "mean_dE"];
     let mut report = Report::new("front", &columns);
@@ -85,20 +85,20 @@ pub fn front(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
         let mut places = Vec::new();
         for count in counts.iter().copied().take(if smoke { 1 } else { counts.len() }) {
             let table = match task {
-                BandTask::CrossTerms => Table::baked(gpu, &TableKey::full(water(), FRONT_NM))?,
-                BandTask::Everything => Table::unread(gpu, &water()),
+                QuadratureTask::CrossTerms => Table::baked(gpu, &TableKey::full(water(), FRONT_NM))?,
+                QuadratureTask::Everything => Table::unread(gpu, &water()),
             };
-            let bands = Bands::of_count(gpu, &water(), task, count, FRONT_NM);
-            let probe = ColourProbe::with_table(table, bands);
+            let quadrature = Quadrature::of_count(gpu, &water(), task, count, FRONT_NM);
+            let probe = ColourProbe::with_table(table, quadrature);
             let points = points(if smoke { 500 } else { FILMS }, FRONT_NM, true);
             let [worst, mean] = colour_error(&points, &probe.measure(gpu, &probes(&points))?);
-            let ns = nanoseconds_a_point(gpu, &probe, if smoke { 500 } else { TIMED_FILMS })?;
-            report.row(&[f64::from(u8::from(task == BandTask::Everything)), count as f64, ns, worst, mean]);
+            let ns = nanoseconds_per_point(gpu, &probe, if smoke { 500 } else { TIMED_FILMS })?;
+            report.row(&[f64::from(u8::from(task == QuadratureTask::Everything)), count as f64, ns, worst, mean]);
             places.push(Place { count, ns, errors: [worst, mean] });
         }
         for (k, error) in ["largest", "mean"].into_iter().enumerate() {
             if let Some(count) = knee(&places, |place| place.errors[k]) {
-                println!("{name}: the knee of the {error} error is at {count} bands");
+                println!("{name}: the knee of the {error} error is at {count} wavelengths");
             }
         }
         let points = places.iter().map(|place| [place.ns, place.errors[1]]).collect();
@@ -108,14 +108,14 @@ pub fn front(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     save_plot("front", ["CPU time of a point, ns", "two walls, mean dE2000"], &series)
 }
 
-/// What a number of bands costs a point, in nanoseconds, and its largest and mean error.
+/// Cost of a number of wavelengths per point, in nanoseconds, and its largest and mean error.
 struct Place {
     count: usize,
     ns: f64,
     errors: [f64; 2],
 }
 
-/// Where a front bends most: farthest below the straight line between its ends, both axes as logarithms. Nothing for fewer than three.
+/// Where a front bends most: farthest below the straight line between its ends, both axes as logarithms. `None` for fewer than three.
 fn knee(front: &[Place], error: impl Fn(&Place) -> f64) -> Option<usize> {
     let (first, last) = (front.first()?, front.last()?);
     let slope = (error(last) / error(first)).ln() / (last.ns / first.ns).ln();
@@ -124,7 +124,7 @@ fn knee(front: &[Place], error: impl Fn(&Place) -> f64) -> Option<usize> {
     inner.iter().max_by(|a, b| below(a).total_cmp(&below(b))).map(|place| place.count)
 }
 
-/// Two walls at each quality: bands, milliseconds to fit them, and nanoseconds a point; and what a frame of the default scene costs beside
+/// Two walls at each quality: wavelengths, milliseconds to fit them, and nanoseconds per point; and the cost of a frame of the default scene beside
 /// a plain mirror sphere.
 pub fn qualities(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
     let columns = ["bands", "max_nm", "fit_cpu_ms", "ns_per_point", "max_dE", "mean_dE", "over_mirror"];
@@ -137,10 +137,10 @@ pub fn qualities(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
             let points = points(if smoke { 500 } else { FILMS }, max_nm, true);
             let (probe, cpu_ms, _) = timed(|| ColourProbe::new(&renderer.gpu, &water(), quality, max_nm))?;
             let [worst, mean] = colour_error(&points, &probe.measure(&renderer.gpu, &probes(&points))?);
-            let ns = nanoseconds_a_point(&renderer.gpu, &probe, if smoke { 500 } else { TIMED_FILMS })?;
-            let bands = BandsKey { optics: water(), range_nm: max_nm, quality }.count() as f64;
+            let ns = nanoseconds_per_point(&renderer.gpu, &probe, if smoke { 500 } else { TIMED_FILMS })?;
+            let quadrature = QuadratureKey { optics: water(), range_nm: max_nm, quality }.count() as f64;
             let ratio = frame_over_mirror(&mut renderer, quality, if smoke { 1 } else { 9 })?;
-            report.row(&[bands, max_nm, cpu_ms, ns, worst, mean, ratio]);
+            report.row(&[quadrature, max_nm, cpu_ms, ns, worst, mean, ratio]);
             places.push([ratio, mean]);
         }
         series.push(Series { name: quality.name().to_owned(), points: places });
@@ -157,7 +157,7 @@ fn save_plot(name: &str, labels: [&str; 2], series: &[Series]) -> anyhow::Result
 }
 
 /// Process CPU time of a point: the median over some rounds, sending and reading back included.
-fn nanoseconds_a_point(gpu: &Gpu, probe: &ColourProbe, count: u32) -> anyhow::Result<f64> {
+fn nanoseconds_per_point(gpu: &Gpu, probe: &ColourProbe, count: u32) -> anyhow::Result<f64> {
     let points = probes(&points(count, FRONT_NM, true));
     let round = |_| Ok(timed(|| probe.measure(gpu, &points))?.1);
     let times = (0..=ROUNDS).map(round).collect::<anyhow::Result<Vec<f64>>>()?;
@@ -170,7 +170,7 @@ fn median(mut times: Vec<f64>) -> f64 {
     times[times.len() / 2]
 }
 
-/// Process CPU time of a frame over that of one with a plain mirror sphere: medians over frames that alternate.
+/// Ratio of the process CPU time of a frame to the time of a frame with a plain mirror sphere: medians over frames that alternate.
 fn frame_over_mirror(renderer: &mut Renderer, quality: Quality, frames: usize) -> anyhow::Result<f64> {
     let mut loaded = load_scene("default")?;
     loaded.scene.view.quality = quality;
@@ -182,13 +182,13 @@ fn frame_over_mirror(renderer: &mut Renderer, quality: Quality, frames: usize) -
         yardstick: false,
         pace: Pace::Whole,
     };
-    let bubble = want(&loaded.scene, &loaded.resources, &shot)?;
-    let mirror = want(&loaded.scene, &loaded.resources, &Shot { yardstick: true, ..shot })?;
+    let bubble = request(&loaded.scene, &loaded.resources, &shot)?;
+    let mirror = request(&loaded.scene, &loaded.resources, &Shot { yardstick: true, ..shot })?;
     let mut times = [Vec::new(), Vec::new()];
     for round in 0..frames + 2 {
-        for (want, times) in [&bubble, &mirror].into_iter().zip(&mut times) {
+        for (request, times) in [&bubble, &mirror].into_iter().zip(&mut times) {
             renderer.forget_picture();
-            let ((), cpu_ms, _) = timed(|| renderer.bring(want).and_then(|_| renderer.gpu.wait()))?;
+            let ((), cpu_ms, _) = timed(|| renderer.render(request).and_then(|_| renderer.gpu.wait()))?;
             // The first rounds bake and compile.
             if round >= 2 {
                 times.push(cpu_ms);

@@ -21,13 +21,13 @@ const CYCLES: [Cycles; 5] = [cycles(1, 1), cycles(2, 1), cycles(3, 1), cycles(2,
 /// Cells along a panel's edge of the flow.
 const CELLS: [u32; 4] = [16, 32, 64, 128];
 /// Steps of the exact flow for each of these cells.
-const STEPS_A_CELL: [f64; 2] = [0.625, 1.25];
+const STEPS_PER_CELL: [f64; 2] = [0.625, 1.25];
 /// When a blown film is compared with a finer one: later on, small differences have grown.
 const FRESH_S: f64 = 0.1;
 /// When it has sorted itself.
 const SORTED_S: f64 = 2.0;
 /// Steps of the film a second.
-const STEPS_A_SECOND: [u32; 3] = [30, 60, 120];
+const STEPS_PER_SECOND: [u32; 3] = [30, 60, 120];
 
 const fn cycles(poisson: usize, viscous: usize) -> Cycles {
     Cycles { poisson, viscous }
@@ -42,22 +42,22 @@ pub fn run(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
 fn exact(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     let case = FlowCase::new(FlowCaseKind::RossbyHaurwitz, DVec3::ONE.normalize(), Mode::new(1, 1, 0)?, 1.0, 1.0)?;
     let mut report = Report::new("flow_exact", &["cells", "steps", "cycles", "cpu_ms_step", "cpu_s", "l2"]);
-    let measure = |cells: u32, steps_a_cell: f64, poisson: usize, report: &mut Report| {
-        let steps = (steps_a_cell * f64::from(cells)).round() as u32;
+    let measure = |cells: u32, steps_per_cell: f64, poisson: usize, report: &mut Report| {
+        let steps = (steps_per_cell * f64::from(cells)).round() as u32;
         let cycles = Cycles { poisson, ..Cycles::default() };
-        let found = FlowRun { case, cells, steps_a_span: steps, spans: 1, cycles }.measure(gpu)?;
+        let found = FlowRun { case, cells, steps_per_span: steps, spans: 1, cycles }.measure(gpu)?;
         let cpu_s = found.cpu.as_secs_f64();
         report.row(&[cells.into(), steps.into(), poisson as f64, cpu_s * 1e3, cpu_s * f64::from(steps), found.l2]);
         anyhow::Ok([cpu_s * f64::from(steps), found.l2])
     };
     // Makes every pipeline, so that no row pays for it.
-    FlowRun { case, cells: 16, steps_a_span: 8, spans: 1, cycles: Cycles::default() }.measure(gpu)?;
+    FlowRun { case, cells: 16, steps_per_span: 8, spans: 1, cycles: Cycles::default() }.measure(gpu)?;
     let mut all = Vec::new();
     for poisson in if smoke { 2..3 } else { 1..5 } {
         let mut points = Vec::new();
         for cells in CELLS.into_iter().take(if smoke { 1 } else { CELLS.len() }) {
-            for steps_a_cell in STEPS_A_CELL.into_iter().take(if smoke { 1 } else { STEPS_A_CELL.len() }) {
-                points.push(measure(cells, steps_a_cell, poisson, &mut report)?);
+            for steps_per_cell in STEPS_PER_CELL.into_iter().take(if smoke { 1 } else { STEPS_PER_CELL.len() }) {
+                points.push(measure(cells, steps_per_cell, poisson, &mut report)?);
             }
         }
         all.push(Series { name: format!("{poisson} cycles"), points });
@@ -84,7 +84,7 @@ fn sorting(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     ];
     let mut report = Report::new("flow_sorting", &columns);
     let grids = CELLS.map(|flow_cells| Sorting { flow_cells, ..film });
-    let steps = STEPS_A_SECOND.map(|steps| Sorting { dt_s: 1.0 / f64::from(steps), ..film });
+    let steps = STEPS_PER_SECOND.map(|steps| Sorting { dt_s: 1.0 / f64::from(steps), ..film });
     let counts = CYCLES.map(|cycles| Sorting { cycles, ..film });
     let mut all = Vec::new();
     for (name, films, finest) in [
@@ -113,13 +113,13 @@ fn measure(gpu: &Gpu, report: &mut Report, film: &Sorting, truth: &[f64]) -> any
     let rms_nm = (squares.sum::<f64>() / (4.0 * std::f64::consts::PI)).sqrt();
     let sorted = film.measure(gpu, &[SORTED_S])?[0];
     let (Cycles { poisson, viscous }, steps) = (film.cycles, (1.0 / film.dt_s).round());
-    let cpu_s = sorted.cpu_ms_a_step * steps * 1e-3;
+    let cpu_s = sorted.cpu_ms_per_step * steps * 1e-3;
     report.row(&[
         film.flow_cells.into(),
         steps,
         poisson as f64,
         viscous as f64,
-        sorted.cpu_ms_a_step,
+        sorted.cpu_ms_per_step,
         cpu_s,
         rms_nm,
         sorted.explained,

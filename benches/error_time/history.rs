@@ -4,7 +4,7 @@ use soapfilm::{
     gpu::{Gpu, Renderer},
     input::load_scene,
     physics::colour::Gamut,
-    plan::{Moment, Pace, Shot, Want, want},
+    plan::{FrameRequest, Moment, Pace, Shot, request},
     scene::Flow,
 };
 
@@ -26,29 +26,29 @@ pub fn run(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
     let columns = ["scene", "back_ticks", "steps", "cpu_s", "cpu_ms_step", "frame_cpu_ms"];
     let mut report = Report::new("history", &columns);
     let (cells, end) = if smoke { (SMOKE_CELLS, END_TICKS / 20) } else { (CELLS, END_TICKS) };
-    let wanted = |flow, tick| wanted(flow, cells, tick);
+    let frame_request = |flow, tick| frame_request(flow, cells, tick);
     let mut renderer = Renderer::new(gpu);
     for (scene, flow) in [Flow::Free, Flow::Stirred].into_iter().enumerate() {
         // Once as a whole, so that no row pays for pipelines.
-        arrive(&mut renderer, &wanted(flow, 4)?)?;
-        let (steps, cpu_ms) = arrive(&mut renderer, &wanted(flow, end)?)?;
-        let frame_ms = frame(&mut renderer, &wanted(flow, end)?)?;
+        arrive(&mut renderer, &frame_request(flow, 4)?)?;
+        let (steps, cpu_ms) = arrive(&mut renderer, &frame_request(flow, end)?)?;
+        let frame_ms = frame(&mut renderer, &frame_request(flow, end)?)?;
         let mut row = |back: u64, steps: u64, cpu_ms: f64| {
             let a_step = (cpu_ms - frame_ms) / steps.max(1) as f64;
             report.row(&[scene as f64, back as f64, steps as f64, cpu_ms * 1e-3, a_step, frame_ms]);
         };
         row(0, steps, cpu_ms);
         for back in JUMPS_TICKS.into_iter().filter(|back| *back < end) {
-            let (steps, cpu_ms) = arrive(&mut renderer, &wanted(flow, end - back)?)?;
+            let (steps, cpu_ms) = arrive(&mut renderer, &frame_request(flow, end - back)?)?;
             row(back, steps, cpu_ms);
-            arrive(&mut renderer, &wanted(flow, end)?)?;
+            arrive(&mut renderer, &frame_request(flow, end)?)?;
         }
     }
     report.save()
 }
 
 /// A frame of the default scene's film at a tick, moved by a flow.
-fn wanted(flow: Flow, cells: u32, tick: u64) -> anyhow::Result<Want> {
+fn frame_request(flow: Flow, cells: u32, tick: u64) -> anyhow::Result<FrameRequest> {
     let mut loaded = load_scene("default")?;
     loaded.scene.bubbles[0].film.cells = cells;
     loaded.scene.motion.flow = flow;
@@ -61,21 +61,21 @@ fn wanted(flow: Flow, cells: u32, tick: u64) -> anyhow::Result<Want> {
         yardstick: false,
         pace: Pace::Frame,
     };
-    Ok(want(&loaded.scene, &loaded.resources, &shot)?)
+    Ok(request(&loaded.scene, &loaded.resources, &shot)?)
 }
 
 /// Goes on frame by frame until a picture is complete: steps taken and CPU time in milliseconds.
-fn arrive(renderer: &mut Renderer, want: &Want) -> anyhow::Result<(u64, f64)> {
+fn arrive(renderer: &mut Renderer, request: &FrameRequest) -> anyhow::Result<(u64, f64)> {
     let before = renderer.counts.cells_stepped;
     let ((), cpu_ms, _) = timed(|| {
-        while !renderer.bring(want)?.complete {}
+        while !renderer.render(request)?.complete {}
         renderer.gpu.wait()
     })?;
     Ok(((renderer.counts.cells_stepped - before) / (6 * u64::from(CELLS).pow(2)), cpu_ms))
 }
 
 /// CPU time in milliseconds of a frame that moves nothing.
-fn frame(renderer: &mut Renderer, want: &Want) -> anyhow::Result<f64> {
+fn frame(renderer: &mut Renderer, request: &FrameRequest) -> anyhow::Result<f64> {
     renderer.forget_picture();
-    Ok(arrive(renderer, want)?.1)
+    Ok(arrive(renderer, request)?.1)
 }

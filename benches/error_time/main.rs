@@ -1,4 +1,4 @@
-//! Run time against error: lookup tables of several sizes, numbers of bands, the qualities, the schemes of transport, the flow solver,
+//! Run time against error: lookup tables of several sizes, numbers of wavelengths, the qualities, the schemes of transport, the flow solver,
 //! going back in time, and planning, as tables, and as CSV files and plots in `target/`.
 //!
 //! `cargo bench --bench error_time -- --smoke` runs the smallest case of each, to see that it works; a name (`tables`, `front`, `transport`,

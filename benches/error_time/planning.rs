@@ -5,7 +5,7 @@ use soapfilm::{
     gpu::GpuError,
     input::load_scene,
     physics::colour::Gamut,
-    plan::{Have, Moment, Pace, Resources, Shot, Story, plan},
+    plan::{GpuState, Moment, Pace, Resources, Shot, Story, plan},
     scene::{Change, Event, Stir},
 };
 
@@ -17,9 +17,9 @@ const HOUR_TICKS: u64 = 216_000;
 const EVENTS: u64 = 20_000;
 /// Frames planned for one number, each a tick after the one before.
 const FRAMES: u64 = 500;
-/// The same where it only shows whether the benchmark works.
+/// Number of runs where it only shows whether the benchmark works.
 const SMOKE_FRAMES: u64 = 20;
-/// Runs of which the fastest counts, for nothing has disturbed it.
+/// Number of runs; the fastest counts, as the least disturbed.
 const RUNS: usize = 5;
 
 /// CPU time of a frame that is planned, µs: at tick 1, after an hour, and the one over the other; and what the first frame of an hour takes, ms,
@@ -48,9 +48,9 @@ fn scenes(quiet: &Scene) -> [Scene; 3] {
     [quiet.clone(), stirred, dry]
 }
 
-/// CPU time of a frame from a tick on, µs, and that of the way there, ms.
+/// CPU time of a frame from a tick on, µs, and CPU time to reach that tick, ms.
 fn planned(story: &Story, resources: &Resources, from: u64, frames: u64) -> anyhow::Result<[f64; 2]> {
-    let frame = |tick, pace, have: &Have| {
+    let frame = |tick, pace, state: &GpuState| {
         let shot = Shot {
             size: [1280, 720],
             moment: Moment::tick(tick),
@@ -59,16 +59,16 @@ fn planned(story: &Story, resources: &Resources, from: u64, frames: u64) -> anyh
             yardstick: false,
             pace,
         };
-        let want = story.want(resources, &shot).map_err(|fault| GpuError::Refused(fault.to_string()))?;
-        Ok(plan(&want, have).after)
+        let request = story.request(resources, &shot).map_err(|fault| GpuError::Refused(fault.to_string()))?;
+        Ok(plan(&request, state).after)
     };
-    let (there, arrive_ms, _) = timed(|| frame(from, Pace::Whole, &Have::default()))?;
-    let mut least_ms = f64::INFINITY;
+    let (there, arrive_ms, _) = timed(|| frame(from, Pace::Whole, &GpuState::default()))?;
+    let mut min_ms = f64::INFINITY;
     for _ in 0..RUNS {
         let ticks = from + 1..=from + frames;
         let (_, cpu_ms, _) =
-            timed(|| ticks.into_iter().try_fold(there.clone(), |have, tick| frame(tick, Pace::Frame, &have)))?;
-        least_ms = least_ms.min(cpu_ms);
+            timed(|| ticks.into_iter().try_fold(there.clone(), |state, tick| frame(tick, Pace::Frame, &state)))?;
+        min_ms = min_ms.min(cpu_ms);
     }
-    Ok([1e3 * least_ms / frames as f64, arrive_ms])
+    Ok([1e3 * min_ms / frames as f64, arrive_ms])
 }

@@ -23,11 +23,11 @@ use crate::{
 const TARGET_L2: f64 = 0.01;
 /// Periods of the wind.
 const PERIODS: u32 = 8;
-/// Steps a period, and cells along a cube's edge, of which each scheme takes as many as it needs to pass the target: numbers that leave few
+/// Steps per period, and cells along a cube's edge, of which each scheme takes as many as it needs to pass the target: numbers that leave few
 /// invocations of a workgroup idle, and that maps as coarse as below divide.
 const STEPS: [u32; 4] = [4, 15, 30, 60];
 const CELLS: [usize; 11] = [32, 36, 40, 48, 60, 72, 88, 120, 152, 184, 240];
-/// Schemes that err by more than so many times the target on this many cells do not reach it.
+/// Schemes whose error on this many cells exceeds this multiple of the target do not reach it.
 const HOPELESS: (f64, usize) = (4.0, 120);
 /// Runs shorter than this are repeated, milliseconds.
 const SHORT_MS: f64 = 1000.0;
@@ -56,7 +56,7 @@ struct Runner {
     map_coarsenings: &'static [u32],
 }
 
-/// All schemes as the program runs them, and `bicubic` with long steps traced as those of maps are.
+/// All schemes as the program runs them, and `bicubic` with long steps, traced like the steps of maps.
 fn runners() -> impl Iterator<Item = Runner> {
     let own = Scheme::ALL.map(|scheme| Runner {
         name: scheme.name(),
@@ -121,7 +121,7 @@ pub fn run(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
             Some(Price { seconds, courant, map_coarsening }) => {
                 let gain = bicubic.map_or(f64::NAN, |bicubic| bicubic.seconds / seconds);
                 println!(
-                    "{name:>16}  {seconds:>8.3} s, that of bicubic over {gain:.1}, at Courant number {courant:.0} and a map \
+                    "{name:>16}  {seconds:>8.3} s, bicubic's divided by {gain:.1}, at Courant number {courant:.0} and a map \
                      {map_coarsening} times as coarse"
                 );
             }
@@ -131,7 +131,7 @@ pub fn run(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Ever more cells at so many steps a period, until the target is passed or out of reach: because the error of the trace, that no grid makes
+/// Ever more cells at a number of steps per period, until the target is passed or out of reach: because the error of the trace, that no grid makes
 /// smaller, is what is left, or because the grid would be too fine.
 fn sweep(
     gpu: &Gpu,
@@ -165,7 +165,7 @@ fn measure(gpu: &Gpu, report: &mut Report, index: usize, case: &Case) -> anyhow:
         runs += 1;
     }
     cpu_ms /= f64::from(runs);
-    let Case { map_coarsening, steps_a_period: steps, .. } = *case;
+    let Case { map_coarsening, steps_per_period: steps, .. } = *case;
     let cells = case.grid.n();
     let ((), copy_ms, _) = timed(|| {
         let mut recorder = Recorder::new(gpu);
@@ -180,7 +180,7 @@ fn measure(gpu: &Gpu, report: &mut Report, index: usize, case: &Case) -> anyhow:
         f64::from(map_coarsening),
         cells as f64,
         f64::from(steps),
-        f64::from(case.traces_a_step),
+        f64::from(case.traces_per_step),
         courant(cells as f64, steps),
         row.cpu_s,
         cpu_ms / case.steps as f64,
@@ -195,7 +195,7 @@ fn courant(cells: f64, steps: u32) -> f64 {
     10.0 * cells / f64::from(steps)
 }
 
-/// What the target costs at so many steps a period: between the two grids around it, by the orders that they show.
+/// The cost of the target at a number of steps per period: between the two grids around it, by the orders that they show.
 fn price(rows: &[Row]) -> Option<Price> {
     let around = rows.windows(2).find(|pair| pair[0].l2 > TARGET_L2 && pair[1].l2 <= TARGET_L2)?;
     let part = (around[0].l2 / TARGET_L2).ln() / (around[0].l2 / around[1].l2).ln();
@@ -208,7 +208,13 @@ fn price(rows: &[Row]) -> Option<Price> {
     })
 }
 
-fn case(runner: Runner, map_coarsening: u32, cells: usize, steps_a_period: u32, periods: u32) -> anyhow::Result<Case> {
+fn case(
+    runner: Runner,
+    map_coarsening: u32,
+    cells: usize,
+    steps_per_period: u32,
+    periods: u32,
+) -> anyhow::Result<Case> {
     let wind = Wind::new(WindKind::NonDivergent, None)?;
     Ok(Case {
         grid: CubedSphere::new(cells)?,
@@ -218,8 +224,8 @@ fn case(runner: Runner, map_coarsening: u32, cells: usize, steps_a_period: u32, 
         scheme: runner.scheme,
         map_coarsening,
         limiter: false,
-        steps_a_period,
-        steps: u64::from(steps_a_period * periods),
-        traces_a_step: Case::traces_a_step(runner.traced_as, steps_a_period),
+        steps_per_period,
+        steps: u64::from(steps_per_period * periods),
+        traces_per_step: Case::traces_per_step(runner.traced_as, steps_per_period),
     })
 }

@@ -12,7 +12,7 @@ struct Toned {
     grey: f32,
 }
 
-// Maps the largest channel onto [0, 1]: straight up to SHOULDER (what is measured is what is seen), then a rational shoulder of
+// Maps the largest channel onto [0, 1]: straight up to SHOULDER (measured values are shown unchanged), then a rational shoulder of
 // the same slope that reaches 1 at WHITE. Colours far beyond the shoulder lose chroma as film and eyes do.
 fn tone_curve(linear: vec3f) -> Toned {
     let peak = max(linear.r, max(linear.g, linear.b));

@@ -5,7 +5,7 @@ struct Control {
     // The map's distortion over the limit, as the bits of a float that is not negative: they sort like the floats.
     distortion: atomic<u32>,
     // Values that were not finite and have been replaced.
-    healed: atomic<u32>,
+    sanitised: atomic<u32>,
     // Ticks that the last remap came after the one before it.
     ticks_remapped: u32,
     // What evaporation has left in black film, at which it ends, as a mean over the sphere in nm.
@@ -15,7 +15,7 @@ struct Control {
 }
 
 // From a field's departure from a film's level to what is made of it: d + offset + slope d, which restores the amount of liquid, and the
-// level itself where a thickness is wanted. Mirrors `BalanceBlock`.
+// level itself where a thickness is needed. Mirrors `BalanceBlock`.
 struct Balance {
     offset: f32,
     slope: f32,
@@ -26,7 +26,7 @@ fn balanced(departure: f32, balance: Balance) -> f32 {
     return balance.level + (departure + (balance.offset + balance.slope * departure));
 }
 
-// By its bits: compilers may assume that what is no number does not occur.
+// By its bits: compilers may assume that NaN does not occur.
 fn is_finite(x: f32) -> bool {
     return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
 }

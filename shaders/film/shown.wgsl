@@ -6,7 +6,7 @@ fn film_texel(film: texture_2d_array<f32>, texel: vec2i, panel: u32) -> f32 {
     return textureLoad(film, texel, panel, 0).r;
 }
 
-// Bilinear between cell centres.
+// Bilinear between cell centers.
 fn film_at(film: texture_2d_array<f32>, direction: vec3f, cells: u32) -> f32 {
     let at = locate(direction, cells);
     let base = floor(at.cell);

@@ -1,4 +1,4 @@
-// The test winds of the transport literature, in radians a second on the unit sphere. The f64 truth is src/physics/transport.
+// The test winds of the transport literature, in radians per second on the unit sphere. The f64 truth is src/physics/transport.
 
 // Which velocity field a pipeline is made for: see `FlowKind` in src/gpu/passes/trace_step.rs.
 override FLOW: u32;

@@ -6,7 +6,7 @@ fn velocity_row(row: u32, w: vec4f) -> vec3f {
     return w.x * velocity[row].xyz + w.y * velocity[row + 1u].xyz + w.z * velocity[row + 2u].xyz + w.w * velocity[row + 3u].xyz;
 }
 
-// Bicubic interpolation on a grid of so many cells an edge.
+// Bicubic interpolation on a grid with `cells` cells per edge.
 fn velocity_at(x: vec3f, cells: u32) -> vec3f {
     let at = cubic_stencil(locate(x, cells), cells);
     return at.wj.x * velocity_row(at.first, at.wi) + at.wj.y * velocity_row(at.first + at.stride, at.wi) +

@@ -26,7 +26,7 @@ fn turned_gradient(panel: u32, tangent: vec2f, slope: vec2f) -> vec3f {
     return panel_vector(panel, slope.x * by_alpha + slope.y * by_beta);
 }
 
-// Solid angle of a cell over the square of the cell angle, by the metric at its centre.
+// Solid angle of a cell over the square of the cell angle, by the metric at its center.
 fn area_density(tangent: vec2f) -> f32 {
     let s = 1.0 + tangent * tangent;
     let delta2 = s.x + s.y - 1.0;
@@ -35,11 +35,11 @@ fn area_density(tangent: vec2f) -> f32 {
 
 // Whether a value can be worked with: neither NaN nor infinite nor beyond 1e6 of whatever it measures. By bits, for compilers may assume
 // that there is no NaN.
-fn usable(value: f32) -> bool {
+fn is_valid(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) < 0x49742400u;
 }
 
 // The value, or 0 in its place.
-fn usable_or_zero(value: f32) -> f32 {
-    return select(0.0, value, usable(value));
+fn valid_or_zero(value: f32) -> f32 {
+    return select(0.0, value, is_valid(value));
 }

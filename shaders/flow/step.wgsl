@@ -24,5 +24,5 @@ struct Measures {
     // Fastest flow, rad/s.
     max_speed: f32,
     // Values that could not be used, since the film was seeded.
-    unusable: u32,
+    invalid: u32,
 }

@@ -1,11 +1,11 @@
 // The light around the bubble, and what stands straight behind it.
 
 // Mirrors `LightUniform` in src/gpu/passes/backdrop.rs. All colours are linear BT.2020. Light is RGB that stands for a spectrum relative to the
-// illuminant's (src/physics/colour/uplift.rs); what is seen of it is a colour.
+// illuminant's (src/physics/colour/uplift.rs); the eye's response to it is a colour.
 struct Light {
     // Factor on the environment's radiance.
     gain: vec3f,
-    // Angle between neighbouring texels at the centre of a face of the environment's finest level.
+    // Angle between neighbouring texels at the center of a face of the environment's finest level.
     texel_angle: f32,
     // Radiance of the backdrop where it is a colour.
     backdrop: vec3f,
@@ -18,7 +18,7 @@ struct Light {
     // Direction along which the electric field passes a polariser before the camera.
     polariser: vec3f,
     turn_sin: f32,
-    // From light to what is seen of it under the illuminant, daylight's white being (1, 1, 1), exposed as the linear picture is.
+    // Matrix from light to its colour under the illuminant, where daylight's white is (1, 1, 1), exposed like the linear picture.
     seen: mat3x3f,
 }
 

@@ -1,4 +1,4 @@
-// The surface of a bath, a level mirror at the height of the bubbles' centres. It turns up what would go down, and dims it: a ray that goes
+// The surface of a bath, a level mirror at the height of the bubbles' centers. It turns up what would go down, and dims it: a ray that goes
 // on straight into the mirrored world sees the same. The water itself is dark. The f64 truth is src/physics/picture/bath.rs.
 
 import package::optics::airy::surface_reflectance;
@@ -26,7 +26,7 @@ fn upward(direction: vec3f) -> vec3f {
     return vec3f(direction.xy, abs(direction.z));
 }
 
-// Height that water climbs at a wall, sqrt(2 gamma / (rho g)), m, and what is left of light that passes its foot.
+// Height that water climbs at a wall, sqrt(2 gamma / (rho g)), m, and the fraction of light that remains after passing its foot.
 const MENISCUS_M: f32 = 0.00226;
 const MENISCUS_LEFT: f32 = 0.2;
 

@@ -1,4 +1,4 @@
-// What the table says of a single wall: what is seen of light that it reflects. Everything that shows or reports the colour of a single
+// The colour of a single wall from the table. Everything that shows or reports the colour of a single
 // wall from a table goes through film_reflection().
 
 import package::optics::airy::max_reflectance;

@@ -1,7 +1,7 @@
 // The lookup table's axes, both ways. Columns are sqrt(cos theta), which resolves grazing angles; rows follow the path d cos_t
 // that interference depends on, so that fringes run along columns at every angle. Rows are three times denser at no film than in
 // the middle, for there the reflectance starts as a parabola from black, and the eye sees small errors best in the dark.
-// The first and last texel centres sit exactly on the ends of the range: no film is a row of exact zeros.
+// The first and last texel centers sit exactly on the ends of the range: no film is a row of exact zeros.
 
 // What a table spans. Mirrors `TableAxes` in src/gpu/passes/bake_table.rs.
 struct TableAxes {
@@ -35,7 +35,7 @@ struct FilmPoint {
     spread_nm: f32,
 }
 
-// The film that a texel centre stands for.
+// The film that a texel center stands for.
 fn film_of_texel(axes: TableAxes, texel: vec2f) -> FilmPoint {
     let u = texel.x / (axes.size.x - 1.0);
     let cos_theta = u * u;

@@ -10,16 +10,16 @@
 // reflectances, which must be formed wavelength by wavelength.
 
 import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, n_cos_refracted};
-import package::optics::band::Band;
+import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::FILTERED;
 
-// 1: the sum over bands gives everything. 0: it gives the products, and single walls come from the table.
+// 1: the quadrature gives everything. 0: it gives the products, and single walls come from the table.
 override EVERYTHING: u32;
-// How many bands there are.
-override BANDS: u32;
+// How many wavelengths there are.
+override WAVELENGTHS: u32;
 // Inner reflections that are followed: 3, 7 or 11.
 override INNER: u32;
-// 1: there are films that the bands are too few for.
+// 1: there are films that the wavelengths are too few for.
 override THICK: u32;
 
 // Four hits in a row, and the steps of light that their reflectances are factors on, as columns.
@@ -61,7 +61,7 @@ fn table_factors(r: vec4f) -> vec4f {
     return select(vec4f(r.xy, 0.0, 0.0), vec4f(0.0), EVERYTHING == 1u);
 }
 
-// Walls whose products the bands resolve. White light shows fringes of thin walls, and of the difference between two walls however thick
+// Walls whose products the wavelengths resolve. White light shows fringes of thin walls, and of the difference between two walls however thick
 // (Brewster's fringes); where walls, or no wall and the thinnest, are further apart than any of these fringes reach, it shows none, and
 // such a gap is closed up to `gap_nm`. What no fringe can tell apart stays so, and thickness stays continuous.
 fn resolved(walls: Walls, gap_nm: f32) -> Walls {
@@ -95,30 +95,30 @@ fn sorted(numbers: vec4f) -> vec4f {
 }
 
 // Reflectances at four hits.
-fn wall_reflectances(band: Band, cos_theta: f32, hits: Hits) -> Reflectances {
+fn wall_reflectances(sample: QuadratureSample, cos_theta: f32, hits: Hits) -> Reflectances {
     if (FILTERED == 0u) {
-        return film_reflectances(band.index, cos_theta, hits.walls_nm, band.wavelength_nm);
+        return film_reflectances(sample.index, cos_theta, hits.walls_nm, sample.wavelength_nm);
     }
     // Of a Gaussian as wide as the box of thicknesses: its variance is w^2 / 12, and contrast falls by exp(-delta^2 / 2).
-    let turns = 2.0 * n_cos_refracted(band.index, cos_theta) / band.wavelength_nm * hits.spread_nm;
+    let turns = 2.0 * n_cos_refracted(sample.index, cos_theta) / sample.wavelength_nm * hits.spread_nm;
     let coherence = exp(-1.645 * turns * turns);
-    return damped_reflectances(band.index, cos_theta, hits.walls_nm, band.wavelength_nm, coherence);
+    return damped_reflectances(sample.index, cos_theta, hits.walls_nm, sample.wavelength_nm, coherence);
 }
 
-// One band's part of L - B, in light of that band.
-fn band_radiance(band: Band, cos_theta: f32, walls: Walls, polarisation: vec2f) -> vec3f {
-    let r = wall_reflectances(band, cos_theta, walls.first);
+// The part of L - B at one wavelength, in light of that wavelength.
+fn wavelength_radiance(sample: QuadratureSample, cos_theta: f32, walls: Walls, polarisation: vec2f) -> vec3f {
+    let r = wall_reflectances(sample, cos_theta, walls.first);
     var s = polarisation.x * first_factors(r.s);
     var p = polarisation.y * first_factors(r.p);
     var light = walls.first.steps * (s + p - polarisation.x * table_factors(r.s) - polarisation.y * table_factors(r.p));
     if (INNER > 3u) {
-        let r = wall_reflectances(band, cos_theta, walls.second);
+        let r = wall_reflectances(sample, cos_theta, walls.second);
         s = later_factors(s.w, r.s);
         p = later_factors(p.w, r.p);
         light += walls.second.steps * (s + p);
     }
     if (INNER > 7u) {
-        let r = wall_reflectances(band, cos_theta, walls.third);
+        let r = wall_reflectances(sample, cos_theta, walls.third);
         s = later_factors(s.w, r.s);
         p = later_factors(p.w, r.p);
         light += walls.third.steps * (s + p);
@@ -128,5 +128,5 @@ fn band_radiance(band: Band, cos_theta: f32, walls: Walls, polarisation: vec2f) 
             light += walls.further[k] * (left.x + left.y);
         }
     }
-    return band.response * light;
+    return sample.response * light;
 }

@@ -3,7 +3,7 @@
 // white light, or of each primary; of s and p light together, or first of s and then of p.
 
 import package::optics::airy::{damped_reflectance, film_reflectance, max_reflectance, n_cos_refracted};
-import package::optics::band::Band;
+import package::optics::quadrature::QuadratureSample;
 import package::optics::table::{FilmPoint, TableAxes, film_of_texel};
 
 // As in optics/film_colour.wgsl.
@@ -17,12 +17,12 @@ struct Bake {
 }
 
 @group(0) @binding(0) var<uniform> bake: Bake;
-@group(0) @binding(1) var<storage, read> samples: array<Band>;
+@group(0) @binding(1) var<storage, read> samples: array<QuadratureSample>;
 @group(0) @binding(2) var table: texture_storage_2d_array<rgba16float, write>;
 
 const TAU: f32 = 6.2831853;
 
-// What is seen of each primary, or of all three together.
+// Response to each primary, or to all three together.
 fn store(texel: vec2u, first: u32, seen: mat3x3f) {
     if (COLOURED == 0u) {
         textureStore(table, texel, first, vec4f(seen[0] + seen[1] + seen[2], 1.0));
@@ -38,7 +38,7 @@ const RESOLVED_STEP: f32 = 0.2;
 
 // (R_s, R_p) of the part of the spectrum that a sample stands for. Fringes that move by much of a turn within it fade to their mean before
 // sums over samples would show them as colours that are not there.
-fn sample_reflectance(sample: Band, film: FilmPoint) -> vec2f {
+fn sample_reflectance(sample: QuadratureSample, film: FilmPoint) -> vec2f {
     let path_nm = 2.0 * n_cos_refracted(sample.index, film.cos_theta) * film.thickness_nm;
     let step = TAU * path_nm / sample.wavelength_nm * (sample.width_nm / sample.wavelength_nm);
     if (step <= RESOLVED_STEP) {

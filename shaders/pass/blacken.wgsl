@@ -2,7 +2,7 @@
 // difference to black film decays at a constant rate. It is the film around a cell that must be thin: black spots are round, and as wide as
 // their rims, while cells that went one by one would leave a maze. What a cell loses goes to the thicker film around it, as the rim of a
 // black spot gathers it; the nearest thick film may be too far, then the film as a whole gets it with the correction of its liquid.
-// The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation a cell, halo
+// The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation per cell, halo
 // included.
 
 import package::film::control::Control;
@@ -14,7 +14,7 @@ struct Blacken {
     cells: u32,
     // What the tracer departs from, and the same less what has evaporated, nm.
     level_nm: f32,
-    thinned_level_nm: f32,
+    remaining_level_nm: f32,
     // Thickness of black film, and that below which film collapses, nm.
     black_nm: f32,
     onset_nm: f32,
@@ -26,7 +26,7 @@ struct Blacken {
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> tracer: array<f32>;
 @group(0) @binding(3) var<storage, read_write> result: array<f32>;
-@group(0) @binding(4) var<storage, read> shed_around: array<f32>;
+@group(0) @binding(4) var<storage, read> shares_around: array<f32>;
 // Means of the tracer around cells.
 @group(0) @binding(5) var<storage, read> means: array<f32>;
 
@@ -36,11 +36,11 @@ const REACH: u32 = 3u;
 const ONSET_WIDTH: f32 = 0.1;
 
 fn thickness_nm(place: u32) -> f32 {
-    return tracer[place] + blacken.thinned_level_nm;
+    return tracer[place] + blacken.remaining_level_nm;
 }
 
 fn mean_nm(place: u32) -> f32 {
-    return means[place] + blacken.thinned_level_nm;
+    return means[place] + blacken.remaining_level_nm;
 }
 
 fn is_thin(place: u32) -> bool {
@@ -67,8 +67,8 @@ fn is_halo(id: vec3u) -> bool {
 fn stop_evaporation(@builtin(global_invocation_id) id: vec3u) {
     if (is_cell(id, blacken.cells)) {
         let place = place_of(id);
-        let left = max(result[place] + blacken.thinned_level_nm, min(result[place] + blacken.level_nm, blacken.black_nm));
-        result[place] = max(result[place], left - blacken.thinned_level_nm);
+        let left = max(result[place] + blacken.remaining_level_nm, min(result[place] + blacken.level_nm, blacken.black_nm));
+        result[place] = max(result[place], left - blacken.remaining_level_nm);
     }
 }
 
@@ -76,7 +76,7 @@ fn stop_evaporation(@builtin(global_invocation_id) id: vec3u) {
 // then straighten, as a line under tension does (Merriman, Bence & Osher 1992), and drops narrower than a rim do not last. Means along rows,
 // which columns take, count as they are.
 fn counted(place: u32) -> f32 {
-    return min(tracer[place], 2.0 * blacken.onset_nm - blacken.black_nm - blacken.thinned_level_nm);
+    return min(tracer[place], 2.0 * blacken.onset_nm - blacken.black_nm - blacken.remaining_level_nm);
 }
 
 // The mean over the cells before and after one that are so far apart in storage, nearer ones counting more.
@@ -88,7 +88,7 @@ fn mean_along(place: u32, stride: u32) -> f32 {
     return sum / f32((REACH + 1u) * (REACH + 1u));
 }
 
-// Along rows, those of the halo included.
+// Along rows, including rows of the halo.
 @compute @workgroup_size(8, 8)
 fn mean_along_rows(@builtin(global_invocation_id) id: vec3u) {
     if (id.x >= HALO && id.x < blacken.cells + HALO && is_cell(id, blacken.cells)) {
@@ -107,7 +107,7 @@ fn mean_along_columns(@builtin(global_invocation_id) id: vec3u) {
 
 // What each cell gives to each thicker one around it.
 @compute @workgroup_size(8, 8)
-fn shed(@builtin(global_invocation_id) id: vec3u) {
+fn redistribute(@builtin(global_invocation_id) id: vec3u) {
     if (is_halo(id)) {
         return;
     }
@@ -138,7 +138,7 @@ fn gather(@builtin(global_invocation_id) id: vec3u) {
         let side = blacken.cells + 2u * HALO;
         for (var row = 0u; row <= 2u * REACH; row++) {
             for (var column = 0u; column <= 2u * REACH; column++) {
-                gained += shed_around[place + row * side + column - REACH * (side + 1u)];
+                gained += shares_around[place + row * side + column - REACH * (side + 1u)];
             }
         }
     }

@@ -9,10 +9,10 @@ import package::light::environment::{Light, backdrop_radiance, environment_radia
 import package::light::stored::storable;
 import package::light::water::{crossing, past_meniscus, upward};
 import package::optics::airy::{cos_refracted, surface_reflectance};
-import package::optics::band::Band;
+import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::{FILTERED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{BANDS, EVERYTHING, FURTHER, Hits, INNER, Walls, band_radiance, resolved};
+import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::path::{Path, footprint, polarisation_along};
@@ -35,10 +35,10 @@ override ON_RING: u32;
 
 // Mirrors `BubbleUniform` in src/gpu/passes/bubble.rs.
 struct Bubble {
-    // From the eye to the centre.
-    to_centre_m: vec3f,
+    // From the eye to the center.
+    to_center_m: vec3f,
     radius_m: f32,
-    // Inner and outer edge of the ring: cos and sin of the angle to the direction of the centre.
+    // Inner and outer edge of the ring: cos and sin of the angle to the direction of the center.
     inner: vec2f,
     outer: vec2f,
     // Thickness of a uniform film, in nm.
@@ -47,7 +47,7 @@ struct Bubble {
     cells: u32,
     tracer_cells: u32,
     // What has evaporated from the whole film, in nm.
-    thinned_nm: f32,
+    evaporated_nm: f32,
     // Takes directions of the world to the film, which may turn as a whole.
     to_film: mat3x3f,
     // Takes the unit sphere to the bubble's wall, over the radius, and the inverse.
@@ -73,7 +73,7 @@ struct Bubble {
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;
 @group(0) @binding(8) var film: texture_2d_array<f32>;
-@group(0) @binding(9) var<uniform> bands: array<Band, 256>;
+@group(0) @binding(9) var<uniform> quadrature: array<QuadratureSample, 256>;
 @group(0) @binding(10) var<uniform> film_balance: Balance;
 @group(0) @binding(11) var<storage, read> film_map: array<vec4f>;
 @group(0) @binding(12) var<storage, read> film_tracer: array<f32>;
@@ -83,16 +83,16 @@ struct Bubble {
 // Sides of the polygons that rings are made of.
 override SIDES: u32;
 
-// A strip between two polygons around the direction to the centre. Rings that share an edge compute its vertices alike, so that
+// A strip between two polygons around the direction to the center. Rings that share an edge compute its vertices alike, so that
 // every pixel belongs to one of them.
 @vertex
 fn ring(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let to_centre = normalize(to_round(bubble.to_centre_m));
-    let right = perpendicular(to_centre);
-    let up = cross(right, to_centre);
+    let to_center = normalize(to_round(bubble.to_center_m));
+    let right = perpendicular(to_center);
+    let up = cross(right, to_center);
     let turn = TAU * f32((index >> 1u) % SIDES) / f32(SIDES);
     let edge = select(bubble.inner, bubble.outer, (index & 1u) == 1u);
-    let ray = edge.x * to_centre + edge.y * (cos(turn) * right + sin(turn) * up);
+    let ray = edge.x * to_center + edge.y * (cos(turn) * right + sin(turn) * up);
     return clip_position(view, from_round(ray));
 }
 
@@ -147,7 +147,7 @@ fn thickness_nm(place: vec3f) -> f32 {
             thickness_nm = film_at(film, direction, bubble.cells);
         }
     }
-    thickness_nm = max(thickness_nm - bubble.thinned_nm, min(thickness_nm, bubble.black_nm));
+    thickness_nm = max(thickness_nm - bubble.evaporated_nm, min(thickness_nm, bubble.black_nm));
     if (BURST == 1u) {
         return with_hole(bubble.to_film * point, thickness_nm);
     }
@@ -231,13 +231,13 @@ fn followed(path: Path, before: Followed) -> Followed {
 // What a bath leaves of light between the eye and beyond the front wall.
 fn left_before(path: Path) -> f32 {
     let front_z = path.foot.z - path.half_chord * path.round.z;
-    return crossing(-bubble.to_centre_m.z, front_z, path.direction) * past_meniscus(front_z, bubble.radius_m);
+    return crossing(-bubble.to_center_m.z, front_z, path.direction) * past_meniscus(front_z, bubble.radius_m);
 }
 
 // The ray straight through, which heads for the back wall.
 fn straight_through(path: Path, is_inside: bool) -> Followed {
     let back = path.foot + path.half_chord * path.round;
-    let start_z = select(path.foot.z - path.half_chord * path.round.z, -bubble.to_centre_m.z, is_inside);
+    let start_z = select(path.foot.z - path.half_chord * path.round.z, -bubble.to_center_m.z, is_inside);
     let left = select(left_before(path), 1.0, is_inside) * crossing(start_z, back.z, path.direction)
         * past_meniscus(back.z, bubble.radius_m);
     let light = crossing(back.z, path.direction.z, path.direction) * backdrop(path.direction, path.pixel);
@@ -330,9 +330,9 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
         walls.further[FURTHER - 1u] += more;
     }
     var seen = vec3f(0.0);
-    let products = resolved(walls, bands[0].gap_nm);
-    for (var k = 0u; k < BANDS; k++) {
-        seen += band_radiance(bands[k], path.cos_theta, products, polarisation);
+    let products = resolved(walls, quadrature[0].gap_nm);
+    for (var k = 0u; k < WAVELENGTHS; k++) {
+        seen += wavelength_radiance(quadrature[k], path.cos_theta, products, polarisation);
     }
     if (EVERYTHING == 0u) {
         let nm = walls.first.walls_nm;
@@ -349,7 +349,7 @@ fn wall_reflection(path: Path, nm: f32, spread_nm: f32, polarisation: vec2f, ste
 
 // Geometry of a view ray that meets the sphere.
 fn path_along(direction: vec3f, width: f32) -> Path {
-    let eye = to_round(-bubble.to_centre_m) / bubble.radius_m;
+    let eye = to_round(-bubble.to_center_m) / bubble.radius_m;
     var round = direction;
     if (STRETCHED == 1u) {
         round = normalize(to_round(direction));
@@ -363,7 +363,7 @@ fn path_along(direction: vec3f, width: f32) -> Path {
         cos_theta = select(0.5 * (front + back), back, eye_is_inside());
     }
     let distance = length(eye);
-    // At the centre no direction leads there, and what a bubble reflects is as wide as the pixel whichever is taken.
+    // At the center no direction leads there, and what a bubble reflects is as wide as the pixel whichever is taken.
     let is_central = distance < 1e-6;
     return Path(
         direction,
@@ -374,24 +374,24 @@ fn path_along(direction: vec3f, width: f32) -> Path {
         width * pixel_angle(view, direction),
         abs(dot(eye, round)) / max(cos_theta, 1e-3),
         select(length(foot) / max(distance, 1e-6), 1.0, is_central),
-        select(bubble.to_centre_m / max(length(bubble.to_centre_m), 1e-30), perpendicular(direction), is_central),
+        select(bubble.to_center_m / max(length(bubble.to_center_m), 1e-30), perpendicular(direction), is_central),
         cross(direction, to_round(foot)),
     );
 }
 
 fn eye_is_inside() -> bool {
-    return length(to_round(bubble.to_centre_m)) <= bubble.radius_m;
+    return length(to_round(bubble.to_center_m)) <= bubble.radius_m;
 }
 
-// The outline, which is that of a sphere where the bubble is round.
+// The outline, a sphere's where the bubble is round.
 fn outline(plane: vec3f, width: f32) -> Silhouette {
     if (STRETCHED == 0u) {
-        return silhouette(view, bubble.to_centre_m, bubble.radius_m, plane, width);
+        return silhouette(view, bubble.to_center_m, bubble.radius_m, plane, width);
     }
     var round = view;
     round.right = to_round(view.right);
     round.up = to_round(view.up);
-    let edge = silhouette(round, to_round(bubble.to_centre_m), bubble.radius_m, to_round(plane), width);
+    let edge = silhouette(round, to_round(bubble.to_center_m), bubble.radius_m, to_round(plane), width);
     return Silhouette(edge.coverage, normalize(from_round(edge.inside)));
 }
 

@@ -3,7 +3,7 @@
 
 import package::film::control::Control;
 import package::sphere::cubed::{cell_place, is_cell, is_quad, panel_direction, quad_cell};
-import package::sphere::lookup::{healed, map_at, map_at_cell, map_at_quad};
+import package::sphere::lookup::{map_at, map_at_cell, map_at_quad, sanitised};
 
 // 1: the step was traced on the map's own grid.
 override SAME_GRID: u32;
@@ -71,9 +71,9 @@ fn composed(step: vec4f) -> vec4f {
     return vec4f(before.xyz, step.w + before.w);
 }
 
-fn count_healed() {
-    if (healed > 0u) {
-        atomicAdd(&control.healed, healed);
+fn count_sanitised() {
+    if (sanitised > 0u) {
+        atomicAdd(&control.sanitised, sanitised);
     }
 }
 
@@ -89,7 +89,7 @@ fn compose_map(@builtin(global_invocation_id) id: vec3u) {
         step = map_at_cell(STEP_MAP, id, compose.cells, direction_at(id), compose.step_cells);
     }
     map_after[cell_place(id, compose.cells)] = composed(step);
-    count_healed();
+    count_sanitised();
 }
 
 // One invocation for two by two cells, where the step's are an even number of times as wide.
@@ -108,5 +108,5 @@ fn compose_quads(@builtin(global_invocation_id) id: vec3u) {
             map_after[cell_place(cell, compose.cells)] = origin;
         }
     }
-    count_healed();
+    count_sanitised();
 }

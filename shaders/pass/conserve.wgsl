@@ -23,7 +23,7 @@ struct Conserve {
 }
 
 @group(0) @binding(0) var<uniform> conserve: Conserve;
-// Solid angles of a panel's cells, for the panels are alike; of all panels' where a film has a rim.
+// Solid angles of the cells of one panel, as all panels are alike; of the cells of all panels where a film has a rim.
 @group(0) @binding(1) var<storage, read> areas: array<f32>;
 @group(0) @binding(2) var<storage, read> field: array<f32>;
 @group(0) @binding(3) var<storage, read_write> partial_sums: array<f32, 256>;
@@ -32,7 +32,7 @@ struct Conserve {
 
 var<workgroup> sums: array<f32, 256>;
 
-// Adds the upper half of so many sums to the lower, and of those again, until `last` are left. Each invocation keeps to places that are a
+// Adds the upper half of the sums to the lower half, repeatedly, until `last` sums remain. Each invocation keeps to places that are a
 // multiple of `last` apart, so that none has to wait for another: software rasterisers pay for barriers more than for sums.
 fn add_halves(first: u32, last: u32, local: u32) {
     if (local >= last) {
@@ -93,7 +93,7 @@ fn sum_of_parts(local: u32) -> f32 {
     return workgroup_sum(sum, local);
 }
 
-// Takes the field as it is for what must be conserved from now on.
+// Makes the present amount the one to be conserved from now on.
 @compute @workgroup_size(256)
 fn count_spared(@builtin(local_invocation_index) local: u32) {
     let excess = sum_of_parts(local);

@@ -1,5 +1,5 @@
 // The middle of back and forth error compensation (Dupont & Liu 2003, J. Comput. Phys. 190): a tracer that was carried a step forth and back
-// has twice the step's error; take half the difference off before the step is made for good. One invocation a cell, halo included.
+// has twice the step's error; subtract half the difference before the final step. One invocation per cell, halo included.
 
 @group(0) @binding(0) var<storage, read> tracer: array<f32>;
 @group(0) @binding(1) var<storage, read> returned: array<f32>;

@@ -11,7 +11,7 @@ struct Decide {
     cell_angle: f32,
     // Error of interpolating the map, in cells, at which it is remapped.
     error_limit: f32,
-    // Ticks since the last decision, and the most between two remaps.
+    // Ticks since the last decision, and the maximum between two remaps.
     ticks: u32,
     latest_ticks: u32,
     // Workgroups of a pass over the tracer's texels, and of its sum.

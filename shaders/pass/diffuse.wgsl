@@ -1,6 +1,6 @@
 // Diffusion of a film's thickness, a stage of a Runge-Kutta-Legendre step of first order (Meyer, Balsara & Aslam 2012, MNRAS 422): three
 // stages are stable for six times as long as one explicit step, and never make a new extreme. Stage k reaches k cells into the halo less.
-// One invocation a cell, halo included.
+// One invocation per cell, halo included.
 
 import package::film::control::Control;
 import package::sphere::cubed::HALO;
@@ -13,8 +13,8 @@ struct Diffuse {
     stage: u32,
     // Squared cell angles that liquid spreads over in a tick and in this part of the step, times the stages' weight.
     rate: f32,
-    // The same in any one part at most.
-    most: f32,
+    // Maximum in any one part.
+    max_spread: f32,
     // Factors of the stage before and of that before it.
     before: f32,
     earlier: f32,
@@ -49,7 +49,7 @@ fn diffuse_stage(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let at = (id.z * side + id.y) * side + id.x;
-    let spread = min(diffuse.rate * f32(control.ticks_remapped), diffuse.most);
+    let spread = min(diffuse.rate * f32(control.ticks_remapped), diffuse.max_spread);
     let found = spread * laplacian(at, side, vec2f(tangents[id.x], tangents[id.y]));
     stage[at] = diffuse.before * stage_before[at] + diffuse.earlier * stage_earlier[at] + found;
 }

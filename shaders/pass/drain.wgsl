@@ -1,18 +1,18 @@
 // What leaves a film at its rim, done at remaps: it drains between surfaces that do not move, and thin patches take the place of thicker
 // film at the rim. What that leaves out of the film is counted. The tracer holds the thickness and what has evaporated of it, as their
 // departure from the film's level. The f64 truths are `Drainage` in src/physics/film/properties.rs and src/physics/film/regeneration.rs.
-// One invocation a cell, halo included.
+// One invocation per cell, halo included.
 
 import package::film::control::Control;
 import package::sphere::cap::{Cap, image};
 import package::sphere::cubed::{cell_place, is_cell, panel_direction};
-import package::sphere::lookup::{healed, tracer_at};
+import package::sphere::lookup::{sanitised, tracer_at};
 
 const MAX_PATCHES: u32 = 64u;
 
 struct Patch {
     middle: vec3f,
-    // Over that of the film around.
+    // Thickness over the thickness of the film around.
     thickness: f32,
     // Ticks since it left.
     age: u32,
@@ -27,7 +27,7 @@ struct Drain {
     // Cells along a panel's edge.
     cells: u32,
     // What the tracer departs from less what has evaporated, and black film, which does not drain, nm.
-    thinned_level_nm: f32,
+    remaining_level_nm: f32,
     black_nm: f32,
     // Angle from the lowest point within which what drains is in the drop, as its cosine.
     drop_cos: f32,
@@ -57,13 +57,13 @@ fn tracer_value(place: u32) -> f32 {
 }
 
 fn thickness_nm(x: vec3f) -> f32 {
-    return tracer_at(x, drain.cells) + drain.thinned_level_nm;
+    return tracer_at(x, drain.cells) + drain.remaining_level_nm;
 }
 
 // What a place gains by drainage, which has a departure now. Along characteristics, which the flux c h^3 g_t moves at 3 c h^2 g_t, the
 // thickness gains 2 c h^3 g.n.
 fn gained_nm(x: vec3f, departure: f32) -> f32 {
-    let nm = departure + drain.thinned_level_nm;
+    let nm = departure + drain.remaining_level_nm;
     if (drain.flux == 0.0 || nm <= drain.black_nm || dot(drain.gravity, x) > drain.drop_cos * length(drain.gravity)) {
         return 0.0;
     }
@@ -102,11 +102,11 @@ fn drain_film(@builtin(global_invocation_id) id: vec3u) {
         departure = tracer_at(x, drain.cells);
     }
     let gained = gained_nm(x, departure);
-    let nm = departure + drain.thinned_level_nm + gained;
+    let nm = departure + drain.remaining_level_nm + gained;
     // No patch is thinner than black film.
     let lost = min(nm * (1.0 - left_by_patches(x)), max(nm - drain.black_nm, 0.0));
-    if (healed > 0u) {
-        atomicAdd(&control.healed, healed);
+    if (sanitised > 0u) {
+        atomicAdd(&control.sanitised, sanitised);
     }
     drained[place] = departure + (gained - lost);
 }

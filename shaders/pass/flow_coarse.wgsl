@@ -15,7 +15,7 @@ struct Level {
     cell_angle: f32,
     // Cells along a panel's edge.
     cells: u32,
-    // Where its values, tangents and halo entries start in the lists of all.
+    // Where its values, tangents and halo entries start in the lists for all grids.
     field: u32,
     tangent: u32,
     halo: u32,

@@ -1,6 +1,6 @@
 // A sum of three fields with factors, less a multiple of a mean, over all of padded storage: halos are linear too.
 
-import package::flow::operators::usable_or_zero;
+import package::flow::operators::valid_or_zero;
 import package::flow::step::Measures;
 
 // Mirrors `CombineUniform` in src/gpu/passes/flow_combine.rs.
@@ -22,7 +22,7 @@ struct Combine {
 @compute @workgroup_size(64)
 fn flow_combine(@builtin(global_invocation_id) id: vec3u) {
     if (id.x < arrayLength(&combined)) {
-        combined[id.x] = combine.first * usable_or_zero(first[id.x]) + combine.second * usable_or_zero(second[id.x]) +
-            combine.third * usable_or_zero(third[id.x]) + combine.mean * measures.guess_mean;
+        combined[id.x] = combine.first * valid_or_zero(first[id.x]) + combine.second * valid_or_zero(second[id.x]) +
+            combine.third * valid_or_zero(third[id.x]) + combine.mean * measures.guess_mean;
     }
 }

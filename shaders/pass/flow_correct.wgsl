@@ -1,4 +1,4 @@
-// Adds the next grid's correction, interpolated, to psi on the finest. One invocation a cell.
+// Adds the next grid's correction, interpolated, to psi on the finest. One invocation per cell.
 
 import package::flow::solve::Solve;
 import package::sphere::cubed::{HALO, padded_index};

@@ -1,7 +1,7 @@
 // What half a step of drag leaves of vorticity, and what half a step of the forces adds to it. Values that cannot be used are left out
-// here, so that they reach nothing else. One invocation a cell.
+// here, so that they reach nothing else. One invocation per cell.
 
-import package::flow::operators::{first_difference, turned_gradient, usable, usable_or_zero};
+import package::flow::operators::{first_difference, turned_gradient, is_valid, valid_or_zero};
 import package::flow::step::{Flow, Measures};
 import package::sphere::cubed::{HALO, padded_index};
 
@@ -20,10 +20,10 @@ import package::sphere::cubed::{HALO, padded_index};
 
 fn slope(at: u32, step: u32) -> f32 {
     return first_difference(vec4f(
-        usable_or_zero(log_thickness[at - 2u * step]),
-        usable_or_zero(log_thickness[at - step]),
-        usable_or_zero(log_thickness[at + step]),
-        usable_or_zero(log_thickness[at + 2u * step]),
+        valid_or_zero(log_thickness[at - 2u * step]),
+        valid_or_zero(log_thickness[at - step]),
+        valid_or_zero(log_thickness[at + step]),
+        valid_or_zero(log_thickness[at + 2u * step]),
     )) / flow.cell_angle;
 }
 
@@ -37,7 +37,7 @@ fn flow_force(@builtin(global_invocation_id) id: vec3u) {
     let turned = turned_gradient(id.z, tangent, vec2f(slope(at, 1u), slope(at, flow.cells + 2u * HALO)));
     let half_step = half_of_forces(at, turned);
     decay[at] = half_step.x;
-    pushed[at] = vec2f(half_step.x * (usable_or_zero(zeta[at]) - measures.zeta_mean), half_step.y);
+    pushed[at] = vec2f(half_step.x * (valid_or_zero(zeta[at]) - measures.zeta_mean), half_step.y);
 }
 
 // What forces that hold still do in half a step, exactly, however strong: what drag leaves, and what is added. See `HalfStep` in
@@ -45,12 +45,12 @@ fn flow_force(@builtin(global_invocation_id) id: vec3u) {
 fn half_of_forces(at: u32, turned: vec3f) -> vec2f {
     let u = velocity[at].xyz;
     // No film is so much thinner than its mean, and nothing stands in for one whose thickness cannot be used.
-    let thin = select(0.0, exp(-max(log_thickness[at], -12.0)), usable(log_thickness[at]));
+    let thin = select(0.0, exp(-max(log_thickness[at], -12.0)), is_valid(log_thickness[at]));
     let of_air = flow.air_drag * sqrt(max(length(u), flow.min_air_speed)) * thin;
     let x = 0.5 * flow.dt_s * (flow.drag + of_air);
     let decay = exp(-x);
     // (1 - exp(-x)) / x, by its series where the difference would be all rounding.
     let decayed = select((1.0 - decay) / x, 1.0 - x * (0.5 - x / 6.0), x < 0.02);
-    let source = dot(flow.gravity + of_air * u, turned) + usable_or_zero(forcing[at]);
-    return vec2f(decay, usable_or_zero(0.5 * flow.dt_s * decayed * source));
+    let source = dot(flow.gravity + of_air * u, turned) + valid_or_zero(forcing[at]);
+    return vec2f(decay, valid_or_zero(0.5 * flow.dt_s * decayed * source));
 }

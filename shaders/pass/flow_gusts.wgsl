@@ -1,5 +1,5 @@
 // What the moving air around a film does to it: a source of vorticity, the air's own times the rate at which it drags the film along.
-// One invocation a cell.
+// One invocation per cell.
 
 import package::film::prescribed::{MAX_VORTICES, MAX_WAVES, Vortex, Wave, vortex_vorticity, wave_vorticity};
 import package::sphere::cubed::{HALO, padded_index, panel_direction};

@@ -1,6 +1,6 @@
 // What a step of the flow must know of the whole film, and what was wrong with it: sums over all cells by one workgroup.
 
-import package::flow::operators::{area_density, usable, usable_or_zero};
+import package::flow::operators::{area_density, is_valid, valid_or_zero};
 import package::flow::step::{Flow, Measures};
 import package::sphere::cubed::{HALO, padded_index};
 
@@ -16,7 +16,7 @@ const LANES: u32 = 256u;
 @group(0) @binding(6) var<storage, read> velocity: array<vec4f>;
 @group(0) @binding(7) var<storage, read_write> measures: Measures;
 
-// Sum of zeta, sum of the guess, largest speed, unusable values.
+// Sum of zeta, sum of the guess, largest speed, invalid values.
 var<workgroup> shares: array<vec4f, 256>;
 
 @compute @workgroup_size(256)
@@ -27,11 +27,11 @@ fn flow_measure(@builtin(local_invocation_index) lane: u32) {
         let j = (cell / flow.cells) % flow.cells;
         let at = padded_index(cell / (flow.cells * flow.cells), i32(i), i32(j), flow.cells);
         let area = area_density(vec2f(tangents[i + HALO], tangents[j + HALO]));
-        let guess = 2.0 * usable_or_zero(psi[at]) - usable_or_zero(psi_before[at]);
-        share += vec4f(area * usable_or_zero(zeta[at]), area * guess, 0.0, 0.0);
+        let guess = 2.0 * valid_or_zero(psi[at]) - valid_or_zero(psi_before[at]);
+        share += vec4f(area * valid_or_zero(zeta[at]), area * guess, 0.0, 0.0);
         share.z = max(share.z, length(velocity[at].xyz));
-        share.w += select(1.0, 0.0, usable(zeta[at])) + select(1.0, 0.0, usable(log_thickness[at])) +
-            select(1.0, 0.0, usable(psi[at]));
+        share.w += select(1.0, 0.0, is_valid(zeta[at])) + select(1.0, 0.0, is_valid(log_thickness[at])) +
+            select(1.0, 0.0, is_valid(psi[at]));
     }
     shares[lane] = share;
     for (var half = LANES / 2u; half > 0u; half /= 2u) {
@@ -46,6 +46,6 @@ fn flow_measure(@builtin(local_invocation_index) lane: u32) {
         measures.zeta_mean = mean.x;
         measures.guess_mean = mean.y;
         measures.max_speed = shares[0].z;
-        measures.unusable += u32(shares[0].w);
+        measures.invalid += u32(shares[0].w);
     }
 }

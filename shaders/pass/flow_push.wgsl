@@ -1,4 +1,4 @@
-// What pushes a film from outside, added to what stirs it: a source of vorticity for each push. One invocation a cell. The f64 truth is
+// What pushes a film from outside, added to what stirs it: a source of vorticity for each push. One invocation per cell. The f64 truth is
 // `Push::source` in src/physics/film/push.rs.
 
 import package::sphere::cubed::{HALO, padded_index, panel_direction};
@@ -6,7 +6,7 @@ import package::sphere::cubed::{HALO, padded_index, panel_direction};
 const MAX_PUSHES: u32 = 32u;
 
 struct Push {
-    centre: vec3f,
+    center: vec3f,
     sharpness: f32,
     // Velocity towards which the film is drawn, rad/s, and how fast it is, 1/s.
     velocity: vec3f,
@@ -31,8 +31,8 @@ struct Pushes {
 @group(0) @binding(4) var<storage, read_write> forcing: array<f32>;
 
 fn push_source(push: Push, x: vec3f, u: vec3f, vorticity: f32) -> f32 {
-    let strength = push.rate * exp(push.sharpness * (dot(push.centre, x) - 1.0));
-    return strength * (push.sharpness * dot(x, cross(push.centre, push.velocity - u)) - vorticity);
+    let strength = push.rate * exp(push.sharpness * (dot(push.center, x) - 1.0));
+    return strength * (push.sharpness * dot(x, cross(push.center, push.velocity - u)) - vorticity);
 }
 
 @compute @workgroup_size(64)

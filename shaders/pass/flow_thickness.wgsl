@@ -4,7 +4,7 @@
 import package::film::control::Control;
 import package::sphere::cap::{Cap, image};
 import package::sphere::cubed::{HALO, padded_index, panel_direction};
-import package::sphere::lookup::{healed, map_at, map_at_cell, tracer_at};
+import package::sphere::lookup::{map_at, map_at_cell, sanitised, tracer_at};
 
 // 0: there is no map, and the tracer is where it is.
 override HAS_MAP: u32;
@@ -69,8 +69,8 @@ fn flow_thickness(@builtin(global_invocation_id) id: vec3u) {
         origin = map_at_cell(0u, id + vec3u(HALO, HALO, 0u), thickness.cells, origin, thickness.map_cells).xyz;
     }
     let departure = tracer_at(origin, thickness.tracer_cells);
-    if (healed > 0u) {
-        atomicAdd(&control.healed, healed);
+    if (sanitised > 0u) {
+        atomicAdd(&control.sanitised, sanitised);
     }
     let place = padded_index(id.z, i32(id.x), i32(id.y), thickness.cells);
     // As pictures have it: evaporation ends at black film.

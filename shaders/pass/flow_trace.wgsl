@@ -1,4 +1,4 @@
-// Carries fields along a steady flow for one step: their values are those of where the liquid came from. One invocation a cell.
+// Carries fields along a steady flow for one step: each cell gets the value at the place where its liquid came from. One invocation per cell.
 
 import package::flow::backtrace::backtrace;
 import package::flow::step::Flow;

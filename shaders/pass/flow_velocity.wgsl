@@ -1,6 +1,6 @@
-// The velocity of the stream function, and that half a step later, extrapolated from a step ago. One invocation a cell.
+// The velocity of the stream function, and that half a step later, extrapolated from a step ago. One invocation per cell.
 
-import package::flow::operators::{first_difference, turned_gradient, usable_or_zero};
+import package::flow::operators::{first_difference, turned_gradient, valid_or_zero};
 import package::flow::step::Flow;
 import package::sphere::cubed::{HALO, padded_index};
 

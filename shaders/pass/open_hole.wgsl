@@ -27,7 +27,7 @@ struct OpenHole {
     cells: u32,
     thickness_nm: f32,
     // What has evaporated, and the thickness at which that ends, nm.
-    thinned_nm: f32,
+    evaporated_nm: f32,
     black_nm: f32,
     // 1: the middle is where the film is thinnest.
     seeks: u32,
@@ -42,15 +42,15 @@ struct OpenHole {
 var<workgroup> thinnest_nm: array<f32, LANES>;
 var<workgroup> thinnest_cell: array<u32, LANES>;
 
-fn left_nm(nm: f32) -> f32 {
-    return max(nm - hole.thinned_nm, min(nm, hole.black_nm));
+fn remaining_nm(nm: f32) -> f32 {
+    return max(nm - hole.evaporated_nm, min(nm, hole.black_nm));
 }
 
 fn thickness_nm(direction: vec3f) -> f32 {
     if (UNIFORM_FILM == 1u) {
-        return left_nm(hole.thickness_nm);
+        return remaining_nm(hole.thickness_nm);
     }
-    return left_nm(film_at(film, direction, hole.cells));
+    return remaining_nm(film_at(film, direction, hole.cells));
 }
 
 fn cell_texel(cell: u32) -> vec3u {

@@ -1,9 +1,9 @@
 // Colours of a list of films through the very functions that pictures use: what `soapfilm colour` reports.
 
-import package::optics::band::Band;
+import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::film_reflection;
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{BANDS, EVERYTHING, Hits, INNER, Walls, band_radiance, resolved};
+import package::optics::walls::{EVERYTHING, Hits, INNER, WAVELENGTHS, Walls, resolved, wavelength_radiance};
 
 // Front, back and exit wall of one ray. Mirrors `ProbePoint` in src/gpu/passes/probe_colour.rs.
 struct ProbePoint {
@@ -18,7 +18,7 @@ struct ProbePoint {
 @group(0) @binding(0) var<uniform> axes: TableAxes;
 @group(0) @binding(1) var table: texture_2d_array<f32>;
 @group(0) @binding(2) var table_sampler: sampler;
-@group(0) @binding(3) var<uniform> bands: array<Band, 256>;
+@group(0) @binding(3) var<uniform> quadrature: array<QuadratureSample, 256>;
 @group(0) @binding(4) var<storage, read> points: array<ProbePoint>;
 @group(0) @binding(5) var<storage, read_write> colours: array<vec4f>;
 
@@ -43,9 +43,9 @@ fn probe_colour(@builtin(global_invocation_id) id: vec3u) {
     }
     var walls: Walls;
     walls.first = Hits(vec4f(at.front_nm, at.back_nm, at.exit_nm, at.exit_nm), vec4f(0.0), steps);
-    walls = resolved(walls, bands[0].gap_nm);
-    for (var k = 0u; k < BANDS; k++) {
-        seen += band_radiance(bands[k], at.cos_theta, walls, UNPOLARISED);
+    walls = resolved(walls, quadrature[0].gap_nm);
+    for (var k = 0u; k < WAVELENGTHS; k++) {
+        seen += wavelength_radiance(quadrature[k], at.cos_theta, walls, UNPOLARISED);
     }
     colours[id.x] = vec4f(seen, 1.0);
 }

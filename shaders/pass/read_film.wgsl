@@ -1,4 +1,4 @@
-// Brings what a film shows into a buffer in the grid's order of cells. One invocation a cell.
+// Copies what a film shows into a buffer in the grid's order of cells. One invocation per cell.
 
 import package::sphere::cubed::HALO;
 

@@ -1,4 +1,4 @@
-// Makes a film's flow map the identity, with nothing gathered. One invocation a cell, halo included.
+// Makes a film's flow map the identity, with nothing gathered. One invocation per cell, halo included.
 
 import package::sphere::cubed::panel_direction;
 

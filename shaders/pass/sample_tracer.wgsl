@@ -4,7 +4,7 @@
 import package::film::control::Control;
 import package::sphere::cap::{Cap, image};
 import package::sphere::cubed::{cell_place, is_cell, is_quad, panel_direction, quad_cell};
-import package::sphere::lookup::{healed, map_at, map_at_cell, map_at_quad, tracer_at};
+import package::sphere::lookup::{map_at, map_at_cell, map_at_quad, sanitised, tracer_at};
 
 // What the map's fourth number means: see `Gathered` in src/gpu/passes/sample_tracer.rs.
 override GATHERED: u32;
@@ -74,7 +74,7 @@ fn direction_at(id: vec3u) -> vec3f {
     return normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
 }
 
-// One invocation a cell.
+// One invocation per cell.
 @compute @workgroup_size(8, 8)
 fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
     if (!is_cell(id, sample.cells)) {
@@ -103,8 +103,8 @@ fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
     } else {
         value = value_from(origin);
     }
-    if (healed > 0u) {
-        atomicAdd(&control.healed, healed);
+    if (sanitised > 0u) {
+        atomicAdd(&control.sanitised, sanitised);
     }
     sampled[place] = value;
 }
@@ -125,7 +125,7 @@ fn sample_quads(@builtin(global_invocation_id) id: vec3u) {
             sampled[cell_place(cell, sample.cells)] = value;
         }
     }
-    if (healed > 0u) {
-        atomicAdd(&control.healed, healed);
+    if (sanitised > 0u) {
+        atomicAdd(&control.sanitised, sanitised);
     }
 }

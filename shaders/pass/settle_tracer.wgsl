@@ -1,5 +1,5 @@
 // The end of a remap: what was sampled through the map, with its liquid restored, is the tracer from now on.
-// One invocation a cell, halo included.
+// One invocation per cell, halo included.
 
 import package::film::control::{Balance, balanced};
 

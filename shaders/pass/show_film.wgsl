@@ -1,5 +1,5 @@
 // Puts a film, with its liquid restored, into the texture that pictures read: the scattered reads of reflections cost half as much there.
-// One invocation a cell, halo included.
+// One invocation per cell, halo included.
 
 import package::film::control::{Balance, balanced};
 

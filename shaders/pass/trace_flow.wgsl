@@ -1,5 +1,5 @@
 // Traces one step back in a solved flow, whose velocity stands still meanwhile: from each cell to where its liquid was when the step began.
-// One invocation a cell, halo included.
+// One invocation per cell, halo included.
 
 import package::flow::backtrace::backtrace;
 import package::sphere::cubed::{cell_place, is_cell, panel_direction};

@@ -1,5 +1,5 @@
 // Traces one step back: from each cell to where its liquid was when the step began, and what it gathered on the way.
-// One invocation a cell, those of the halo included: a cell beyond an edge is a place like any other. Velocities are tangential by
+// One invocation per cell, halo included: a cell beyond an edge is a place like any other. Velocities are tangential by
 // construction and positions are renormalised, so there is no pole and no panel. A long step is traced in several Runge-Kutta steps: that costs a
 // fraction of what composing a map with each of them would, and errs less.
 

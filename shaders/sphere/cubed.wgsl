@@ -1,4 +1,4 @@
-// The equiangular cubed sphere: six panels of cells x cells values at cell centres, stored with a halo around each panel.
+// The equiangular cubed sphere: six panels of cells x cells values at cell centers, stored with a halo around each panel.
 // The f64 truth, and the table of panel axes that this file mirrors, is src/physics/sphere.
 
 // Cells of halo on each side of a panel: a quintic stencil reaches three beyond the edge.
@@ -6,7 +6,7 @@ override HALO: u32;
 
 const QUARTER_PI: f32 = 0.785398163;
 
-// Place of a direction on the cube: panel, and cell coordinates in which cell (i, j) has its centre at (i, j).
+// Place of a direction on the cube: panel, and cell coordinates in which cell (i, j) has its center at (i, j).
 struct CubePoint {
     panel: u32,
     cell: vec2f,
@@ -66,12 +66,12 @@ fn padded_index(panel: u32, i: i32, j: i32, cells: u32) -> u32 {
     return (panel * side + u32(j + i32(HALO))) * side + u32(i + i32(HALO));
 }
 
-// Whether an invocation of a pass over all cells, those of the halo included, has one: workgroups are tiles of 8 x 8.
+// Whether an invocation of a pass over all cells, halo included, has a cell: workgroups are tiles of 8 x 8.
 fn is_cell(id: vec3u, cells: u32) -> bool {
     return all(id.xy < vec2u(cells + 2u * HALO));
 }
 
-// Place in padded storage of an invocation of a pass over all cells, those of the halo included.
+// Place in padded storage of an invocation of a pass over all cells, halo included.
 fn cell_place(id: vec3u, cells: u32) -> u32 {
     let side = cells + 2u * HALO;
     return (id.z * side + id.y) * side + id.x;

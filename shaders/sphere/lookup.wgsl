@@ -1,9 +1,9 @@
 // Interpolation of fields on the cubed sphere at any direction, by Lagrange weights. Panels are stored with halos, so no lookup sees an edge.
 // Weights are computed here: filtering hardware has 8 bits for what needs 20.
 //
-// A pass that looks fields up says where they are by two functions of its own:
+// A pass that looks fields up defines two functions for them:
 //     fn map_value(map: u32, place: u32) -> vec4f     the value of one of its maps at a place in padded storage
-//     fn tracer_value(place: u32) -> f32              the same of its tracer
+//     fn tracer_value(place: u32) -> f32              a value of its tracer
 
 import package::film::control::{all_finite, is_finite};
 import package::sphere::cubed::{HALO, cubic_weights, locate, padded_index};
@@ -13,7 +13,7 @@ override TAPS: u32;
 // 1: looked-up tracers stay within the range of the four cells around them.
 override LIMITER: u32;
 
-// A place between cells: the padded index of the cell below it in both directions, the fractions beyond that cell's centre, and the
+// A place between cells: the padded index of the cell below it in both directions, the fractions beyond that cell's center, and the
 // distance of rows in storage.
 struct CellPoint {
     place: u32,
@@ -44,13 +44,13 @@ fn map_row(map: u32, place: u32, w: vec4f) -> vec4f {
 }
 
 // Values that lookups of this invocation met and that are not finite.
-var<private> healed: u32;
+var<private> sanitised: u32;
 
 // The finite one of two neighbours, the stencil's middle ones on a diagonal, in place of an interpolation that met a value that is not; at
 // the last `direction`, with nothing gathered. They are loaded whether they are needed or not: software rasterisers walk both ways of every
 // branch, so a careful search would cost every lookup as much again. Compilers see that the rows have them already where the places are written
 // as the rows write them.
-fn healed_map(map: u32, middle_row: u32, upper_row: u32, direction: vec3f) -> vec4f {
+fn substitute_map(map: u32, middle_row: u32, upper_row: u32, direction: vec3f) -> vec4f {
     let below = map_value(map, middle_row + 1u);
     let above = map_value(map, upper_row + 2u);
     return select(select(vec4f(direction, 0.0), above, all_finite(above)), below, all_finite(below));
@@ -61,18 +61,18 @@ fn map_at(map: u32, direction: vec3f, cells: u32) -> vec4f {
     return map_between(map, cell_point(direction, cells), direction);
 }
 
-// Where the centre of a cell of another grid is, beyond the panel's edge or within: on all grids of the same panels its place is known.
-// Cells of a halo may not be those of a coarser grid than the one looked up.
-fn centre_of(cell: vec2i, panel: u32, other_cells: u32, cells: u32) -> CellPoint {
+// Where the center of a cell of another grid is, beyond the panel's edge or within: on all grids of the same panels its place is known.
+// Halo cells of a coarser grid than the one looked up are not allowed.
+fn center_of(cell: vec2i, panel: u32, other_cells: u32, cells: u32) -> CellPoint {
     let at = (vec2f(cell) + 0.5) * f32(cells) / f32(other_cells) - 0.5;
     // No stencil reaches beyond the halo.
     let base = clamp(floor(at), vec2f(1.0 - f32(HALO)), vec2f(f32(cells + HALO) - 3.0));
     return CellPoint(padded_index(panel, i32(base.x), i32(base.y), cells), cells + 2u * HALO, at - base);
 }
 
-// A map at the centre of a cell of another grid, numbered like an invocation of a pass over `other_cells` with the halo included.
+// A map at the center of a cell of another grid, numbered like an invocation of a pass over `other_cells` with the halo included.
 fn map_at_cell(map: u32, id: vec3u, other_cells: u32, direction: vec3f, cells: u32) -> vec4f {
-    return map_between(map, centre_of(vec2i(id.xy) - i32(HALO), id.z, other_cells, cells), direction);
+    return map_between(map, center_of(vec2i(id.xy) - i32(HALO), id.z, other_cells, cells), direction);
 }
 
 fn map_between(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
@@ -88,13 +88,13 @@ fn map_between(map: u32, at: CellPoint, direction: vec3f) -> vec4f {
         map_row(map, upper, wi),
         map_row(map, first + 3u * at.stride, wi),
     );
-    return usable_map(map, found, vec2u(middle, upper), direction);
+    return sanitised_map(map, found, vec2u(middle, upper), direction);
 }
 
 // What was interpolated in a map as a unit vector, or what stands in for it.
-fn usable_map(map: u32, interpolated: vec4f, middle_rows: vec2u, direction: vec3f) -> vec4f {
-    healed += select(1u, 0u, all_finite(interpolated));
-    let stand_in = healed_map(map, middle_rows.x, middle_rows.y, direction);
+fn sanitised_map(map: u32, interpolated: vec4f, middle_rows: vec2u, direction: vec3f) -> vec4f {
+    sanitised += select(1u, 0u, all_finite(interpolated));
+    let stand_in = substitute_map(map, middle_rows.x, middle_rows.y, direction);
     let found = select(stand_in, interpolated, all_finite(interpolated));
     // A map torn to opposite directions has no direction left.
     let length = length(found.xyz);
@@ -118,7 +118,7 @@ fn map_quad_row(map: u32, place: u32, first: vec4f, second: vec4f) -> QuadRow {
 // A map at two by two cells of a finer grid that share a stencil: a quarter of the loads do. The first may be numbered -1, the halo's
 // neighbour; the direction may be that of any of them, for all it does is to stand in for what is lost.
 fn map_at_quad(map: u32, first_id: vec2i, panel: u32, other_cells: u32, direction: vec3f, cells: u32) -> array<vec4f, 4> {
-    let at = centre_of(first_id - i32(HALO), panel, other_cells, cells);
+    let at = center_of(first_id - i32(HALO), panel, other_cells, cells);
     let next = at.t + f32(cells) / f32(other_cells);
     let left = cubic_weights(at.t.x);
     let right = cubic_weights(next.x);
@@ -131,10 +131,10 @@ fn map_at_quad(map: u32, first_id: vec2i, panel: u32, other_cells: u32, directio
     let c = map_quad_row(map, middle.y, left, right);
     let d = map_quad_row(map, first + 3u * at.stride, left, right);
     return array(
-        usable_map(map, weighted(below, a.first, b.first, c.first, d.first), middle, direction),
-        usable_map(map, weighted(below, a.second, b.second, c.second, d.second), middle, direction),
-        usable_map(map, weighted(above, a.first, b.first, c.first, d.first), middle, direction),
-        usable_map(map, weighted(above, a.second, b.second, c.second, d.second), middle, direction),
+        sanitised_map(map, weighted(below, a.first, b.first, c.first, d.first), middle, direction),
+        sanitised_map(map, weighted(below, a.second, b.second, c.second, d.second), middle, direction),
+        sanitised_map(map, weighted(above, a.first, b.first, c.first, d.first), middle, direction),
+        sanitised_map(map, weighted(above, a.second, b.second, c.second, d.second), middle, direction),
     );
 }
 
@@ -199,7 +199,7 @@ fn tracer_at(direction: vec3f, cells: u32) -> f32 {
         let high = max(max(0.0, above - reference), max(across, up));
         total = select(total, clamp(total, low, high), is_finite(total));
     }
-    healed += select(1u, 0u, is_finite(total));
+    sanitised += select(1u, 0u, is_finite(total));
     let neighbour = select(select(0.0, above, is_finite(above)), reference, is_finite(reference));
     return select(neighbour, reference + total, is_finite(total));
 }

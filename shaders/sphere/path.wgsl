@@ -9,28 +9,28 @@ struct Path {
     direction: vec3f,
     // The direction where the bubble is round.
     round: vec3f,
-    // Foot of the perpendicular from the centre on the ray there: |foot| = sin theta.
+    // Foot of the perpendicular from the center on the ray there: |foot| = sin theta.
     foot: vec3f,
     // Half of a chord there.
     half_chord: f32,
     cos_theta: f32,
     // Angle that the sample spans.
     pixel: f32,
-    // Rate at which theta turns as the ray turns, radians a radian.
+    // Rate at which theta turns as the ray turns, radians per radian.
     theta_rate: f32,
-    // sin of the angle between the ray and the direction to the centre.
+    // sin of the angle between the ray and the direction to the center.
     sin_view: f32,
-    // Unit vector from the eye to the centre.
-    to_centre: vec3f,
+    // Unit vector from the eye to the center.
+    to_center: vec3f,
     // Across the plane of incidence, not of unit length: zero straight through the middle.
     across: vec3f,
 }
 
 // Footprint of a reflected direction: its spread in the plane of incidence, where the sphere's curvature widens it, and across,
-// where it turns about the axis through the centre. The geometric mean, but no finer than a quarter of the wider one.
+// where it turns about the axis through the center. The geometric mean, but no finer than a quarter of the wider one.
 fn footprint(path: Path, direction: vec3f, turns: f32) -> f32 {
     let along = path.pixel * abs(1.0 + turns * path.theta_rate);
-    let across = path.pixel * length(cross(direction, path.to_centre)) / max(path.sin_view, 1e-6);
+    let across = path.pixel * length(cross(direction, path.to_center)) / max(path.sin_view, 1e-6);
     return max(sqrt(along * across), 0.25 * max(along, across));
 }
 

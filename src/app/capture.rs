@@ -1,4 +1,4 @@
-//! Saving the picture: drawn once more in full, brought back without waiting, and written by a worker.
+//! Saving the picture: drawn once more in full, read back without waiting, and written by a worker.
 
 use std::path::PathBuf;
 
@@ -20,7 +20,7 @@ pub struct Capture {
 }
 
 impl Capture {
-    /// Draws the model's moment in full, and starts to bring it back: radiance, or what people see.
+    /// Draws the model's moment in full, and starts to read it back: radiance, or what people see.
     pub fn begin(
         renderer: &mut Renderer,
         model: &Model,
@@ -31,14 +31,14 @@ impl Capture {
         let moment = model.clock.moment(&model.scene.motion);
         let shot =
             Shot { size, moment, full_precision: radiance, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-        let want = model.scene.want(&model.resources, &shot).map_err(|error| error.to_string())?;
-        renderer.bring(&want).map_err(|error| error.to_string())?;
+        let request = model.scene.request(&model.resources, &shot).map_err(|error| error.to_string())?;
+        renderer.render(&request).map_err(|error| error.to_string())?;
         let readback = if radiance { renderer.read_radiance() } else { renderer.read_picture() };
         let readback = readback.ok_or("there is no picture to save yet")?;
         Ok(Self { readback, size, radiance, path, metadata: metadata(model) })
     }
 
-    /// Hands the picture to a worker once it has arrived; tells whether it is still on its way.
+    /// Hands the picture to a worker once it has arrived; returns whether it is still pending.
     pub fn poll(&self, gpu: &Gpu, files: &Files) -> Result<bool, GpuError> {
         gpu.device.poll(wgpu::PollType::Poll).map_err(|error| GpuError::Lost(error.to_string()))?;
         let Some(bytes) = self.readback.try_take() else { return Ok(true) };

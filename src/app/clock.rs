@@ -2,7 +2,7 @@
 
 use crate::{plan::Moment, scene::Motion};
 
-/// Wall time that one frame can bring at most, s: after a pause of the whole machine the film goes on where it was.
+/// Largest wall time that one frame may add, s: after a pause of the whole machine the film goes on where it was.
 const MAX_WALL_S: f64 = 0.5;
 
 /// A tick that lasts longer than this on the wall is shown in between too, s: slow motion would stutter otherwise.
@@ -74,7 +74,7 @@ impl Clock {
         self.tick as f64 * motion.tick_s
     }
 
-    /// Wall time until there is another moment to show, s; nothing while the clock stands.
+    /// Wall time until there is another moment to show, s; `None` while the clock is paused.
     #[must_use]
     pub fn until_next_s(&self, motion: &Motion) -> Option<f64> {
         let tick_s = (1.0 - self.fraction) * motion.tick_s / motion.speed;

@@ -30,7 +30,7 @@ impl Costs {
         self.counts = counts;
     }
 
-    /// Enters pass times that have arrived; those of passes that did not run stay.
+    /// Enters pass times that have arrived; times of passes that did not run stay.
     pub fn add_passes(&mut self, arrived: Vec<PassTime>) {
         for time in arrived {
             match self.passes.iter_mut().find(|known| known.name == time.name) {

@@ -2,7 +2,7 @@
 //!
 //! The rule for all controls: what moves the films (the keys that [`MotionChange`] has) is an event at the clock's tick, and so is what the
 //! pointer does to a film; the past stays as it was. At tick 0 nothing has happened yet, and the change is one of how the scene begins.
-//! Everything else holds for the whole history: editing it changes the past too, and a film that would have begun otherwise is blown anew.
+//! Everything else holds for the whole history: editing it changes the past too, and a film that would have begun differently is blown again.
 
 use super::history;
 use crate::scene::{Bubble, Camera, Change, Event, FilmIndexName, Light, Motion, MotionChange, Scene, View};
@@ -16,13 +16,13 @@ pub enum Edit {
     View(View),
     /// Another light.
     Light(Light),
-    /// Another bubble in the place of one. All films in a picture are made of the same, so that what this film is made of holds for all.
+    /// Another bubble in the place of one. All films in a picture are of one material, so that the material of this film applies to all.
     Bubble(usize, Box<Bubble>),
-    /// Other bubbles in the place of all.
+    /// A new list of bubbles.
     Bubbles(Vec<Bubble>),
-    /// Every film blown anew, in another breath of air.
+    /// Every film blown again, with a new seed for film and flow.
     Reseed,
-    /// Another motion, from now on as far as it can change.
+    /// Another motion; the keys that can change do so from now on.
     Motion(Box<Motion>),
     /// Something happens now.
     Happens(Change),
@@ -118,7 +118,7 @@ mod tests {
 
     /// Every edit, taken back by what it returns, leaves the scene as it was.
     #[test]
-    fn what_an_edit_returns_takes_it_back() {
+    fn an_edit_returns_its_inverse() {
         let stirred = MotionChange { flow: Some(Flow::Stirred), ..MotionChange::default() };
         let events = vec![Event { tick: 30, change: Change::Motion(stirred) }];
         let scene = Scene { events, ..Scene::default() };
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn what_moves_the_film_changes_from_now_on_and_the_method_for_ever() {
+    fn motion_changes_from_now_on_and_the_method_for_the_whole_history() {
         let mut scene = Scene::default();
         Edit::Motion(Motion { drainage: 7.0, speed: 2.0, ..Motion::default() }.into()).apply(&mut scene, 60);
         assert_eq!([59, 60].map(|tick| scene.motion_at(tick).drainage), [0.0, 7.0]);
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn a_film_is_blown_anew_where_it_would_have_begun_otherwise() {
+    fn a_film_is_blown_again_if_its_beginning_changes() {
         let bubble = Bubble::default();
         let anew = |change: fn(&mut Bubble)| {
             let mut other = bubble.clone();

@@ -32,7 +32,7 @@ enum Outcome {
     Nothing,
 }
 
-/// What dialogs and workers have brought that the window must see to.
+/// Results of dialogs and workers that the window must handle.
 #[derive(Debug, PartialEq)]
 pub enum Arrival {
     /// Another scene is in the model.
@@ -46,7 +46,7 @@ pub struct Files {
     wake: Arc<dyn Fn() + Send + Sync>,
     sender: Sender<(u64, Outcome)>,
     receiver: Receiver<(u64, Outcome)>,
-    /// The load that counts; what older ones bring is dropped.
+    /// The latest load; results of older loads are dropped.
     load: u64,
 }
 
@@ -184,8 +184,9 @@ fn moved(mut scene: Scene, from: &Path, to: &Path) -> Result<Scene, String> {
     for path in scene.paths_mut().filter(|path| Path::new(path).is_relative()) {
         let whole = from.join(&*path);
         let named = whole.strip_prefix(&to).unwrap_or(&whole).to_str();
-        *path =
-            named.ok_or_else(|| format!("{}: no scene can name it, for it is not UTF-8", whole.display()))?.to_owned();
+        *path = named
+            .ok_or_else(|| format!("{}: its name is not UTF-8, so that no scene can name it", whole.display()))?
+            .to_owned();
     }
     Ok(scene)
 }
@@ -202,8 +203,8 @@ fn load_light(
     if known {
         return Ok((Resources { illuminant, ..resources }, notes));
     }
-    let (environment, lamps) = load_environment(light, folder, &mut notes)?;
-    Ok((Resources { environment, illuminant, lamps, ..resources }, notes))
+    let (environment, spectral_lights) = load_environment(light, folder, &mut notes)?;
+    Ok((Resources { environment, illuminant, spectral_lights, ..resources }, notes))
 }
 
 #[cfg(test)]
@@ -279,7 +280,10 @@ mod tests {
         arrived.recv_timeout(PATIENCE).unwrap();
         let read = load_scene(&saved).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(read.resources.illuminant.spectrum(), loaded.resources.illuminant.spectrum());
-        assert_eq!(read.resources.lamps[0].illuminant.spectrum(), loaded.resources.lamps[0].illuminant.spectrum());
+        assert_eq!(
+            read.resources.spectral_lights[0].illuminant.spectrum(),
+            loaded.resources.spectral_lights[0].illuminant.spectrum()
+        );
         assert_eq!(read.resources.liquids.len(), 1);
 
         files.save_scene(old.join("again.toml"), loaded.scene.clone(), loaded.folder);

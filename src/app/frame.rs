@@ -22,14 +22,14 @@ use super::{
 use crate::{
     gpu::AdapterChoice,
     physics::colour::Gamut,
-    plan::{FilmKey, Have, Pace, Plan, Shot, Want},
+    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
 };
 
 /// Time between two looks at the clock while nothing but its reading changes.
 const READING: Duration = Duration::from_millis(400);
 /// Time until a surface that had no frame is asked again.
 const ASK_AGAIN: Duration = Duration::from_millis(50);
-/// Time between two looks at a picture that is being brought back.
+/// Time between two polls of a picture that is being read back.
 const FETCH: Duration = Duration::from_millis(8);
 /// Time that a picture rests after it failed: nothing is gained by failing at every frame.
 const REST: Duration = Duration::from_secs(1);
@@ -42,7 +42,7 @@ pub struct View {
     pub egui: egui_winit::State,
     /// The device's side.
     pub stage: Stage,
-    /// Whether the system wants the window drawn anew.
+    /// Whether the system asks for the window to be drawn again.
     pub exposed: bool,
     /// Size of the picture, pixels.
     pub picture_size: [u32; 2],
@@ -151,7 +151,7 @@ impl View {
         Output { full, rect }
     }
 
-    /// Brings the picture nearer to what is wanted; tells whether its pixels changed.
+    /// Renders towards the requested picture; returns whether its pixels changed.
     fn draw_picture(&mut self, model: &mut Model, first_tick: u64, due: &mut Due) -> bool {
         if self.rests_until.is_some_and(|until| due.now < until) {
             due.at_latest(self.rests_until);
@@ -167,13 +167,14 @@ impl View {
             yardstick: false,
             pace: Pace::Frame,
         };
-        let brought = model.scene.want(&model.resources, &shot).map_err(|error| error.to_string()).and_then(|want| {
-            let plan = self.stage.renderer.bring(&want).map_err(|error| error.to_string())?;
-            Ok((want, plan))
-        });
+        let brought =
+            model.scene.request(&model.resources, &shot).map_err(|error| error.to_string()).and_then(|request| {
+                let plan = self.stage.renderer.render(&request).map_err(|error| error.to_string())?;
+                Ok((request, plan))
+            });
         match brought {
-            Ok((want, plan)) => {
-                hold_clock(model, &want, self.stage.renderer.have(), first_tick);
+            Ok((request, plan)) => {
+                hold_clock(model, &request, self.stage.renderer.state(), first_tick);
                 self.account(model, &plan, due);
                 !plan.is_empty()
             }
@@ -248,17 +249,17 @@ impl View {
         }
     }
 
-    /// Makes everything on the device anew if the device is lost; reads changed shaders.
+    /// Recreates everything on the device if the device is lost; reloads changed shaders.
     fn recover(&mut self, model: &mut Model) -> Result<(), AppError> {
         // A loss is told by a callback, which comes when the device is polled.
         let _ = self.stage.renderer.gpu.device.poll(wgpu::PollType::Poll);
         if self.stage.renderer.gpu.is_lost() {
-            log::warn!("making everything on the graphics device anew");
+            log::warn!("recreating everything on the graphics device");
             self.captures.clear();
             let instance = self.stage.renderer.gpu.instance.clone();
             self.stage = Stage::new(instance, &self.choice, &self.window, self.egui.egui_ctx())?;
             self.exposed = true;
-            model.messages.note("The graphics device was lost and has been opened again");
+            model.messages.note("The graphics device was lost and has been reopened");
         }
         if let Err(error) = self.stage.renderer.gpu.check() {
             model.messages.problem(error.to_string());
@@ -277,7 +278,7 @@ impl View {
             Ok(()) => {
                 renderer.forget_picture();
                 model.messages.withdraw("shader ");
-                model.messages.note("Shaders read again");
+                model.messages.note("Shaders reloaded");
             }
             Err(error) => model.messages.problem(error.to_string()),
         }
@@ -297,8 +298,8 @@ struct Output {
 }
 
 /// The picture's place on whole pixels, in points, and its size in pixels, at least one and at most what a texture holds.
-fn pixel_rect(rect: Rect, pixels_per_point: f32, most: u32) -> (Rect, [u32; 2]) {
-    let pixels = |points: f32| (points * pixels_per_point).round().clamp(0.0, most as f32);
+fn pixel_rect(rect: Rect, pixels_per_point: f32, max: u32) -> (Rect, [u32; 2]) {
+    let pixels = |points: f32| (points * pixels_per_point).round().clamp(0.0, max as f32);
     let min = [pixels(rect.min.x), pixels(rect.min.y)];
     let size = [pixels(rect.max.x) - min[0], pixels(rect.max.y) - min[1]].map(|size| size.max(1.0));
     let points = |pixels: [f32; 2]| egui::vec2(pixels[0], pixels[1]) / pixels_per_point;
@@ -306,24 +307,24 @@ fn pixel_rect(rect: Rect, pixels_per_point: f32, most: u32) -> (Rect, [u32; 2]) 
 }
 
 /// Takes back the ticks of this frame that the films did not reach, and notes how far they are behind an edited history.
-fn hold_clock(model: &mut Model, want: &Want, have: &Have, first_tick: u64) {
+fn hold_clock(model: &mut Model, request: &FrameRequest, state: &GpuState, first_tick: u64) {
     let mut reached = 0;
     let mut missing = 0;
-    for bubble in &want.picture.draw.bubbles {
-        if let (FilmKey::Field(film), Some(Some(field))) = (&bubble.film, have.fields.get(bubble.index)) {
-            // A film at rest is where it is wanted, though its picture is of when it came to rest.
+    for bubble in &request.picture.draw.bubbles {
+        if let (FilmKey::Field(film), Some(Some(field))) = (&bubble.film, state.fields.get(bubble.index)) {
+            // A film at rest has reached the requested tick, though its picture is of when it came to rest.
             if field.rest.is_some() {
                 continue;
             }
-            let shown = field.shown.unwrap_or(field.state.moment).tick;
+            let shown = field.shown.unwrap_or(field.key.moment).tick;
             reached = reached.max(shown);
             missing = missing.max(film.moment.tick.saturating_sub(shown));
         }
     }
     if missing > 0 {
-        let wanted = model.clock.tick;
+        let requested = model.clock.tick;
         model.clock.hold(reached, first_tick);
-        missing = missing.saturating_sub(wanted - model.clock.tick);
+        missing = missing.saturating_sub(requested - model.clock.tick);
     }
     model.behind_ticks = missing;
 }

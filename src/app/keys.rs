@@ -13,7 +13,7 @@ pub enum Action {
     Step,
     /// Goes back to tick 0.
     Reset,
-    /// Brings the bubbles into the picture.
+    /// Moves the camera so that the bubbles are in the picture.
     Frame,
     /// Blows new films.
     NewSeed,
@@ -45,7 +45,7 @@ pub enum Action {
     Quit,
 }
 
-/// A key, what it does, and how the help says so.
+/// A key, its action, and its line in the help.
 pub struct Binding {
     /// The key with its modifiers.
     pub shortcut: KeyboardShortcut,
@@ -76,10 +76,10 @@ pub const BINDINGS: [Binding; 23] = [
     command(Key::O, Action::Open, "Open a scene"),
     command(Key::S, Action::Save, "Save the scene with its history"),
     command(Key::Q, Action::Quit, "Quit"),
-    bare(Key::Space, Action::Pause, "Pause, or go on"),
-    bare(Key::Period, Action::Step, "One tick further"),
-    bare(Key::R, Action::Reset, "Back to the beginning"),
-    bare(Key::N, Action::NewSeed, "New seeds for film and flow"),
+    bare(Key::Space, Action::Pause, "Play or pause"),
+    bare(Key::Period, Action::Step, "Advance by one tick"),
+    bare(Key::R, Action::Reset, "Return to the beginning"),
+    bare(Key::N, Action::NewSeed, "New random seeds for film and flow"),
     bare(Key::F, Action::Frame, "Frame the bubbles"),
     bare(Key::Num1, Action::Take(Tool::Orbit), "The pointer turns the view"),
     bare(Key::Num2, Action::Take(Tool::Stir), "The pointer stirs a film"),
@@ -99,9 +99,9 @@ pub const BINDINGS: [Binding; 23] = [
 /// What the pointer does, for the help.
 pub const POINTER: [(&str, &str); 5] = [
     ("Drag", "Turn around the bubble"),
-    ("Drag with a tool", "Stir, blow at or move a bubble; beside it, turn"),
+    ("Drag with a tool", "Stir, blow at or move a bubble; beside it, turn the view"),
     ("Right or Shift drag", "Shift the view"),
-    ("Wheel, pinch", "Nearer or farther, into the bubble too"),
+    ("Wheel, pinch", "Zoom, also into the bubble"),
     ("Double click", "Frame the bubbles"),
 ];
 

@@ -1,4 +1,4 @@
-//! What the window has to say: notes that go by themselves, and remarks and problems that stay until somebody has read them.
+//! The messages of the window: notes that disappear by themselves, and remarks and problems that stay until they are dismissed.
 
 /// How long a note stays, s.
 const NOTE_S: f64 = 4.0;
@@ -21,7 +21,7 @@ pub struct Message {
     pub text: String,
     /// How serious it is.
     pub kind: Kind,
-    /// When it goes, in seconds of the window's clock; nothing until it was first shown.
+    /// When it disappears, in seconds of the window's clock; `None` until it was first shown.
     until_s: Option<f64>,
 }
 
@@ -40,7 +40,7 @@ impl Messages {
         self.push(text.into(), Kind::Remark);
     }
 
-    /// Says that something could not be done. What is on show already is not said twice.
+    /// Reports that something failed. A message that is already shown is not repeated.
     pub fn problem(&mut self, text: impl Into<String>) {
         self.push(text.into(), Kind::Problem);
     }
@@ -74,12 +74,12 @@ impl Messages {
         }
     }
 
-    /// Takes away what begins like this, because it is no longer so.
+    /// Removes messages with this beginning, because they no longer apply.
     pub fn withdraw(&mut self, beginning: &str) {
         self.0.retain(|message| !message.text.starts_with(beginning));
     }
 
-    /// Takes all messages away, and tells whether there were any.
+    /// Removes all messages, and returns whether there were any.
     pub fn clear(&mut self) -> bool {
         !std::mem::take(&mut self.0).is_empty()
     }

@@ -7,7 +7,7 @@
 //! | [`panels`], [`keys`] | how people change the model |
 //! | [`files`] | dialogs, loading and saving on threads |
 //! | `window`, `frame` | the event loop, and one redraw |
-//! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be made anew when a device is lost |
+//! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
 pub mod clock;
 pub mod costs;
@@ -43,12 +43,12 @@ pub enum AppError {
     #[error("no window can be opened here ({}); `soapfilm render` draws without one", without_place(.0))]
     EventLoop(winit::error::EventLoopError),
     /// The system refuses a window.
-    #[error("the system refuses a window: {}", without_place(.0))]
+    #[error("the system refused to open a window: {}", without_place(.0))]
     Window(winit::error::OsError),
     /// The adapter cannot draw into the window.
     #[error("the graphics driver cannot draw into a window: {0}; choose another with --adapter or --backend")]
     Surface(String),
-    /// No GPU, or one that fails for good.
+    /// No GPU, or a GPU that keeps failing.
     #[error(transparent)]
     Gpu(#[from] GpuError),
 }
@@ -65,7 +65,7 @@ impl From<winit::error::OsError> for AppError {
     }
 }
 
-/// What winit says without the place in its source, which it puts before what the system says.
+/// The message of winit without the place in its source, which precedes the message of the system.
 fn without_place(error: &dyn std::fmt::Display) -> String {
     let told = error.to_string();
     let place = told.strip_prefix("os error at ").and_then(|told| told.split_once(": "));
@@ -75,7 +75,7 @@ fn without_place(error: &dyn std::fmt::Display) -> String {
 /// Opens the window on a scene, and returns once it is closed.
 ///
 /// # Errors
-/// There is no display or no usable adapter, or the device was lost and no other could be had.
+/// There is no display or no usable adapter, or the device was lost and no other could be opened.
 pub fn run(loaded: LoadedScene, choice: &AdapterChoice) -> Result<(), AppError> {
     window::run(model::Model::new(loaded), choice)
 }

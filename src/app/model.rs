@@ -19,7 +19,7 @@ use crate::{
     scene::{Light, Motion, MotionChange},
 };
 
-/// What a file is wanted for.
+/// What a file is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// A scene to open.
@@ -35,7 +35,7 @@ pub enum Target {
 }
 
 impl Target {
-    /// Name of the kind of file, and its endings, the usual one first.
+    /// Name of the kind of file, and its endings, the default first.
     #[must_use]
     pub fn file_type(self) -> (&'static str, &'static [&'static str]) {
         match self {
@@ -99,7 +99,7 @@ pub struct Model {
     pub loading: Option<String>,
     /// Ticks that the films are behind the clock.
     pub behind_ticks: u64,
-    /// What is to be said.
+    /// Messages to show.
     pub messages: Messages,
     /// What pictures cost.
     pub costs: Costs,
@@ -111,7 +111,7 @@ impl Model {
     /// A window on a scene, its clock running.
     #[must_use]
     pub fn new(mut loaded: LoadedScene) -> Self {
-        // The camera moves from now on, and no film shall begin anew for that.
+        // The camera moves from now on, which must not restart a film.
         settle_detail(&mut loaded.scene);
         let mut messages = Messages::default();
         warn(&mut messages, &loaded);
@@ -176,7 +176,7 @@ impl Model {
         self.furthest_tick.max(self.clock.tick).max(last_event)
     }
 
-    /// Makes a change of the scene, or says why there can be no such scene; tells whether it was made. The only way to change a scene.
+    /// Makes a change of the scene, or reports why it is not valid; returns whether it was made. The only way to change a scene.
     pub fn edit(&mut self, edit: Edit) -> bool {
         let tick = self.clock.tick;
         let back = self.scene.change(|scene| edit.apply(scene, tick));
@@ -191,7 +191,7 @@ impl Model {
         true
     }
 
-    /// Blows every film anew, in another breath of air.
+    /// Blows every film again, with a new seed for film and flow.
     pub fn new_seeds(&mut self) {
         self.clock.reset();
         let motion = Motion { seed: new_seed(), ..self.motion() };
@@ -207,7 +207,7 @@ impl Model {
         matches!(self.hand, Hand::Film(_))
     }
 
-    /// Tilts gravity from now on, by so many degrees to the right of the picture and away from the camera.
+    /// Tilts gravity from now on, by angles in degrees to the right of the picture and away from the camera.
     fn tilt(&mut self, right_deg: f64, away_deg: f64) {
         let camera = &self.scene.camera;
         let turn = DMat3::from_axis_angle(camera.forward(), -right_deg.to_radians())
@@ -274,7 +274,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn what_changes_while_time_runs_is_an_event() {
+    fn a_change_while_the_clock_runs_becomes_an_event() {
         let mut model = model();
         model.clock.tick = 120;
         let change = MotionChange { flow: Some(Flow::Stirred), ..MotionChange::default() };
@@ -284,7 +284,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn another_film_begins_anew_and_an_index_is_everyones() {
+    fn another_film_starts_again_and_an_index_applies_to_all_bubbles() {
         let mut model = Model::new(load_scene("trio").unwrap());
         model.clock.tick = 50;
         let mut bubble = model.scene.bubbles[2].clone();

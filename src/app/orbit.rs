@@ -54,7 +54,7 @@ fn shifted(camera: &Camera, shift: DVec2) -> Camera {
     Camera { target_m: target.to_array(), ..camera.clone() }
 }
 
-/// Changes the distance by a factor, in such a way that it reaches zero, and leaves it again.
+/// Changes the distance by a factor, but so that it can reach zero and leave it again.
 fn zoomed(camera: &Camera, reach_m: f64, zoom: f64) -> Camera {
     let near = NEAR * reach_m;
     let distance = (camera.distance_m + near) * (-zoom.clamp(-20.0, 20.0)).exp() - near;
@@ -65,19 +65,19 @@ fn zoomed(camera: &Camera, reach_m: f64, zoom: f64) -> Camera {
 
 /// Stands back along the same line of sight until all bubbles fill the picture well.
 fn framed(camera: &Camera, bubbles: &[Bubble], aspect: f64) -> Camera {
-    let Some((centre, radius)) = bounding_sphere(bubbles) else { return camera.clone() };
+    let Some((center, radius)) = bounding_sphere(bubbles) else { return camera.clone() };
     // A sphere of radius r touches the cone of half angle a at the distance r / sin a.
     let half_angle = (FILL * half_fov(camera).tan() * aspect.min(1.0)).atan();
     let distance_m = (radius / half_angle.sin()).min(FARTHEST_M);
-    Camera { target_m: centre.to_array(), distance_m, ..camera.clone() }
+    Camera { target_m: center.to_array(), distance_m, ..camera.clone() }
 }
 
-/// A sphere around all bubbles: their mean centre, and the farthest point from it.
+/// A sphere around all bubbles: their mean center, and the farthest point from it.
 fn bounding_sphere(bubbles: &[Bubble]) -> Option<(DVec3, f64)> {
-    let centre_of = |bubble: &Bubble| DVec3::from(bubble.center_m);
-    let centre = bubbles.iter().map(centre_of).sum::<DVec3>() / bubbles.len() as f64;
-    let reach = |bubble: &Bubble| centre_of(bubble).distance(centre) + bubble.radius_mm * 1e-3;
-    bubbles.iter().map(reach).reduce(f64::max).map(|radius| (centre, radius))
+    let center_of = |bubble: &Bubble| DVec3::from(bubble.center_m);
+    let center = bubbles.iter().map(center_of).sum::<DVec3>() / bubbles.len() as f64;
+    let reach = |bubble: &Bubble| center_of(bubble).distance(center) + bubble.radius_mm * 1e-3;
+    bubbles.iter().map(reach).reduce(f64::max).map(|radius| (center, radius))
 }
 
 fn reach_m(bubbles: &[Bubble]) -> f64 {
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn zooming_goes_to_the_centre_and_out_again() {
+    fn zooming_goes_to_the_center_and_out_again() {
         let step = |camera: &Camera, zoom| moved(camera, &one(), 1.6, &Gesture { zoom, ..Gesture::default() });
         let mut camera = at(0.24);
         let notches = (1..100).find(|_| {
@@ -152,7 +152,7 @@ mod tests {
             camera = step(&camera, -0.2);
         }
         assert!(camera.distance_m > 0.24);
-        // In and out by the same amount is no move.
+        // In and out by the same amount is no movement.
         let there_and_back = step(&step(&at(0.24), 0.7), -0.7);
         assert!((there_and_back.distance_m - 0.24).abs() < 1e-12);
     }

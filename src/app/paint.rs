@@ -1,4 +1,4 @@
-//! Puts picture and user interface on the window, and only where they differ from what is there.
+//! Draws picture and user interface into the window, and only where they have changed.
 
 use egui::epaint::ClippedShape;
 use egui::{ClippedPrimitive, Color32, Context, Rect, Shape, TextureId, pos2};
@@ -13,7 +13,7 @@ pub struct Contents<'a> {
     pub shapes: Vec<ClippedShape>,
     /// The picture, if there is one, and where it stands in points.
     pub picture: Option<(&'a wgpu::TextureView, Rect)>,
-    /// Whether the picture's pixels are others than in the frame before, or the system wants the window anew.
+    /// Whether the picture's pixels are others than in the frame before, or the system asks for the window again.
     pub is_new: bool,
     /// Physical pixels of the window.
     pub size: [u32; 2],
@@ -43,7 +43,7 @@ pub struct Painter {
 impl Painter {
     /// A painter with the texts that a context has drawn so far.
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat, ctx: &Context) -> Self {
-        // The picture brings its own dither; more noise on it would be wrong.
+        // The picture has its own dither; more noise on it would be wrong.
         let options = RendererOptions { dithering: false, ..RendererOptions::default() };
         let mut egui = egui_wgpu::Renderer::new(&gpu.device, format, options);
         if ctx.cumulative_pass_nr() > 0 {
@@ -130,7 +130,7 @@ impl Painter {
     ) {
         let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("window") });
-        // Callbacks would bring buffers of their own; there are none.
+        // Callbacks would have buffers of their own; there are none.
         self.egui.update_buffers(&gpu.device, &gpu.queue, &mut encoder, primitives, screen);
         let attachment = wgpu::RenderPassColorAttachment {
             view: &view,

@@ -1,4 +1,4 @@
-//! All that lives on the device and dies with it.
+//! Everything that is on the device and lost with it.
 
 use std::sync::Arc;
 

@@ -88,7 +88,7 @@ impl WindowSurface {
     fn renew(&mut self, gpu: &Gpu) {
         match gpu.instance.create_surface(self.window.clone()) {
             Ok(surface) => self.surface = surface,
-            Err(error) => log::warn!("the window's surface cannot be made again: {error}"),
+            Err(error) => log::warn!("the window's surface cannot be recreated: {error}"),
         }
         self.stale = true;
     }

@@ -27,8 +27,12 @@ impl Tool {
     /// All tools, each with its name and what it does, in the order of the keys 1 to 5.
     pub const ALL: [(Self, &str, &str); 5] = [
         (Self::Orbit, "Orbit", "Drag to turn around the bubble (1)"),
-        (Self::Stir, "Stir", "Drag over a film to take it along (2)"),
-        (Self::Blow, "Blow", "Hold to blow along the line of sight; obliquely at the rim it moves the film most (3)"),
+        (Self::Stir, "Stir", "Drag over a film to stir it (2)"),
+        (
+            Self::Blow,
+            "Blow",
+            "Hold to blow along the line of sight; near the outline, where the jet is oblique, it moves the film most (3)",
+        ),
         (Self::Drag, "Move", "Drag a bubble: its film stays behind (4)"),
         (Self::Prick, "Prick", "Click to burst a bubble there (5)"),
     ];
@@ -36,7 +40,7 @@ impl Tool {
 
 /// Shortest time between two events of a stir or a jet, s.
 const STROKE_S: f64 = 0.1;
-/// The same of a drag, whose bubble is to keep up with the pointer.
+/// Shortest time between two events of a drag, s: the bubble must keep up with the pointer.
 const PULL_S: f64 = 0.05;
 /// Longest duration of a stroke, s: film time that passes while nothing is drawn belongs to none.
 const LONGEST_STROKE_S: f64 = 0.5;
@@ -76,8 +80,8 @@ pub struct Grip {
     tick: u64,
     /// Where the pointer was then, as a direction in the film.
     at: DVec3,
-    /// From the pointer's place on the film to the bubble's centre, m.
-    to_centre_m: DVec3,
+    /// From the pointer's place on the film to the bubble's center, m.
+    to_center_m: DVec3,
     /// How far the place where the pointer took hold is along the line of sight, m.
     depth_m: f64,
     /// Where the pointer is now in the picture.
@@ -91,8 +95,8 @@ struct Aim {
     ray: DVec3,
     /// Where it meets the film, m.
     place_m: DVec3,
-    /// The bubble's centre, m.
-    centre_m: DVec3,
+    /// The bubble's center, m.
+    center_m: DVec3,
     /// From the world's directions to the film's.
     to_film: DQuat,
 }
@@ -100,7 +104,7 @@ struct Aim {
 impl Aim {
     /// The place as a direction in the film.
     fn at(&self) -> DVec3 {
-        self.to_film * (self.place_m - self.centre_m).normalize()
+        self.to_film * (self.place_m - self.center_m).normalize()
     }
 }
 
@@ -137,13 +141,13 @@ impl Grip {
             bubble: aim.bubble,
             tick,
             at: aim.at(),
-            to_centre_m: aim.centre_m - aim.place_m,
+            to_center_m: aim.center_m - aim.place_m,
             depth_m: (aim.place_m - scene.camera.eye()).length(),
             place,
         }
     }
 
-    /// What the tool does with what the pointer did since the last event, if it is time for that; the last of it when it lets go.
+    /// The event of the tool for the pointer's path since the last event, if it is due; the last event when the button is released.
     fn act(&mut self, story: &Story, tick: u64, lets_go: bool) -> Option<Change> {
         let tick_s = story.motion.tick_s;
         let shortest_s = match self.tool {
@@ -161,7 +165,7 @@ impl Grip {
         self.tick = tick;
         if self.tool == Tool::Drag {
             let held_m = story.camera.eye() + self.depth_m * ray(story, self.place);
-            return Some(drag(story, self.bubble, held_m + self.to_centre_m));
+            return Some(drag(story, self.bubble, held_m + self.to_center_m));
         }
         let aim = aim(story, tick, self.place).filter(|aim| aim.bubble == self.bubble && tick > since)?;
         let before = std::mem::replace(&mut self.at, aim.at());
@@ -175,7 +179,7 @@ impl Grip {
     }
 }
 
-/// A stir from one place to another, where an angle is a speed in m/s; nothing for a pointer that stands.
+/// A stir from one place to another, where an angle is a speed in m/s; `None` for a pointer at rest.
 fn stroke(bubble: usize, before: DVec3, now: DVec3, speed: f64, ticks: u64) -> Option<Change> {
     let middle = (before + now).try_normalize()?;
     let velocity = speed * (now - before);
@@ -221,12 +225,12 @@ fn ray(scene: &Scene, place: DVec2) -> DVec3 {
 fn aim(story: &Story, tick: u64, place: DVec2) -> Option<Aim> {
     let (eye, ray) = (story.camera.eye(), ray(story, place));
     let met = story.bubbles.iter().enumerate().filter_map(|(bubble, sphere)| {
-        let centre_m = story.centre_m(bubble, tick as f64 * story.motion.tick_s);
-        let along = hit(eye - centre_m, ray, sphere.radius_mm * 1e-3)?;
-        Some((along, bubble, centre_m))
+        let center_m = story.center_m(bubble, tick as f64 * story.motion.tick_s);
+        let along = hit(eye - center_m, ray, sphere.radius_mm * 1e-3)?;
+        Some((along, bubble, center_m))
     });
-    let (along, bubble, centre_m) = met.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(Aim { bubble, ray, place_m: eye + along * ray, centre_m, to_film: story.film_turn(tick as f64).inverse() })
+    let (along, bubble, center_m) = met.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(Aim { bubble, ray, place_m: eye + along * ray, center_m, to_film: story.film_turn(tick as f64).inverse() })
 }
 
 /// How far along a ray it meets a sphere around the origin for the first time.
@@ -294,7 +298,7 @@ mod tests {
         let way = 0.2 * 2.0 * 15f64.to_radians().tan() * 0.19;
         assert!((last.to_m[1] - way).abs() < 0.05 * way && last.to_m[2].abs() < 1e-3, "{last:?}");
         let there = aim(&Story::new(scene.clone()), 600, MIDDLE).unwrap();
-        assert!(there.centre_m.distance(last.to_m.into()) < 1e-9);
+        assert!(there.center_m.distance(last.to_m.into()) < 1e-9);
     }
 
     #[test]

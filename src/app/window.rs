@@ -31,9 +31,9 @@ use crate::{
 
 /// What reaches the loop from outside the window.
 enum Outside {
-    /// A screen reader wants something.
+    /// A screen reader asks for something.
     Accessibility(accesskit_winit::Event),
-    /// A worker has brought something.
+    /// A worker has a result.
     Arrival,
 }
 
@@ -101,7 +101,7 @@ impl Handler {
 
     fn redraw(&mut self, event_loop: &ActiveEventLoop) {
         let Some(view) = &mut self.view else { return };
-        // What nobody here asked for, the system did: it has lost what the window showed.
+        // A redraw that the program did not request comes from the system, which has lost the contents of the window.
         view.exposed |= !std::mem::take(&mut self.asked);
         match view.redraw(event_loop, &mut self.model, &self.files) {
             Ok(next) => self.next = next,

@@ -24,28 +24,28 @@ use crate::{
 /// Report the colour that a film reflects.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --thickness 320 --angle 45 --spectrum rows\n  soapfilm colour --thickness 320 --back 500 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n  soapfilm colour --strip strip.png\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall, R0 + T0 R1 T2 with\nthickness_nm, back_nm and exit_nm for 0, 1 and 2. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), linear BT.2020 r,g,b, and s_r,s_g,s_b, the same colour in sRGB, encoded, 0 to 1 where sRGB has it.\n--spectrum writes R360 to R780, the part reflected every 5 nm, in place of s_r,s_g,s_b. --spectrum rows writes rows of wavelength_nm,R,T\nfor one film, T being what passes straight through.\n\nCSV files may have commas, semicolons, tabs or spaces between columns, decimal points or commas, and lines of # comments. Spectra\nare in nm (or µm, where only that covers the visible range) and cover 380 to 780 nm; from there down to 360 nm the first value goes on."
+    after_help = "Examples:\n  soapfilm colour --thickness 320 --cos 0.8\n  soapfilm colour --thickness 320 --angle 45 --spectrum rows\n  soapfilm colour --thickness 320 --back 500 --cos 0.8\n  soapfilm colour --points films.csv -o colours.csv\n  soapfilm colour --strip strip.png\n\nPoints have columns thickness_nm,cos_theta and may have back_nm,exit_nm: then the answer is front + back wall, R0 + T0 R1 T2 with\nthickness_nm, back_nm and exit_nm for 0, 1 and 2. Output: the input's\ncolumns, X,Y,Z (perfect mirror: Y = 1), linear BT.2020 r,g,b, and s_r,s_g,s_b, this colour in encoded sRGB, 0 to 1 where it is in gamut.\n--spectrum writes R360 to R780, the reflectance every 5 nm, instead of s_r,s_g,s_b. --spectrum rows writes rows of wavelength_nm,R,T\nfor one film, where T is the transmittance.\n\nCSV files may have commas, semicolons, tabs or spaces between columns, decimal points or decimal commas, and # comments. Spectra\nare in nm (or µm, where only that covers the visible range) and cover 380 to 780 nm; from there down to 360 nm the first value is repeated."
 )]
 pub struct Arguments {
-    /// Thickness in nm, of the front wall where there are two
+    /// Thickness in nm; with --back, of the front wall
     #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "direction", required_unless_present_any = ["points", "strip"])]
     thickness: Option<f64>,
     /// Cosine of the angle outside the film
     #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = parse::cosine, requires = "thickness", group = "direction")]
     cos: Option<f64>,
-    /// The angle outside the film, from its normal
+    /// Angle outside the film, from its normal
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = parse::angle_cos, requires = "thickness", group = "direction", conflicts_with = "cos")]
     angle: Option<f64>,
     /// Thickness in nm of the back wall, seen through the front wall
     #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "thickness")]
     back: Option<f64>,
-    /// Thickness in nm of the front wall where light from the back wall leaves through it; without it, that of --thickness
+    /// Thickness in nm of the front wall where light from the back wall leaves through it; by default --thickness
     #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = parse::thickness_nm, requires = "back")]
     exit: Option<f64>,
     /// A CSV file of films
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["thickness", "direction", "back"])]
     points: Option<PathBuf>,
-    /// Paint the colours of films from 0 to 1500 nm at normal incidence, a column a nanometre, in place of reporting any
+    /// Paint the colours of films from 0 to 1500 nm at normal incidence, one column per nanometre, instead of a report
     #[arg(long, value_name = "FILE.png", conflicts_with_all = ["thickness", "direction", "back", "points", "spectrum", "output"])]
     strip: Option<PathBuf>,
     /// `water`, `water 25C`, `glycerol 30%`, a refractive index, or a CSV file of wavelengths and indices
@@ -56,13 +56,13 @@ pub struct Arguments {
     skin: f64,
     #[arg(long, value_name = "LIGHT", default_value = "D65", help = parse::illuminant_help())]
     illuminant: String,
-    /// `fast`, `standard`, `spectral` (as pictures of that quality have it) or `reference` (f64 on the CPU, no GPU needed)
+    /// `fast`, `standard`, `spectral` (as in pictures of that quality) or `reference` (f64 on the CPU, no GPU needed)
     #[arg(long, value_name = "QUALITY", default_value = "standard", value_parser = parse::quality)]
     quality: parse::Quality,
-    /// Add the reflectance every 5 nm from 360 to 780 nm in columns, or write the spectrum of one film in rows in place of its colour
+    /// Add the reflectance every 5 nm from 360 to 780 nm in columns, or write the spectrum of one film in rows instead of its colour
     #[arg(long, value_name = "columns|rows", num_args = 0..=1, default_missing_value = "columns")]
     spectrum: Option<Spectrum>,
-    /// Write to a file in place of the terminal
+    /// Write to a file instead of the terminal
     #[arg(short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -97,7 +97,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     };
     anyhow::ensure!(
         colours.iter().all(|xyz| xyz.is_finite()),
-        "this film has no colour in finite numbers; please report it"
+        "the colour of this film is not finite; please report it"
     );
     if let Some(path) = &arguments.strip {
         let metadata = Metadata::new()
@@ -224,7 +224,7 @@ fn film_of(fields: &[String], [thickness, cosine, back, exit]: [usize; 4]) -> an
     Ok(FilmPoint { cos_theta, walls })
 }
 
-/// Unpolarised XYZ through the table, the bands and the shader functions of pictures.
+/// Unpolarised XYZ through the table, the wavelengths and the shader functions of pictures.
 fn through_shaders(
     arguments: &Arguments,
     key: &OpticsKey,
@@ -265,7 +265,7 @@ fn table(points: &Points, colours: &[DVec3], spectrum: Option<&FilmOptics>) -> a
 fn spectrum_rows(points: &Points, optics: &FilmOptics) -> anyhow::Result<String> {
     let [film] = points.films[..] else {
         anyhow::bail!(
-            "--spectrum rows writes the spectrum of one film, these are {}: use --spectrum",
+            "--spectrum rows writes the spectrum of one film, and there are {}: use --spectrum",
             points.films.len()
         );
     };

@@ -1,4 +1,4 @@
-//! What the command line says when something fails: one line, in words that help, and the exit code.
+//! How the command line reports a failure: one helpful line, and the exit code.
 
 use std::{backtrace, ffi::OsString, panic::PanicHookInfo, process::ExitCode};
 
@@ -13,7 +13,7 @@ use crate::{
 /// The exit code of a program that a closed pipe ends: 128 and the number of the signal SIGPIPE, which shells give other programs.
 const CLOSED_PIPE: u8 = 141;
 
-/// Says why a command failed, unless it is for a reader that has stopped, and returns the exit code.
+/// Reports why a command failed, unless its reader has stopped, and returns the exit code.
 pub fn report(error: &anyhow::Error) -> u8 {
     if matches!(error.downcast_ref(), Some(StreamError::Closed)) {
         return CLOSED_PIPE;
@@ -22,7 +22,7 @@ pub fn report(error: &anyhow::Error) -> u8 {
     1
 }
 
-/// An error and what caused it, in one line. Many errors tell their cause themselves: nothing is said twice.
+/// An error and its cause, in one line. Many errors include their cause: nothing is repeated.
 fn in_words(error: &anyhow::Error) -> String {
     let causes = error.chain().map(|cause| one_line(&cause.to_string()));
     causes.fold(String::new(), |told, cause| match told.as_str() {
@@ -32,7 +32,7 @@ fn in_words(error: &anyhow::Error) -> String {
     })
 }
 
-/// A text in one line of a bearable length, without anything that a terminal would obey and without folders of the machine that built the
+/// A text in one line of limited length, without control characters and without folders of the machine that built the
 /// program.
 pub fn one_line(text: &str) -> String {
     const LONGEST: usize = 2000;
@@ -50,7 +50,7 @@ fn without_build_folder(word: &str) -> &str {
     &word[package..]
 }
 
-/// Says in one line that the program itself is at fault, and where; backtraces are for those who ask for them by `RUST_BACKTRACE`.
+/// Reports in one line a fault of the program itself, and its place; `RUST_BACKTRACE` adds a backtrace.
 pub fn report_panic(panic: &PanicHookInfo) {
     let place = panic.location().map_or(String::new(), |place| format!(" ({place})"));
     let reason = panic.payload_as_str().unwrap_or("no reason was given");

@@ -19,15 +19,15 @@ use crate::{
 /// Write the thickness of a bubble's film, cell by cell
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  soapfilm film default --time 0.5 -o film.csv\n  soapfilm film default --time 0.2 --reference --set bubble.0.film.cells=32\n\nThe file has a row for each cell of the film's grid: x, y and z of the unit vector from the bubble's centre, the cell's solid angle in\nsteradians, and the thickness in nm, which is 0 where there is no film. With --reference the film is moved by the model in f64 on the CPU,\nand no adapter is used: that is slow, and takes a film of at most 64 cells along an edge."
+    after_help = "Examples:\n  soapfilm film default --time 0.5 -o film.csv\n  soapfilm film default --time 0.2 --reference --set bubble.0.film.cells=32\n\nThe file has a row for each cell of the film's grid: x, y and z of the unit vector from the bubble's center, the cell's solid angle in\nsteradians, and the thickness in nm, which is 0 where there is no film. With --reference the film is moved by the model in f64 on the CPU,\nwithout an adapter: this is slow, and allows at most 64 cells along an edge."
 )]
 pub struct Arguments {
     /// A scene file, or the name of a preset
     scene: PathBuf,
-    /// When, in seconds from the film's start
+    /// Time of the film, in seconds from its start
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = parse::time_s, allow_hyphen_values = true)]
     time: f64,
-    /// Which bubble of the scene, counted from 0
+    /// Index of the bubble in the scene, counted from 0
     #[arg(long, value_name = "INDEX", default_value_t = 0)]
     bubble: usize,
     /// Move the film by the reference model, in f64 on the CPU
@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(print(format_args!("{}\n{}", summary(&cells), viscosity(&scene.scene, arguments.bubble)))?)
 }
 
-/// The viscosity of a film that moves by itself, beside that of soapy water with mobile surfaces, in a line.
+/// A line with the viscosity of a film that moves by itself, beside the viscosity of soapy water with mobile surfaces.
 fn viscosity(scene: &Scene, bubble: usize) -> String {
     let Some(bubble) = scene.bubbles.get(bubble).filter(|_| scene.motion.flow == Flow::Free) else {
         return String::new();

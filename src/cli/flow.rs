@@ -16,26 +16,26 @@ use crate::{
     physics::flow::{FlowCase, FlowCaseKind, Mode},
 };
 
-/// Run a test of the flow solver against its exact solution on the unit sphere.
+/// Run a test of the flow solver against an exact solution on the unit sphere.
 #[derive(Args)]
 #[command(after_help = "Example:\n  soapfilm flow --case rossby-haurwitz --cells 64 --steps 80 --json norms.json")]
 pub struct Arguments {
-    /// Which flow
+    /// The test case
     #[arg(long, value_name = "rossby-haurwitz|stationary|sloshing|decay|poisson")]
     case: FlowCaseKind,
     /// Cells along an edge of the cube
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=512))]
     cells: u32,
-    /// Steps that make one wavelength, turn, period or e-folding
+    /// Steps per wavelength, turn, period or e-folding
     #[arg(long, value_name = "M", default_value_t = 80, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
     steps: u32,
-    /// Wavelengths, turns, periods or e-foldings
+    /// Number of wavelengths, turns, periods or e-foldings
     #[arg(long, value_name = "R", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4_000))]
     repeat: u32,
     /// Degree of the harmonic of sloshing, decay and poisson [default: 1 for sloshing, else 5]
     #[arg(long, value_name = "L")]
     degree: Option<u32>,
-    /// Its order [default: 1 for sloshing, else 4, or the degree if that is less]
+    /// Order of this harmonic [default: 1 for sloshing, else 4, or the degree if it is smaller]
     #[arg(long, value_name = "m")]
     order: Option<u32>,
     /// Axis of the flow; of gravity in sloshing, upwards
@@ -44,10 +44,10 @@ pub struct Arguments {
     /// ω, the solid rotation of rossby-haurwitz and stationary
     #[arg(long, value_name = "W", default_value_t = 1.0, value_parser = parse::within(LARGEST), allow_hyphen_values = true)]
     omega: f64,
-    /// K, the strength of the wave, or of the jet's P₃ [default: 1 for rossby-haurwitz, 0.1 for stationary]
+    /// K, the strength of the wave, or of the P₃ of the jet [default: 1 for rossby-haurwitz, 0.1 for stationary]
     #[arg(long, value_name = "K", value_parser = parse::within(LARGEST), allow_hyphen_values = true)]
     k: Option<f64>,
-    /// a of ln h = -a z in sloshing; negative is upside down, and grows
+    /// a of ln h = -a z in sloshing; negative: upside down and unstable
     #[arg(long, value_name = "A", default_value_t = 1.0, value_parser = parse::within(-20.0..=20.0), allow_hyphen_values = true)]
     stratification: f64,
     /// Drag of the air in sloshing, 1/s
@@ -69,7 +69,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let run = FlowRun {
         case,
         cells: arguments.cells,
-        steps_a_span: arguments.steps,
+        steps_per_span: arguments.steps,
         spans: arguments.repeat,
         cycles: Cycles::default(),
     };
@@ -80,7 +80,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     drop(progress);
     anyhow::ensure!(
         is_finite(&outcome),
-        "the flow has left the numbers that a GPU holds: take more --steps, or less of what drives it"
+        "the flow is no longer finite on the GPU: take more --steps, or weaker driving"
     );
     let mut line = format!("{}: l2 {:.3e}", case.kind().name(), outcome.l2);
     if outcome.energy_drift.is_finite() {
@@ -91,7 +91,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         line += &format!(", growth {:.6} (exact {:.6})", found.growth, case.growth());
     }
     let cpu_ms = outcome.cpu.as_secs_f64() * 1e3;
-    print(format_args!("{line}; {} dispatches and {cpu_ms:.2} ms of process CPU a step\n", outcome.dispatches))?;
+    print(format_args!("{line}; {} dispatches and {cpu_ms:.2} ms of process CPU per step\n", outcome.dispatches))?;
     if let Some(path) = &arguments.json {
         write_text(path, &serde_json::to_string_pretty(&report(arguments, &case, &outcome))?)?;
     }
@@ -108,11 +108,11 @@ fn case(arguments: &Arguments) -> anyhow::Result<FlowCase> {
     let sloshes = arguments.case == FlowCaseKind::Sloshing;
     let degree = arguments.degree.unwrap_or(if sloshes { 1 } else { 5 });
     let order = arguments.order.unwrap_or(if sloshes { 1 } else { 4.min(degree) });
-    let usual = if arguments.case == FlowCaseKind::RossbyHaurwitz { 1.0 } else { 0.1 };
-    let (mode, k) = (Mode::new(degree, order, u32::from(sloshes))?, arguments.k.unwrap_or(usual));
+    let default = if arguments.case == FlowCaseKind::RossbyHaurwitz { 1.0 } else { 0.1 };
+    let (mode, k) = (Mode::new(degree, order, u32::from(sloshes))?, arguments.k.unwrap_or(default));
     anyhow::ensure!(
         !sloshes || arguments.stratification != 0.0,
-        "without stratification nothing sloshes: use another than 0"
+        "without stratification nothing sloshes: use a value other than 0"
     );
     let case = FlowCase::new(arguments.case, arguments.axis, mode, arguments.omega, k)?;
     Ok(case.with_film(arguments.stratification, arguments.drag))

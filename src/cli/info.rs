@@ -11,11 +11,11 @@ use crate::{
     output::{print, write_text},
 };
 
-/// List the graphics adapters and what soapfilm uses of them.
+/// List the graphics adapters and the features that soapfilm uses.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  soapfilm info\n  soapfilm info --json\n  soapfilm info --json info.json")]
 pub struct Arguments {
-    /// Print JSON in place of text, or write it to a file beside the text
+    /// Print JSON instead of text, or write it to a file besides the text
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
     json: Option<Option<PathBuf>>,
     #[command(flatten)]
@@ -46,11 +46,11 @@ fn for_people(report: &Value) -> String {
     }
     lines.push(format!("uses       {}, driver {}", text(&report["adapter"]), text(&report["driver"])));
     for feature in list(&report["features"]) {
-        let used = if feature["used"] == true { "used" } else { "not there; soapfilm works without it" };
+        let used = if feature["used"] == true { "used" } else { "not available; soapfilm works without it" };
         lines.push(format!("feature    {}: {used}", text(&feature["name"])));
     }
     let limit = |name: &str| report["limits"][name].as_u64().unwrap_or(0);
-    lines.push(format!("textures   up to {} pixels a side", limit("max_texture_dimension_2d")));
+    lines.push(format!("textures   up to {} pixels per side", limit("max_texture_dimension_2d")));
     lines.push(format!("buffers    up to {}", bytes(limit("max_buffer_size"))));
     lines.push(format!("bindings   of storage up to {}", bytes(limit("max_storage_buffer_binding_size"))));
     lines.join("\n") + "\n"

@@ -16,13 +16,13 @@ use crate::{
     },
 };
 
-/// Write the lookup table of film colours, and how to sample it
+/// Write the lookup table of film colours, with code that samples it
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  soapfilm lut -o water.exr --illuminant A\n  soapfilm lut -o film.ktx2 --film \"glycerol 30%\"\n\nBeside the table a text with its axes, its accuracy and how to load it is written, and a file of functions that sample it for each of\nWGSL, GLSL, HLSL and Metal, and beside an EXR file also for Open Shading Language (Blender's Cycles). All are named like the table.\nThe table is computed in f64 on the CPU; no adapter is used."
+    after_help = "Examples:\n  soapfilm lut -o water.exr --illuminant A\n  soapfilm lut -o film.ktx2 --film \"glycerol 30%\"\n\nThe command also writes a text on the axes, the accuracy and how to load the table, and files of functions that sample it in\nWGSL, GLSL, HLSL and Metal, and with an EXR file also in Open Shading Language (Blender's Cycles). All are named like the table.\nThe table is computed in f64 on the CPU; no adapter is used."
 )]
 pub struct Arguments {
-    /// The file to write: .exr for programs that load pictures, .ktx2 or .bin (texels alone, described by a .json file) for engines and the web
+    /// The file to write: .exr for programs that load pictures, .ktx2 or .bin (raw texels, described by a .json file) for engines and the web
     #[arg(short, value_name = "FILE.exr|FILE.ktx2|FILE.bin")]
     output: PathBuf,
     /// `water`, `water 25C`, `glycerol 30%`, a refractive index, or a CSV file of wavelength_nm,n
@@ -39,7 +39,7 @@ pub struct Arguments {
     /// Columns and rows
     #[arg(long, value_name = "COLUMNSxROWS", default_value = "64x2048", value_parser = parse::table_size, allow_hyphen_values = true)]
     size: [u32; 2],
-    /// Write 32-bit floats in place of 16-bit ones; some GPUs cannot filter them
+    /// Write 32-bit floats instead of 16-bit floats; some GPUs cannot filter them
     #[arg(long)]
     float32: bool,
     #[command(flatten)]
@@ -160,8 +160,8 @@ fn metadata(arguments: &Arguments, table: &FilmTable, accuracy: &Accuracy) -> Me
         .with("Film", &arguments.film)
         .with("Skin", &format!("{} nm", arguments.skin))
         .with("Illuminant", &arguments.illuminant)
-        .with("Columns", &format!("{columns}, texel centre x = 0 .. {}: cos_theta = (x / {})^2", columns - 1, columns - 1))
-        .with("Rows", &format!("{rows}, texel centre y = 0 .. {}: thickness_nm = {max_thickness_nm} t (t + 0.5) / 1.5 / cos_t, t = y / {}", rows - 1, rows - 1))
+        .with("Columns", &format!("{columns}, texel center x = 0 .. {}: cos_theta = (x / {})^2", columns - 1, columns - 1))
+        .with("Rows", &format!("{rows}, texel center y = 0 .. {}: thickness_nm = {max_thickness_nm} t (t + 0.5) / 1.5 / cos_t, t = y / {}", rows - 1, rows - 1))
         .with("CosT", &format!("sqrt(1 - (1 - cos_theta^2) / {index}^2), the cosine inside the film"))
         .with("FirstRow", "y = 0, no film, is the first row of the file and the top of the picture")
         .with("Values", "linear BT.2020 colour of reflected white light (perfect mirror: Y = 1) / Rmax(cos_theta)")
@@ -179,7 +179,7 @@ fn description(arguments: &Arguments, metadata: &Metadata) -> String {
     let rows = ["R", "G", "B"].into_iter().zip(0..);
     let to_bt709 = rows.map(|(name, row)| format!("  {name} = {}\n", weighted(matrix.row(row), ["r", "g", "b"])));
     format!(
-        "{}: what a film of {} reflects under {}\n\n{}\n{LOADING}\nFrom linear BT.2020 r, g, b to linear BT.709 (sRGB primaries):\n{}\n{PHYSICS_IS_LESS_CERTAIN}\n",
+        "{}: the colour that a film of {} reflects under {}\n\n{}\n{LOADING}\nFrom linear BT.2020 r, g, b to linear BT.709 (sRGB primaries):\n{}\n{PHYSICS_IS_LESS_CERTAIN}\n",
         arguments.output.file_name().unwrap_or_default().to_string_lossy(),
         arguments.film,
         arguments.illuminant,

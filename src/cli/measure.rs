@@ -11,7 +11,7 @@ use crate::{
         timing::{Counts, PassTime},
     },
     output::{tell, write_text},
-    plan::Want,
+    plan::FrameRequest,
 };
 
 /// What the first frame did, bakes included.
@@ -32,7 +32,7 @@ pub fn passes(renderer: &Renderer) -> FirstFrame {
     }
 }
 
-/// Medians over repeated frames, in milliseconds; nothing without repeats.
+/// Medians over repeated frames, in milliseconds; `None` without repeats.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cost {
     cpu_ms: Option<f64>,
@@ -43,14 +43,14 @@ pub struct Cost {
 /// Frames drawn before any is measured.
 const WARM_UP: u32 = 3;
 
-/// Draws a frame again and again, everything but the bakes anew, and takes medians. Yardstick frames alternate with the others, so
+/// Draws a frame repeatedly, except for baked tables, and takes medians. Yardstick frames alternate with the others, so
 /// that both see the same machine.
-pub fn frames(renderer: &mut Renderer, want: &Want, repeats: u32, yardstick: bool) -> anyhow::Result<Cost> {
-    let mut plain = want.clone();
+pub fn frames(renderer: &mut Renderer, request: &FrameRequest, repeats: u32, yardstick: bool) -> anyhow::Result<Cost> {
+    let mut plain = request.clone();
     plain.picture.draw.yardstick = true;
     let (mut cpu, mut wall, mut yard) = (Vec::new(), Vec::new(), Vec::new());
     for round in 0..if repeats > 0 { repeats + WARM_UP } else { 0 } {
-        let (cpu_ms, wall_ms) = frame(renderer, want)?;
+        let (cpu_ms, wall_ms) = frame(renderer, request)?;
         let yard_ms = if yardstick { Some(frame(renderer, &plain)?.0) } else { None };
         if round >= WARM_UP {
             cpu.push(cpu_ms);
@@ -62,10 +62,10 @@ pub fn frames(renderer: &mut Renderer, want: &Want, repeats: u32, yardstick: boo
 }
 
 /// Process CPU and wall time of one frame, in milliseconds.
-fn frame(renderer: &mut Renderer, want: &Want) -> anyhow::Result<(f64, f64)> {
+fn frame(renderer: &mut Renderer, request: &FrameRequest) -> anyhow::Result<(f64, f64)> {
     renderer.forget_picture();
     let (cpu, wall) = (ProcessTime::try_now()?, Instant::now());
-    renderer.bring(want)?;
+    renderer.render(request)?;
     renderer.gpu.wait()?;
     Ok((cpu.try_elapsed()?.as_secs_f64() * 1e3, wall.elapsed().as_secs_f64() * 1e3))
 }

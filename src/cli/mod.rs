@@ -2,7 +2,7 @@
 //!
 //! Every command names the adapter it used on stderr, fails with one clear line there and a non-zero exit, and never leaves a
 //! half-written file. Exit codes: 0, done; 1, it cannot be done; 2, the arguments make no sense; 141, the reader of standard output has
-//! stopped, as `head` does, which is no error and ends the program without a word.
+//! stopped, as `head` does, which is not an error and ends the program without a message.
 
 mod colour;
 mod failure;
@@ -38,8 +38,8 @@ use crate::{
     scene::Setting,
 };
 
-/// Said wherever errors of colours are: small ones make the numerics invisible, and are no claim about a real film.
-const PHYSICS_IS_LESS_CERTAIN: &str = "Colours are less certain than their numerics: 0.001 in a film's index is a mean dE2000 of 0.44, a nanometre of its thickness 0.64.";
+/// Accompanies all errors of colours: small ones concern the numerics alone, and are no claim about a real film.
+const PHYSICS_IS_LESS_CERTAIN: &str = "Colours are less certain than the numerics: an error of 0.001 in the index of the film changes them by a mean dE2000 of 0.44, an error of 1 nm in its thickness by 0.64.";
 
 /// Soap bubbles with correct thin-film interference and a film that flows.
 #[derive(Parser)]
@@ -70,22 +70,22 @@ enum Command {
     Film(film::Arguments),
     /// Report the colour that a film reflects
     Colour(colour::Arguments),
-    /// Write the lookup table of film colours, and how to sample it
+    /// Write the lookup table of film colours, with code that samples it
     Lut(lut::Arguments),
     /// Run a published test of transport on the sphere
     Transport(transport::Arguments),
-    /// Run a test of the flow solver against its exact solution
+    /// Run a test of the flow solver against an exact solution
     Flow(flow::Arguments),
     /// Measure this machine's GPU against the references
     Verify(verify::Arguments),
-    /// List the graphics adapters and what soapfilm uses of them
+    /// List the graphics adapters and the features that soapfilm uses
     Info(info::Arguments),
 }
 
 #[derive(Args)]
 #[command(after_help = "Example:\n  soapfilm app windows")]
 struct AppArguments {
-    /// A scene file, or the name of a preset; the default bubble without one
+    /// A scene file, or the name of a preset [default: the default bubble]
     scene: Option<PathBuf>,
     #[command(flatten)]
     settings: SceneSettings,
@@ -96,10 +96,10 @@ struct AppArguments {
 /// Which adapter a command runs on.
 #[derive(Args, Clone, Debug)]
 struct AdapterArguments {
-    /// Part of the name of the adapter to use [default: $WGPU_ADAPTER_NAME, else the best one]
+    /// Adapter to use, by a part of its name [default: $WGPU_ADAPTER_NAME, else the best adapter]
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
-    /// Graphics backend to use: vulkan, metal, dx12 or gl [default: $WGPU_BACKEND, else the best one]
+    /// Graphics backend to use: vulkan, metal, dx12 or gl [default: $WGPU_BACKEND, else the best backend]
     #[arg(long, value_name = "NAME")]
     backend: Option<String>,
 }
@@ -126,7 +126,7 @@ struct SceneSettings {
 }
 
 impl SceneSettings {
-    /// Loads a scene with these settings, and says on stderr what of it no real bubble does, and how its files were read where that is in doubt.
+    /// Loads a scene with these settings; warns on stderr about unphysical values, and notes how its files were read where that is in doubt.
     fn load(&self, name: &Path) -> Result<LoadedScene, LoadError> {
         let loaded = load_scene_with(name, &self.settings)?;
         for warning in loaded.scene.warnings() {
@@ -188,13 +188,13 @@ fn run(arguments: Arguments, open_window: OpenWindow) -> anyhow::Result<()> {
     }
 }
 
-/// Says on stderr what a user should know of how files were read.
+/// Prints on stderr what a user should know of how files were read.
 fn tell_notes(notes: &[String]) {
     notes.iter().for_each(|note| tell(format_args!("note: {note}")));
 }
 
-/// Does something that tells by its result all that a user needs to know: drivers that are not there complain at length when others are looked
-/// for. Who asks for logs by `RUST_LOG` gets them.
+/// Runs something whose result tells the user everything: missing drivers log long complaints when others are looked
+/// for. `RUST_LOG` shows these logs.
 fn without_logs<T>(action: impl FnOnce() -> T) -> T {
     let level = log::max_level();
     if std::env::var_os("RUST_LOG").is_none() {

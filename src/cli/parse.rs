@@ -17,7 +17,7 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
     let size = [number(parts.0)?, number(parts.1)?];
     let pixels = size.map(u64::from).iter().product::<u64>();
     match pixels {
-        0 => Err("a picture needs at least one pixel each way".to_owned()),
+        0 => Err("a picture needs at least one pixel in width and height".to_owned()),
         pixels if pixels > MAX_PIXELS => Err(format!("that is {pixels} pixels; at most {MAX_PIXELS} (8192x8192) fit")),
         _ => Ok(size),
     }
@@ -26,7 +26,7 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
 /// A time in seconds, from 0.
 pub fn time_s(text: &str) -> Result<f64, String> {
     let time = finite(text)?;
-    if time < 0.0 { Err("a time before the start: use 0 or later".to_owned()) } else { Ok(time) }
+    if time < 0.0 { Err("the time is before the start: use 0 or later".to_owned()) } else { Ok(time) }
 }
 
 /// A number that is neither infinite nor NaN.

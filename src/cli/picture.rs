@@ -15,7 +15,7 @@ use crate::{
     input::LoadedScene,
     output::{Metadata, Picture},
     physics::colour::Gamut,
-    plan::{Moment, Pace, Plan, Shot, Story, Want, has_one_film, plan},
+    plan::{FrameRequest, Moment, Pace, Plan, Shot, Story, has_one_film, plan},
     studio::MAX_TICKS,
     verify::reference::{MovedFilms, moved_film, needs_device, radiance},
 };
@@ -28,10 +28,11 @@ pub struct PictureArguments {
     /// Width and height in pixels
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse::size, allow_hyphen_values = true)]
     size: [u32; 2],
-    /// `fast`, `standard`, `spectral` (wavelengths in the shader) or `reference` (f64 on the CPU; a GPU is needed for a film that moves by itself) [default: the scene's]
+    /// `fast`, `standard`, `spectral` (wavelengths in the shader) or `reference` (f64 on the CPU; only a film that moves by itself needs a GPU)
+    /// [default: the scene's]
     #[arg(long, value_name = "QUALITY", value_parser = parse::quality)]
     quality: Option<parse::Quality>,
-    /// Colours of a PNG: `srgb`, or `p3` for wide displays
+    /// Colour space of a PNG: `srgb`, or `p3` for wide-gamut displays
     #[arg(long, value_name = "GAMUT", default_value = "srgb", value_parser = parse::gamut)]
     gamut: Gamut,
     #[command(flatten)]
@@ -106,7 +107,7 @@ impl<'a> Painter<'a> {
     }
 
     /// What a picture of a moment needs.
-    pub fn want(&self, moment: Moment) -> anyhow::Result<Want> {
+    pub fn request(&self, moment: Moment) -> anyhow::Result<FrameRequest> {
         let shot = Shot {
             size: self.arguments.size,
             moment,
@@ -115,10 +116,10 @@ impl<'a> Painter<'a> {
             yardstick: false,
             pace: Pace::Whole,
         };
-        Ok(self.story.want(&self.loaded.resources, &shot).map_err(|fault| self.loaded.source.locate(fault))?)
+        Ok(self.story.request(&self.loaded.resources, &shot).map_err(|fault| self.loaded.source.locate(fault))?)
     }
 
-    /// What the file says about itself.
+    /// The metadata of the file.
     pub fn metadata(&self, time_s: f64) -> Metadata {
         Metadata::new()
             .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
@@ -127,8 +128,8 @@ impl<'a> Painter<'a> {
     }
 
     /// Opens the adapter if a picture needs one. Called before a bar is shown, so that the adapter's name does not run into it.
-    pub fn prepare(&mut self, want: &Want) -> anyhow::Result<()> {
-        if !self.arguments.is_reference() || want.picture.draw.bubbles.iter().any(needs_device) {
+    pub fn prepare(&mut self, request: &FrameRequest) -> anyhow::Result<()> {
+        if !self.arguments.is_reference() || request.picture.draw.bubbles.iter().any(needs_device) {
             self.renderer()?;
         }
         Ok(())
@@ -145,15 +146,19 @@ impl<'a> Painter<'a> {
     }
 
     /// Draws or computes a picture, which is the next part of the work.
-    pub fn paint(&mut self, want: &Want, progress: &Progress) -> anyhow::Result<Picture> {
-        if self.arguments.is_reference() { self.compute(want, progress) } else { Ok(self.draw(want, progress)?.0) }
+    pub fn paint(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Picture> {
+        if self.arguments.is_reference() {
+            self.compute(request, progress)
+        } else {
+            Ok(self.draw(request, progress)?.0)
+        }
     }
 
     /// Draws a picture on the device; also gives the plan that was carried out.
-    pub fn draw(&mut self, want: &Want, progress: &Progress) -> anyhow::Result<(Picture, Plan)> {
+    pub fn draw(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<(Picture, Plan)> {
         let (format, size, gamut) = (self.format, self.arguments.size, self.arguments.gamut);
         let renderer = self.renderer()?;
-        let plan = carry_out(renderer, want, progress)?;
+        let plan = carry_out(renderer, request, progress)?;
         let readback = match format {
             Format::Png => renderer.read_picture(),
             Format::Exr => renderer.read_radiance(),
@@ -166,25 +171,25 @@ impl<'a> Painter<'a> {
         Ok((picture, plan))
     }
 
-    fn compute(&mut self, want: &Want, progress: &Progress) -> anyhow::Result<Picture> {
-        let films = self.moved_films(want)?;
-        let rows = u64::from(self.arguments.size[1]) * want.picture.draw.lights().count() as u64;
+    fn compute(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Picture> {
+        let films = self.moved_films(request)?;
+        let rows = u64::from(self.arguments.size[1]) * request.picture.draw.lights().count() as u64;
         let part = progress.part(rows);
-        let radiance = radiance(&want.picture.draw, &films, &|| part.add(1))?;
+        let radiance = radiance(&request.picture.draw, &films, &|| part.add(1))?;
         Ok(match self.format {
-            Format::Png => reference::display(&want.picture, &radiance),
+            Format::Png => reference::display(&request.picture, &radiance),
             Format::Exr => reference::linear(self.arguments.size, &radiance),
         })
     }
 
     /// The films that only the device can move, at their moment.
-    fn moved_films(&mut self, want: &Want) -> anyhow::Result<MovedFilms> {
-        let bubbles = &want.picture.draw.bubbles;
+    fn moved_films(&mut self, request: &FrameRequest) -> anyhow::Result<MovedFilms> {
+        let bubbles = &request.picture.draw.bubbles;
         if !bubbles.iter().any(needs_device) {
             return Ok(MovedFilms::new());
         }
         let renderer = self.renderer()?;
-        renderer.bring(want)?;
+        renderer.render(request)?;
         let films = bubbles.iter().filter(|bubble| needs_device(bubble)).map(|bubble| {
             let (_, field) = moved_film(renderer, bubble.index)?.context("the film was not moved")?;
             Ok((bubble.index, field))
@@ -193,9 +198,9 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// Brings the wanted picture; somebody who watches hears of each piece of work once the device has done it.
-fn carry_out(renderer: &mut Renderer, want: &Want, progress: &Progress) -> Result<Plan, GpuError> {
-    let plan = plan(want, renderer.have());
+/// Renders the requested picture, and reports each piece of work to the progress display once the device has done it.
+fn carry_out(renderer: &mut Renderer, request: &FrameRequest, progress: &Progress) -> Result<Plan, GpuError> {
+    let plan = plan(request, renderer.state());
     let part: Part = progress.part(plan.work());
     renderer.watcher = progress.is_shown().then(|| Box::new(move |work| part.add(work)) as _);
     let done = renderer.execute(&plan);

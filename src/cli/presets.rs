@@ -9,13 +9,13 @@ use crate::{
     scene::{preset_names, preset_sentence},
 };
 
-/// List the built-in scenes, each with a sentence about it
+/// List the built-in scenes, each with a sentence that describes it
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  soapfilm presets\n  soapfilm presets --json\n\nEvery command that takes a scene takes these names. No adapter is used."
+    after_help = "Examples:\n  soapfilm presets\n  soapfilm presets --json\n\nEvery command that takes a scene accepts these names. No adapter is used."
 )]
 pub struct Arguments {
-    /// Print a JSON list of `name` and `sentence` in place of text
+    /// Print a JSON list of `name` and `sentence` instead of text
     #[arg(long)]
     json: bool,
     #[command(flatten)]

@@ -12,7 +12,7 @@ const TEMPLATE: &str = "{prefix} [{bar:40}] {percent:>3} %  {left}";
 /// Steps of the bar for each part of the work.
 const PART_STEPS: u64 = 1 << 20;
 
-/// A bar on stderr with the time left, which disappears when the work is done. It is not there where stderr is no terminal. A bar that
+/// A bar on stderr with the time left, which disappears when the work is done. There is none where stderr is not a terminal. A bar that
 /// cannot be drawn never stops the work.
 pub struct Progress {
     bar: ProgressBar,
@@ -22,7 +22,7 @@ pub struct Progress {
 impl Progress {
     /// A bar for work in `parts` parts, which all take about as long.
     pub fn new(name: &'static str, parts: u64) -> Self {
-        // The default draws on stderr, and draws nothing where that is no terminal.
+        // The default draws on stderr, and draws nothing where stderr is not a terminal.
         let bar = ProgressBar::new(parts.max(1).saturating_mul(PART_STEPS)).with_style(style()).with_prefix(name);
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(500));
@@ -30,7 +30,7 @@ impl Progress {
         Self { bar, parts_begun: AtomicU64::new(0) }
     }
 
-    /// Whether somebody sees the bar.
+    /// Whether the bar is visible.
     pub fn is_shown(&self) -> bool {
         !self.bar.is_hidden()
     }
@@ -47,7 +47,7 @@ impl Progress {
         Part { bar: self.bar.clone(), start, parts, units, done: AtomicU64::new(0) }
     }
 
-    /// A part is done that takes no time.
+    /// Counts a part that took no time.
     pub fn step(&self) {
         self.part(1).add(1);
     }
@@ -74,7 +74,7 @@ pub struct Part {
 }
 
 impl Part {
-    /// So many units more are done; from any thread.
+    /// Adds a number of finished units; from any thread.
     pub fn add(&self, units: u64) {
         let done = self.done.fetch_add(units, Ordering::Relaxed).saturating_add(units);
         let part = done.min(self.units) as f64 / self.units.max(1) as f64;

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     output::{Picture, check_target, print},
-    plan::Want,
+    plan::FrameRequest,
 };
 
 /// Draw one picture into a PNG or EXR file.
@@ -26,19 +26,19 @@ pub struct Arguments {
     /// The file to write, .png or .exr
     #[arg(short, value_name = "FILE")]
     output: PathBuf,
-    /// Moment of the film, in seconds from its start
+    /// Time of the film, in seconds from its start
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = parse::time_s)]
     time: f64,
     /// Print the frame plan, and why each pass runs
     #[arg(long)]
     explain: bool,
-    /// Draw the frame N times more, everything but the bakes anew each time, and measure
+    /// Draw the frame N more times, each time anew except for baked tables, and measure it
     #[arg(long, value_name = "N", default_value_t = 0)]
     repeat: u32,
-    /// Between the repeated frames, draw as many with a plain sphere that does one environment lookup, and report both
+    /// Between the repeated frames, draw as many frames of a plain mirror sphere with one environment lookup, and report both
     #[arg(long)]
     yardstick: bool,
-    /// Write what the frame cost to a JSON file
+    /// Write the cost of the frame to a JSON file
     #[arg(long, value_name = "FILE.json")]
     stats: Option<PathBuf>,
     #[command(flatten)]
@@ -52,23 +52,23 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let mut painter = Painter::new(&arguments.picture, format, &arguments.scene)?;
     let moment = painter.moment(arguments.time, &format!("--time {}", arguments.time))?;
-    let want = painter.want(moment)?;
-    let picture = draw(arguments, &mut painter, &want)?;
+    let request = painter.request(moment)?;
+    let picture = draw(arguments, &mut painter, &request)?;
     Ok(picture.save(&arguments.output, &painter.metadata(arguments.time))?)
 }
 
-fn draw(arguments: &Arguments, painter: &mut Painter<'_>, want: &Want) -> anyhow::Result<Picture> {
+fn draw(arguments: &Arguments, painter: &mut Painter<'_>, request: &FrameRequest) -> anyhow::Result<Picture> {
     let measures = arguments.repeat > 0 || arguments.stats.is_some();
     let is_reference = arguments.picture.is_reference();
     if is_reference && (arguments.explain || measures) {
-        bail!("--explain, --repeat and --stats tell of the GPU; leave them out with --quality reference");
+        bail!("--explain, --repeat and --stats report on the GPU; leave them out with --quality reference");
     }
-    painter.prepare(want)?;
+    painter.prepare(request)?;
     let progress = Progress::new("render", 1);
     if is_reference {
-        return painter.paint(want, &progress);
+        return painter.paint(request, &progress);
     }
-    let (picture, plan) = painter.draw(want, &progress)?;
+    let (picture, plan) = painter.draw(request, &progress)?;
     drop(progress);
     if arguments.explain {
         print(plan)?;
@@ -76,7 +76,7 @@ fn draw(arguments: &Arguments, painter: &mut Painter<'_>, want: &Want) -> anyhow
     if measures {
         let renderer = painter.renderer()?;
         let first = measure::passes(renderer);
-        let cost = measure::frames(renderer, want, arguments.repeat, arguments.yardstick)?;
+        let cost = measure::frames(renderer, request, arguments.repeat, arguments.yardstick)?;
         measure::report(renderer, &first, &cost, arguments.stats.as_deref())?;
     }
     Ok(picture)

@@ -14,30 +14,30 @@ use super::{
 };
 use crate::{
     output::{FrameRate, tell},
-    plan::Want,
+    plan::FrameRequest,
 };
 
 /// Draw numbered pictures into a folder; frame N shows the film N / fps seconds after its start
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  soapfilm sequence default -o frames --frames 0..299 --fps 30\n  soapfilm sequence life -o film --frames 0..479 --fps 24000/1001 --format exr\n\nEXR files say their rate and their time code (framesPerSecond, timeCode)."
+    after_help = "Examples:\n  soapfilm sequence default -o frames --frames 0..299 --fps 30\n  soapfilm sequence life -o film --frames 0..479 --fps 24000/1001 --format exr\n\nEXR files hold the frame rate and the time code (framesPerSecond, timeCode)."
 )]
 pub struct Arguments {
     /// A scene file, or the name of a preset
     scene: PathBuf,
-    /// The folder to write to, made if it is not there
+    /// The folder to write to, created if it does not exist
     #[arg(short, value_name = "DIR")]
     output: PathBuf,
     /// First and last frame
     #[arg(long, value_name = "A..B", value_parser = frames, allow_hyphen_values = true)]
     frames: Frames,
-    /// Frames in a second of film time: a number, or a ratio like 24000/1001
+    /// Frames per second of film time: a number, or a ratio like 24000/1001
     #[arg(long, value_name = "FPS", default_value = "30")]
     fps: FrameRate,
-    /// Kind of files: `png` as the window shows it, or `exr` of scene radiance
+    /// Format of the files: `png`, as the window shows it, or `exr` with scene radiance
     #[arg(long, value_name = "png|exr", default_value = "png")]
     format: Format,
-    /// Draw frames anew that are already there
+    /// Draw frames again that already exist
     #[arg(long)]
     overwrite: bool,
     #[command(flatten)]
@@ -64,11 +64,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let last = painter.moment(arguments.fps.time_s(*frames.end()), &format!("frame {}", frames.end()))?;
     // What cannot be drawn is refused before the first frame, not hours later. Where all films are of one kind, one frame stands for all.
     let count = if painter.has_one_film() { 1 } else { usize::MAX };
-    frames.clone().take(count).try_for_each(|frame| want(arguments, &painter, frame).map(|_| ()))?;
-    let last = painter.want(last)?;
+    frames.clone().take(count).try_for_each(|frame| request(arguments, &painter, frame).map(|_| ()))?;
+    let last = painter.request(last)?;
     let folder = &arguments.output;
     painter.prepare(&last)?;
-    std::fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be made", folder.display()))?;
+    std::fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be created", folder.display()))?;
     let progress = Progress::new("sequence", frames.clone().count() as u64);
     let mut skipped = 0;
     for frame in frames {
@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     drop(progress);
     if skipped > 0 {
-        tell(format_args!("frames that were already there and stayed: {skipped} (draw them anew with --overwrite)"));
+        tell(format_args!("frames that already existed and were kept: {skipped} (draw them again with --overwrite)"));
     }
     Ok(())
 }
@@ -96,13 +96,13 @@ fn draw(
     progress: &Progress,
 ) -> anyhow::Result<()> {
     let time_s = arguments.fps.time_s(frame);
-    let want = want(arguments, painter, frame)?;
-    let picture = painter.paint(&want, progress)?;
+    let request = request(arguments, painter, frame)?;
+    let picture = painter.paint(&request, progress)?;
     Ok(picture.save(path, &painter.metadata(time_s).of_frame(arguments.fps, frame))?)
 }
 
-fn want(arguments: &Arguments, painter: &Painter<'_>, frame: u64) -> anyhow::Result<Want> {
-    painter.want(painter.moment(arguments.fps.time_s(frame), &format!("frame {frame}"))?)
+fn request(arguments: &Arguments, painter: &Painter<'_>, frame: u64) -> anyhow::Result<FrameRequest> {
+    painter.request(painter.moment(arguments.fps.time_s(frame), &format!("frame {frame}"))?)
 }
 
 #[cfg(test)]

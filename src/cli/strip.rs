@@ -12,11 +12,11 @@ use crate::{
     },
 };
 
-/// Thickness of the last column: a column a nanometre, the first is no film.
+/// Thickness of the last column: one column per nanometre, the first without film.
 pub const LAST_NM: u32 = 1500;
 const HEIGHT: u32 = 120;
 
-/// Saves the colours of the columns, XYZ where a perfect mirror has Y = 1, exposed so that the most that the film reflects is white.
+/// Saves the colours of the columns, XYZ where a perfect mirror has Y = 1, exposed so that the maximum reflected by the film is white.
 pub fn save(path: &Path, colours: &[DVec3], film: &FilmMaterial, metadata: &Metadata) -> Result<(), OutputError> {
     let exposure_ev = -film.max_reflectance(1.0).max(1e-3).log2();
     let display = Display { exposure_ev, balance: DMat3::IDENTITY, gamut: Gamut::Srgb, dither: None };

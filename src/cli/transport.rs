@@ -43,34 +43,34 @@ pub struct Arguments {
     /// Cells along an edge of the cube
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=1024))]
     cells: u32,
-    /// Steps a period
+    /// Steps per period
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     steps: u32,
-    /// Periods
+    /// Number of periods
     #[arg(long, value_name = "P", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     periods: u32,
-    /// Stop after this part of all steps
+    /// Stop after this fraction of the steps
     #[arg(long, value_name = "F", default_value = "1", value_parser = fraction)]
     until: f64,
     /// Axis of the wind [default: 1,0,0 for sb, 0,0,1 for nd and dv]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::direction, allow_hyphen_values = true)]
     axis: Option<DVec3>,
-    /// Put one feature of the tracer there
+    /// Direction of one feature of the tracer
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::direction, allow_hyphen_values = true)]
     tracer_at: Option<DVec3>,
-    /// What the tracer stands for: `density` or `ratio`; they differ in the divergent wind
+    /// Meaning of the tracer: `density` or `ratio`; they differ in the divergent wind
     #[arg(long, value_name = "density|ratio", default_value = "density")]
     kind: Quantity,
-    /// How the tracer is moved: the flow map remapped rarely, the same with a finer tracer, or at each step
+    /// Transport scheme: the flow map, remapped rarely; the flow map with a finer tracer; or remapping at each step
     #[arg(long, value_name = "bilinear|bicubic|bfecc|map|map-accurate", default_value = "map")]
     scheme: Scheme,
     /// Cells that a cell of the map spans along each side
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     map_coarsening: u32,
-    /// Limiter of over- and undershoots
+    /// Limiter of overshoots and undershoots
     #[arg(long, value_name = "on|off", default_value = "off")]
     limiter: Switch,
-    /// Write every cell to a CSV file
+    /// Write all cells to a CSV file
     #[arg(short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     /// Write a map of the tracer, longitude by latitude, black for 0 and white for 1
@@ -91,7 +91,7 @@ enum Switch {
 
 fn fraction(text: &str) -> Result<f64, String> {
     let value = parse::finite(text)?;
-    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a part lies between 0 and 1".to_owned()) }
+    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a fraction lies between 0 and 1".to_owned()) }
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
@@ -102,7 +102,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let gpu = arguments.adapter.open()?;
     let (moved, norms) = measured(&gpu, &case)?;
     let finite = [norms.l1, norms.l2, norms.linf, norms.min, norms.max].iter().all(|norm| norm.is_finite());
-    anyhow::ensure!(finite, "the tracer has left the numbers that a GPU holds: take more --steps, or another --scheme");
+    anyhow::ensure!(finite, "the tracer is no longer finite on the GPU: take more --steps, or another --scheme");
     print(format_args!(
         "{} steps of {}, {} remaps: l1 {:.6}, l2 {:.6}, linf {:.6}, range {:.6} to {:.6}\n",
         case.steps,
@@ -139,7 +139,7 @@ fn case(arguments: &Arguments) -> anyhow::Result<Case> {
     let map_cells = arguments.cells.div_ceil(arguments.map_coarsening) as usize;
     anyhow::ensure!(
         map_cells >= CubedSphere::MIN_N,
-        "the map would have {map_cells} cells along an edge, {} are the fewest: lower --map-coarsening, or raise --cells",
+        "the map would have {map_cells} cells along an edge, and the minimum is {}: lower --map-coarsening, or raise --cells",
         CubedSphere::MIN_N
     );
     Ok(Case {
@@ -150,9 +150,9 @@ fn case(arguments: &Arguments) -> anyhow::Result<Case> {
         scheme: arguments.scheme,
         map_coarsening: arguments.map_coarsening,
         limiter: arguments.limiter == Switch::On,
-        steps_a_period: arguments.steps,
+        steps_per_period: arguments.steps,
         steps: (arguments.until * all).round() as u64,
-        traces_a_step: Case::traces_a_step(arguments.scheme, arguments.steps),
+        traces_per_step: Case::traces_per_step(arguments.scheme, arguments.steps),
     })
 }
 

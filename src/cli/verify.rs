@@ -12,14 +12,14 @@ use crate::{
     verify::{Check, Extent, Part, Run},
 };
 
-/// Measure this machine's GPU against the references; fails if a check does
+/// Measure this machine's GPU against the references; fails if a check fails
 #[derive(Args)]
 #[command(after_help = "Example:\n  soapfilm verify\n  soapfilm verify optics picture --json checks.json")]
 pub struct Arguments {
-    /// What to verify: some of optics, picture, transport, flow, rims and stability, or all of them
+    /// What to verify: some of optics, picture, transport, flow, rims and stability, or all
     #[arg(default_value = "all", value_name = "PART", value_parser = parts)]
     parts: Vec<Parts>,
-    /// Run the checks that take longer than minutes too
+    /// Also run the checks that take longer than minutes
     #[arg(long)]
     long: bool,
     /// Write the checks to a JSON file
@@ -65,7 +65,7 @@ fn measure(arguments: &Arguments, gpu: &Gpu) -> anyhow::Result<Vec<Check>> {
     for part in &parts {
         let done = progress.parts(part.seconds(), part.checks());
         let mut report = |check: Check| {
-            // Minutes of measuring would follow that nobody reads; no file has been begun.
+            // Minutes of measuring would follow without a reader; no file has been begun.
             print(&line(&check)).unwrap_or_else(|error| std::process::exit(failure::report(&error.into()).into()));
             done.add(1);
             checks.push(check);

@@ -1,5 +1,5 @@
 //! What an adapter must be able to do. One that lacks something is refused when it is opened, with the name of what it lacks: some backends
-//! would draw nothing instead, and say so in a log that nobody reads.
+//! would draw nothing instead, and report it only in a log.
 
 use wgpu::{DownlevelFlags, TextureFormat, TextureUsages};
 
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_missing_of_a_format_is_named() {
+    fn missing_abilities_of_a_format_are_named() {
         let need = &FORMATS[0];
         let all = wgpu::TextureFormatFeatures {
             allowed_usages: TextureUsages::all(),

@@ -17,7 +17,7 @@ shader_struct! {
         /// The map's distortion over the limit, as the bits of a float.
         pub distortion: u32,
         /// Values that were not finite and have been replaced.
-        pub healed: u32,
+        pub sanitised: u32,
         /// Ticks that the last remap came after the one before it.
         pub ticks_remapped: u32,
         /// What evaporation has left in black film, at which it ends, as a mean over the sphere in nm.

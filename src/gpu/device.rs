@@ -67,7 +67,7 @@ pub enum GpuError {
     NoDevice {
         /// The adapter's name.
         adapter: String,
-        /// What the driver said.
+        /// The message of the driver.
         reason: String,
     },
     /// The adapter cannot make pictures in full precision, as EXR files have it.
@@ -197,7 +197,7 @@ impl Gpu {
     pub fn check_picture_size(&self, [width, height]: [u32; 2]) -> Result<(), GpuError> {
         let side = self.device.limits().max_texture_dimension_2d;
         if width.max(height) > side {
-            let limit = format!("its textures have at most {side} pixels a side");
+            let limit = format!("its textures have at most {side} pixels per side");
             return Err(GpuError::TooLarge { width, height, limit });
         }
         Ok(())

@@ -3,7 +3,6 @@
 use glam::{DMat3, DVec3};
 
 use super::{
-    bands::Bands,
     device::{Gpu, GpuError},
     environment::{Environment, texel_angle},
     formats::radiance_format,
@@ -14,6 +13,7 @@ use super::{
         bubble::{BubbleUniform, RingOverrides, Shade, ShadeMirror},
         open_hole::OpenHole,
     },
+    quadrature::Quadrature,
     rings::{Ring, SIDES, disc, rings},
     shown_film::{NoFilm, Shown},
     timing::Recorder,
@@ -27,8 +27,8 @@ pub struct DrawInputs<'a> {
     pub environment: &'a Environment,
     /// The table, where the quality has one.
     pub table: Option<&'a Table>,
-    /// The bands, where there is a bubble.
-    pub bands: Option<&'a Bands>,
+    /// The quadrature, where there is a bubble.
+    pub quadrature: Option<&'a Quadrature>,
     /// What a film shows, by its index.
     pub film: &'a dyn Fn(usize) -> Option<Shown<'a>>,
     /// The hole in a film that bursts, by the film's index.
@@ -36,18 +36,18 @@ pub struct DrawInputs<'a> {
 }
 
 /// Pixels that one submission draws at most, so that none runs long.
-const PIXELS_A_SUBMISSION: u32 = 2_000_000;
+const PIXELS_PER_SUBMISSION: u32 = 2_000_000;
 
 /// Horizontal strips that a picture is cut into.
 pub fn strips([width, height]: [u32; 2]) -> impl Iterator<Item = std::ops::Range<u32>> {
-    let rows = (PIXELS_A_SUBMISSION / width.max(1)).max(1);
+    let rows = (PIXELS_PER_SUBMISSION / width.max(1)).max(1);
     (0..height).step_by(rows as usize).map(move |top| top..(top + rows).min(height))
 }
 
 /// The uniforms and bind groups of one picture, made once and used for each of its strips.
 pub struct DrawPass {
     backdrop: Drawable,
-    /// The rings of all bubbles, each with its count of vertices.
+    /// The rings of all bubbles, each with its number of vertices.
     rings: Vec<(Drawable, u32)>,
     width: u32,
 }
@@ -61,7 +61,7 @@ struct Shared<'a> {
     environment: &'a Environment,
     table: &'a Table,
     table_sampler: wgpu::Sampler,
-    bands: &'a Bands,
+    quadrature: &'a Quadrature,
 }
 
 impl DrawPass {
@@ -80,11 +80,11 @@ impl DrawPass {
         };
         let backdrop = backdrop.cover(gpu, radiance_format(key.full_precision))?;
         let mut pass = Self { backdrop, rings: Vec::new(), width: key.size[0] };
-        let Some(bands) = inputs.bands else { return Ok(pass) };
-        let unread = lighting.table.is_none().then(|| Table::unread(gpu, &lighting.bands.optics));
+        let Some(quadrature) = inputs.quadrature else { return Ok(pass) };
+        let unread = lighting.table.is_none().then(|| Table::unread(gpu, &lighting.quadrature.optics));
         let Some(table) = unread.as_ref().or(inputs.table) else { return Ok(pass) };
         let table_sampler = table_sampler(gpu);
-        let shared = Shared { key, lighting, view, light, environment, table, table_sampler, bands };
+        let shared = Shared { key, lighting, view, light, environment, table, table_sampler, quadrature };
         let (no_film, no_hole) = (NoFilm::new(gpu), OpenHole::new(gpu));
         for bubble in &key.bubbles {
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
@@ -118,13 +118,13 @@ impl Shared<'_> {
         film: &Shown<'_>,
         hole: &OpenHole,
     ) -> Result<Drawable, GpuError> {
-        let Self { key, lighting, view, light, environment, table, table_sampler, bands } = self;
+        let Self { key, lighting, view, light, environment, table, table_sampler, quadrature } = self;
         let uniform = &gpu.uniform("bubble", &bubble_uniform(key, lighting, bubble, ring, film));
         let coloured = lighting.table.as_ref().is_some_and(|table| table.coloured);
         let shade = Shade {
-            shape: ring_overrides(key, bubble, ring, bands),
+            shape: ring_overrides(key, bubble, ring, quadrature),
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: lighting.light.polariser.is_some() },
-            summed: bands.overrides(),
+            summed: quadrature.overrides(),
             view,
             light,
             environment: &environment.view,
@@ -134,7 +134,7 @@ impl Shared<'_> {
             table: &table.view,
             table_sampler,
             film: film.film,
-            bands: &bands.buffer,
+            quadrature: &quadrature.buffer,
             film_balance: film.balance,
             film_map: film.map,
             film_tracer: film.tracer,
@@ -172,29 +172,29 @@ fn pixel_span(bubble: &BubbleKey, size: u32, axis: usize) -> [u32; 2] {
 }
 
 fn bubble_rings(key: &DrawKey, bubble: &BubbleKey) -> Vec<Ring> {
-    let bands = &key.lighting.bands;
+    let quadrature = &key.lighting.quadrature;
     match key.yardstick {
         true => vec![disc(&key.camera, bubble)],
-        false => rings(&key.camera, bubble, bands.quality, &bands.optics.film),
+        false => rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film),
     }
 }
 
 /// Iterations that the loops of one fragment may take in all: llvmpipe ends them after 65,535, without a word.
 const MAX_ITERATIONS: u32 = 60_000;
 
-/// Iterations of a sample's loops beside that over the bands: further hits and lookups of the film.
-const ITERATIONS_BESIDE_BANDS: u32 = 64;
+/// Iterations of a sample's loops beside that over the wavelengths: further hits and lookups of the film.
+const ITERATIONS_BESIDE_QUADRATURE: u32 = 64;
 
 /// Samples along each side of a pixel for which a fragment's loops run to their end.
-fn max_samples(bands: &Bands) -> u32 {
-    (MAX_ITERATIONS / (bands.count + ITERATIONS_BESIDE_BANDS)).isqrt()
+fn max_samples(quadrature: &Quadrature) -> u32 {
+    (MAX_ITERATIONS / (quadrature.count + ITERATIONS_BESIDE_QUADRATURE)).isqrt()
 }
 
-fn ring_overrides(key: &DrawKey, bubble: &BubbleKey, ring: &Ring, bands: &Bands) -> RingOverrides {
+fn ring_overrides(key: &DrawKey, bubble: &BubbleKey, ring: &Ring, quadrature: &Quadrature) -> RingOverrides {
     RingOverrides {
         UNIFORM_FILM: matches!(bubble.film, FilmKey::Uniform(_)),
         MAGNIFIED: bubble.magnified,
-        SAMPLES: ring.samples.min(max_samples(bands)),
+        SAMPLES: ring.samples.min(max_samples(quadrature)),
         OUTLINE: ring.outline,
         FILTERED: bubble.filtered,
         STRETCHED: bubble.stretch != DMat3::IDENTITY,
@@ -249,7 +249,7 @@ fn bubble_uniform(
     ring: &Ring,
     shown: &Shown<'_>,
 ) -> BubbleUniform {
-    let film = &lighting.bands.optics.film;
+    let film = &lighting.quadrature.optics.film;
     let [inner, outer] = ring.corners();
     let (thickness_nm, cells) = match &bubble.film {
         FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0),
@@ -257,14 +257,14 @@ fn bubble_uniform(
     };
     let [x, y, z] = DVec3::AXES.map(|axis| bubble.to_film * axis);
     BubbleUniform {
-        to_centre_m: floats(bubble.centre_m - key.camera.eye_m),
+        to_center_m: floats(bubble.center_m - key.camera.eye_m),
         radius_m: bubble.radius_m as f32,
         inner,
         outer,
         thickness_nm,
         cells,
         tracer_cells: shown.tracer_cells,
-        thinned_nm: bubble.thinned_nm as f32,
+        evaporated_nm: bubble.evaporated_nm as f32,
         to_film: DMat3::from_cols(x, y, z).into(),
         stretch: bubble.stretch.into(),
         unstretch: bubble.stretch.inverse().into(),

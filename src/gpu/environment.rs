@@ -62,7 +62,7 @@ fn write_face(gpu: &Gpu, texture: &wgpu::Texture, level: u32, face: u32, texels:
     );
 }
 
-/// Angle between neighbouring texels at the centre of a face, in radians.
+/// Angle between neighbouring texels at the center of a face, in radians.
 #[must_use]
 pub fn texel_angle(size: u32) -> f32 {
     2.0 / size as f32

@@ -23,11 +23,11 @@ pub struct FlowOutcome {
     /// Relative error of vorticity; of the stream function for Poisson's equation. For sloshing relative to the largest vorticity of
     /// the swing, for it passes through zero.
     pub l2: f64,
-    /// Relative change of kinetic energy since the start; no number in sloshing, which starts at rest, as the next two.
+    /// Relative change of kinetic energy since the start; NaN in sloshing, which starts at rest, as are the next two.
     pub energy_drift: f64,
-    /// The same of enstrophy.
+    /// The relative drift of enstrophy.
     pub enstrophy_drift: f64,
-    /// The length of the change of angular momentum over its length at the start; no number where that is nothing but rounding.
+    /// The length of the change of angular momentum over its length at the start; NaN where the start is zero but for rounding.
     pub angular_momentum_drift: f64,
     /// The oscillation of the mode, in sloshing.
     pub oscillation: Option<Oscillation>,
@@ -47,7 +47,7 @@ pub struct FlowRun {
     /// Cells along a panel's edge.
     pub cells: u32,
     /// Steps that make the case's span.
-    pub steps_a_span: u32,
+    pub steps_per_span: u32,
     /// Spans.
     pub spans: u32,
     /// Multigrid cycles of a step.
@@ -61,7 +61,7 @@ struct State {
 }
 
 /// Steps in one submission, so that none runs long.
-const STEPS_A_SUBMISSION: u32 = 8;
+const STEPS_PER_SUBMISSION: u32 = 8;
 
 impl FlowRun {
     /// Runs it.
@@ -100,13 +100,13 @@ impl FlowRun {
     /// Length of a step, seconds; 1 where the case takes no time.
     fn dt_s(&self) -> f64 {
         let span = self.case.span_s();
-        if span > 0.0 { span / f64::from(self.steps_a_span) } else { 1.0 }
+        if span > 0.0 { span / f64::from(self.steps_per_span) } else { 1.0 }
     }
 
     /// Steps in all: none for Poisson's equation.
     #[must_use]
     pub fn all_steps(&self) -> u32 {
-        if self.case.kind() == FlowCaseKind::Poisson { 0 } else { self.steps_a_span * self.spans }
+        if self.case.kind() == FlowCaseKind::Poisson { 0 } else { self.steps_per_span * self.spans }
     }
 
     /// How long before the thickness vorticity is given: half a step in sloshing, for the two leapfrog.
@@ -142,7 +142,7 @@ impl FlowRun {
         watcher: &dyn Fn(u64),
     ) -> Result<(Vec<f64>, u64), GpuError> {
         let (mut samples, mut dispatches) = (Vec::new(), 0);
-        let batch = if self.is_sloshing() { 1 } else { STEPS_A_SUBMISSION };
+        let batch = if self.is_sloshing() { 1 } else { STEPS_PER_SUBMISSION };
         let areas = solver.sphere().areas();
         for first in (0..self.all_steps()).step_by(batch as usize) {
             let mut recorder = Recorder::new(gpu);

@@ -23,7 +23,7 @@ pub struct Grid {
     pub cells: u32,
     /// tan(α) of each cell coordinate of an edge, halo included.
     pub tangents: wgpu::Buffer,
-    /// Solid angles of a panel's cells; of all panels' where the film has a rim, beyond which there is none.
+    /// Solid angles of the cells of one panel; of all panels where the film has a rim, with 0 beyond it.
     pub areas: wgpu::Buffer,
     halo: OnceLock<wgpu::Buffer>,
     /// Where the film ends, if anywhere.
@@ -65,7 +65,7 @@ impl Grid {
         self.cap.map_or_else(|| self.sphere.areas(), |cap| film_areas(self.sphere, cap))
     }
 
-    /// A field of so many bytes a cell in padded storage.
+    /// A field with a number of bytes per cell, in padded storage.
     pub(in crate::gpu) fn field(&self, gpu: &Gpu, label: &str, bytes: u64) -> wgpu::Buffer {
         use wgpu::BufferUsages as Usage;
         gpu.buffer(label, self.sphere.padded_len() as u64 * bytes, Usage::STORAGE | Usage::COPY_SRC | Usage::COPY_DST)
@@ -77,7 +77,7 @@ impl Grid {
         self.cells + 2 * HALO as u32
     }
 
-    /// Workgroups of a pass with one invocation a cell, halo included, in tiles of 8 x 8: rows of 64 would leave many idle.
+    /// Workgroups of a pass with one invocation per cell, halo included, in tiles of 8 x 8: rows of 64 would leave many idle.
     #[must_use]
     pub fn padded_groups(&self) -> [u32; 3] {
         let tiles = self.side().div_ceil(8);
@@ -98,13 +98,13 @@ impl Grid {
     }
 
     /// Cells that the first two by two begin before storage does, halo included: 0 or 1. Of the other grid's cells, which are an even number
-    /// of this one's wide, the first one's centre lies half that number from the edge.
+    /// of this one's wide, the first one's center lies half that number from the edge.
     #[must_use]
     pub fn quad_skew(&self, other_cells: u32) -> u32 {
         (HALO as u32 + self.cells / (2 * other_cells)) % 2
     }
 
-    /// Workgroups of a pass with one invocation a cell, 64 along a row.
+    /// Workgroups of a pass with one invocation per cell, 64 along a row.
     #[must_use]
     pub fn cell_groups(&self) -> [u32; 3] {
         [self.cells.div_ceil(64), self.cells, 6]

@@ -1,5 +1,5 @@
-//! Errors that a driver tells only later. Outside browsers an error scope answers at once; in a browser it is a promise, and what it says must
-//! not be lost because nobody waited.
+//! Errors that a driver reports later. Outside browsers an error scope answers at once; in a browser it is a promise, and its errors must
+//! not be lost although nothing waits for it.
 
 use std::{
     pin::Pin,
@@ -21,7 +21,7 @@ pub type Answer = Pin<Box<dyn Future<Output = Option<ShaderError>>>>;
 pub struct LateErrors(Mutex<Vec<Answer>>);
 
 impl LateErrors {
-    /// What an answer says if it is there; if not, [`LateErrors::take`] will have it.
+    /// The error of an answer that has arrived; if not, [`LateErrors::take`] will have it.
     pub fn ask(&self, mut answer: Answer) -> Option<ShaderError> {
         match poll(&mut answer) {
             Poll::Ready(error) => error,

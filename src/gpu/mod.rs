@@ -6,7 +6,6 @@
 //! [`flow`], [`film`] and [`draw`], which compose them.
 
 mod abilities;
-pub mod bands;
 pub mod control;
 pub mod copies;
 pub mod device;
@@ -22,6 +21,7 @@ pub mod kernel;
 mod late_errors;
 pub mod passes;
 pub mod pipelines;
+pub mod quadrature;
 pub mod readback;
 pub mod renderer;
 pub mod rings;

@@ -24,7 +24,7 @@ use crate::physics::sphere::HALO;
 /// Constants that all passes share. A shader declares those it needs as `override NAME: T;` without a default.
 pub const SHARED_CONSTANTS: &[(&str, u32)] = &[("HALO", HALO as u32)];
 
-/// What tells one compute pipeline from another.
+/// Key of a compute pipeline.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ComputeKey {
     /// File in `shaders/pass/`, without the ending.
@@ -35,7 +35,7 @@ pub struct ComputeKey {
     pub constants: Vec<(&'static str, u32)>,
 }
 
-/// What tells one render pipeline from another.
+/// Key of a render pipeline.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct RenderKey {
     /// File in `shaders/pass/`, without the ending.
@@ -107,7 +107,7 @@ impl Pipelines {
         self.count.load(Ordering::Relaxed)
     }
 
-    /// What a compiler has said of a shader since the pipeline was made, as in browsers.
+    /// Messages of the compiler about a shader since the pipeline was made, as in browsers.
     pub fn late_error(&self) -> Option<ShaderError> {
         self.late.take()
     }
@@ -138,7 +138,7 @@ impl Pipelines {
         Ok(pipeline)
     }
 
-    /// Makes all pipelines anew from another library. If one fails, everything stays as it was.
+    /// Recreates all pipelines from another library. If one fails, everything stays as it was.
     pub fn reload(&self, device: &wgpu::Device, library: Library) -> Result<(), ShaderError> {
         let mut fresh = Made::default();
         for key in self.made().compute.keys() {
@@ -298,7 +298,7 @@ impl<'a> PassSource<'a> {
     }
 }
 
-/// The first thing the compiler said, with the file and line it means.
+/// The first message of the compiler, with its file and line.
 fn shader_error(
     pass: &str,
     composed: &Composed,

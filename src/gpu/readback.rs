@@ -1,4 +1,4 @@
-//! Brings data back from the device without ever blocking a caller that must not be: begin, poll, take.
+//! Reads data back from the device without blocking a caller that must not block: begin, poll, take.
 
 use std::sync::{Arc, Mutex, PoisonError};
 #[cfg(not(target_arch = "wasm32"))]
@@ -17,7 +17,7 @@ pub struct Readback {
     rows: Rows,
 }
 
-/// How the wanted bytes lie in the copy: rows of a texture are padded to multiples of 256 bytes.
+/// How the requested bytes lie in the copy: rows of a texture are padded to multiples of 256 bytes.
 #[derive(Clone, Copy)]
 struct Rows {
     count: usize,
@@ -26,14 +26,14 @@ struct Rows {
 }
 
 impl Readback {
-    /// Starts to bring back the first bytes of a buffer.
+    /// Starts to read back the first bytes of a buffer.
     #[must_use]
     pub fn of_buffer(gpu: &Gpu, source: &wgpu::Buffer, bytes: u64) -> Self {
         let rows = Rows { count: 1, bytes: bytes as usize, stride: bytes as usize };
         Self::begin(gpu, rows, |encoder, target| encoder.copy_buffer_to_buffer(source, 0, target, 0, bytes))
     }
 
-    /// Starts to bring back the first level and layer of a texture, row by row.
+    /// Starts to read back the first level and layer of a texture, row by row.
     #[must_use]
     pub fn of_texture(gpu: &Gpu, source: &wgpu::Texture) -> Self {
         // Colour formats in use here all have a fixed size in bytes.

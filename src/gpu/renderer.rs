@@ -1,4 +1,4 @@
-//! Walks a plan: owns the products, records each pass from its key, and keeps the books of what is there.
+//! Walks a plan: owns the products, records each pass from its key, and keeps the record of what is on the GPU.
 
 use std::ops::Range;
 
@@ -6,23 +6,23 @@ use glam::DVec3;
 
 use super::{
     abilities::missing_for_measurement,
-    bands::Bands,
     device::{Gpu, GpuError},
     draw::{DrawInputs, DrawPass, pixels_shaded, strips},
     environment::Environment,
     film::{Field, MovingFilm, rules},
     formats::{PICTURE_FORMAT, radiance_format},
     passes::{add_light::add_light, bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
+    quadrature::Quadrature,
     readback::Readback,
     timing::{Counts, Recorder, TimeLog},
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{DrawKey, FieldKey, Have, OpenHoleKey, Pass, Plan, TableKey, TonemapKey, Want, plan},
+    plan::{DrawKey, FieldKey, FrameRequest, GpuState, OpenHoleKey, Pass, Plan, TableKey, TonemapKey, plan},
 };
 
 /// Cells stepped in one submission, so that none runs long: about 50 ms on a software rasteriser.
-const CELLS_A_SUBMISSION: u64 = 1_600_000;
+const CELLS_PER_SUBMISSION: u64 = 1_600_000;
 
 /// Everything that is on the device.
 #[derive(Default)]
@@ -31,8 +31,8 @@ struct Products {
     films: Vec<Option<MovingFilm>>,
     holes: Vec<Option<OpenHole>>,
     radiance: Option<Target>,
-    /// The picture in the light of one lamp, and its sum with those before.
-    lamp: Option<Target>,
+    /// The picture in one spectral light, and its sum with the pictures before.
+    added: Option<Target>,
     sum: Option<Target>,
     picture: Option<Target>,
 }
@@ -42,23 +42,23 @@ struct Products {
 struct LightProducts {
     table: Option<Table>,
     baking: Option<Table>,
-    bands: Option<Bands>,
+    quadrature: Option<Quadrature>,
     environment: Option<Environment>,
 }
 
 impl Products {
-    /// Drops what the books no longer know.
-    fn keep(&mut self, have: &Have) {
-        self.lights.truncate(have.lights.len());
-        if have.lights.len() <= 1 {
-            (self.lamp, self.sum) = (None, None);
+    /// Drops what the state no longer lists.
+    fn keep(&mut self, state: &GpuState) {
+        self.lights.truncate(state.lights.len());
+        if state.lights.len() <= 1 {
+            (self.added, self.sum) = (None, None);
         }
-        self.films.truncate(have.fields.len());
-        let films = self.films.iter_mut().zip(&have.fields);
-        films.filter(|(_, have)| have.is_none()).for_each(|(film, _)| *film = None);
-        self.holes.truncate(have.holes.len());
-        let holes = self.holes.iter_mut().zip(&have.holes);
-        holes.filter(|(_, have)| have.is_none()).for_each(|(hole, _)| *hole = None);
+        self.films.truncate(state.fields.len());
+        let films = self.films.iter_mut().zip(&state.fields);
+        films.filter(|(_, field)| field.is_none()).for_each(|(film, _)| *film = None);
+        self.holes.truncate(state.holes.len());
+        let holes = self.holes.iter_mut().zip(&state.holes);
+        holes.filter(|(_, key)| key.is_none()).for_each(|(hole, _)| *hole = None);
     }
 }
 
@@ -106,7 +106,7 @@ pub struct Renderer {
     pub counts: Counts,
     /// Hears how much of a plan's [`Plan::work`] the device has just done. With it, the end of each submission is waited for.
     pub watcher: Option<Box<dyn Fn(u64) + Send>>,
-    have: Have,
+    state: GpuState,
     products: Products,
 }
 
@@ -119,36 +119,36 @@ impl Renderer {
             times: TimeLog::default(),
             counts: Counts::default(),
             watcher: None,
-            have: Have::default(),
+            state: GpuState::default(),
             products: Products::default(),
         }
     }
 
     /// What is on the device.
     #[must_use]
-    pub fn have(&self) -> &Have {
-        &self.have
+    pub fn state(&self) -> &GpuState {
+        &self.state
     }
 
-    /// Does what brings the wanted picture nearer, and says what that was.
-    pub fn bring(&mut self, want: &Want) -> Result<Plan, GpuError> {
-        let plan = plan(want, &self.have);
+    /// Runs the passes that a frame request needs, and returns the plan that listed them.
+    pub fn render(&mut self, request: &FrameRequest) -> Result<Plan, GpuError> {
+        let plan = plan(request, &self.state);
         self.execute(&plan)?;
         Ok(plan)
     }
 
-    /// Runs a plan that was made for what is there.
+    /// Runs a plan that was made for the present [`Self::state`].
     pub fn execute(&mut self, plan: &Plan) -> Result<(), GpuError> {
         if plan.is_empty() {
             return Ok(());
         }
         let result = plan.steps.iter().try_for_each(|(pass, _)| self.run(pass)).and_then(|()| self.gpu.check());
-        // After a failure nobody knows what is there: everything is made anew.
-        self.have = if result.is_ok() { plan.after.clone() } else { Have::default() };
-        self.products.keep(&self.have);
-        for (have, film) in self.have.fields.iter_mut().zip(&self.products.films) {
-            if let (Some(have), Some(film)) = (have, film) {
-                have.rest = film.rest();
+        // After a failure the state is unknown: everything is recreated.
+        self.state = if result.is_ok() { plan.after.clone() } else { GpuState::default() };
+        self.products.keep(&self.state);
+        for (field, film) in self.state.fields.iter_mut().zip(&self.products.films) {
+            if let (Some(field), Some(film)) = (field, film) {
+                field.rest = film.rest();
             }
         }
         result
@@ -156,9 +156,9 @@ impl Renderer {
 
     /// Forgets a picture, or a film's moment, so that the next plan makes them again: how frames are measured.
     pub fn forget_picture(&mut self) {
-        self.have.radiance = None;
-        self.have.picture = None;
-        for field in self.have.fields.iter_mut().flatten() {
+        self.state.radiance = None;
+        self.state.picture = None;
+        for field in self.state.fields.iter_mut().flatten() {
             field.shown = None;
         }
     }
@@ -169,19 +169,19 @@ impl Renderer {
         self.products.picture.as_ref().map(|target| &target.view)
     }
 
-    /// Starts to bring the finished picture back: rows of RGBA, 8 bits, sRGB.
+    /// Starts to read back the finished picture: rows of RGBA, 8 bits, sRGB.
     #[must_use]
     pub fn read_picture(&self) -> Option<Readback> {
         self.products.picture.as_ref().map(|target| Readback::of_texture(&self.gpu, &target.texture))
     }
 
-    /// Starts to bring the linear picture back: rows of RGBA in the format of the wanted precision, linear BT.2020.
+    /// Starts to read back the linear picture: rows of RGBA in the format of the requested precision, linear BT.2020.
     #[must_use]
     pub fn read_radiance(&self) -> Option<Readback> {
         self.products.radiance.as_ref().map(|target| Readback::of_texture(&self.gpu, &target.texture))
     }
 
-    /// Starts to bring back the thickness that a film shows: f32 in nm, in the order of its grid's cells. Nothing for a film without a
+    /// Starts to read back the thickness that a film shows: f32 in nm, in the order of its grid's cells. `None` for a film without a
     /// field. What has evaporated is not taken away.
     pub fn read_film(&self, film: usize) -> Result<Option<(CubedSphere, Readback)>, GpuError> {
         let Some(Some(film)) = self.products.films.get(film) else { return Ok(None) };
@@ -191,7 +191,7 @@ impl Renderer {
         Ok(Some((film.field.sphere(), Readback::of_buffer(&self.gpu, &values, values.size()))))
     }
 
-    /// Starts to bring back the rim of the hole in a film that bursts: a [`RimValue`](super::passes::open_hole::RimValue) for each meridian.
+    /// Starts to read back the rim of the hole in a film that bursts: a [`RimValue`](super::passes::open_hole::RimValue) for each meridian.
     #[must_use]
     pub fn read_hole(&self, film: usize) -> Option<Readback> {
         let hole = self.products.holes.get(film)?.as_ref()?;
@@ -205,8 +205,8 @@ impl Renderer {
                 Ok(())
             }
             Pass::BakeTable { light, key, rows } => self.bake(*light, key, rows.clone()),
-            Pass::FitBands { light, key } => {
-                self.light(*light).bands = Some(Bands::fit(&self.gpu, key));
+            Pass::FitQuadrature { light, key } => {
+                self.light(*light).quadrature = Some(Quadrature::fit(&self.gpu, key));
                 Ok(())
             }
             Pass::SeedField { film, key } => self.seed(*film, key),
@@ -286,7 +286,7 @@ impl Renderer {
     fn step(&mut self, film: usize, key: &FieldKey, from_tick: u64) -> Result<(), GpuError> {
         let Self { gpu, products, times, counts, watcher, .. } = self;
         let Some(Some(film)) = products.films.get_mut(film) else { return Ok(()) };
-        let per_submission = (CELLS_A_SUBMISSION / key.cell_count()).max(1) as usize;
+        let per_submission = (CELLS_PER_SUBMISSION / key.cell_count()).max(1) as usize;
         film.play(gpu, key, from_tick, per_submission, |recorder| {
             let work = recorder.counts.cells_stepped;
             Self::submit(times, counts, recorder);
@@ -316,7 +316,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// The picture in the scene's own light, and that in each lamp's added to it.
+    /// The picture in the scene's own light, plus the picture in each spectral light.
     fn draw(&mut self, key: &DrawKey) -> Result<(), GpuError> {
         if key.full_precision
             && let Some(reason) = missing_for_measurement(&self.gpu.adapter)
@@ -326,14 +326,14 @@ impl Renderer {
         let format = radiance_format(key.full_precision);
         let mut radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
         self.draw_light(key, 0, &radiance)?;
-        for light in 1..=key.lamps.len() {
-            let [lamp, sum] = [self.products.lamp.take(), self.products.sum.take()]
-                .map(|slot| Target::fit(slot, &self.gpu, "lamp", key.size, format));
-            self.draw_light(key, light, &lamp)?;
+        for light in 1..=key.spectral_lights.len() {
+            let [added, sum] = [self.products.added.take(), self.products.sum.take()]
+                .map(|slot| Target::fit(slot, &self.gpu, "spectral light", key.size, format));
+            self.draw_light(key, light, &added)?;
             let mut recorder = Recorder::new(&self.gpu);
-            add_light(&mut recorder, key.full_precision, [&radiance.view, &lamp.view], &sum.view)?;
+            add_light(&mut recorder, key.full_precision, [&radiance.view, &added.view], &sum.view)?;
             Self::submit(&self.times, &mut self.counts, recorder);
-            self.products.lamp = Some(lamp);
+            self.products.added = Some(added);
             self.products.sum = Some(std::mem::replace(&mut radiance, sum));
         }
         self.products.radiance = Some(radiance);
@@ -350,13 +350,13 @@ impl Renderer {
         let (films, holes) = (&self.products.films, &self.products.holes);
         let hole = |film: usize| holes.get(film).and_then(Option::as_ref);
         let film = |film: usize| films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());
-        let (table, bands) = (products.table.as_ref(), products.bands.as_ref());
+        let (table, quadrature) = (products.table.as_ref(), products.quadrature.as_ref());
         let Some(lighting) = key.lights().nth(light) else { return Ok(()) };
         let pass = DrawPass::new(
             &self.gpu,
             key,
             lighting,
-            &DrawInputs { environment, table, bands, film: &film, hole: &hole },
+            &DrawInputs { environment, table, quadrature, film: &film, hole: &hole },
         )?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);
@@ -381,7 +381,7 @@ impl Renderer {
     }
 }
 
-/// Tells somebody who watches what is done, once it is; in browsers, where nothing may block, once it is on its way.
+/// Reports work to the watcher once it is done; in browsers, where nothing may block, once it is submitted.
 #[cfg_attr(target_arch = "wasm32", allow(unused_variables, reason = "nothing is waited for"))]
 fn told(watcher: &Option<Box<dyn Fn(u64) + Send>>, gpu: &Gpu, work: u64) -> Result<(), GpuError> {
     if let Some(watcher) = watcher {

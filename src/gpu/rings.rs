@@ -16,7 +16,7 @@ pub const SIDES: u32 = 96;
 /// A part of a bubble's picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
-    /// Inner and outer edge: angle from the direction of the bubble's centre, in radians, where the bubble is round. None: the whole picture.
+    /// Inner and outer edge: angle from the direction of the bubble's center, in radians, where the bubble is round. None: the whole picture.
     pub edges_rad: Option<[f64; 2]>,
     /// Inner reflections whose films are looked up: 3, 7 or 11. After eleven, light is followed on: see `shaders/optics/walls.wgsl`.
     pub inner_reflections: u32,
@@ -29,21 +29,21 @@ pub struct Ring {
 /// A film that reflects as much at every angle as water does at this cosine of incidence is a mirror that keeps light for long: from index 2.
 const MIRROR_COS: f64 = 0.35;
 
-/// How much a quality takes care of what is near the outline.
+/// How accurately a quality treats what is near the limb.
 struct Care {
     /// Cosine of incidence below which more inner reflections are followed than three.
     deep_cos: f64,
     /// How many there.
     deep_reflections: u32,
-    /// How many within [`RIM_PIXELS`] of the outline.
-    rim_reflections: u32,
+    /// How many within [`LIMB_PIXELS`] of the limb.
+    limb_reflections: u32,
     /// Samples along each side of a pixel there.
-    rim_samples: u32,
+    limb_samples: u32,
 }
 
 /// Width of the outermost ring, in pixels: beyond it the cosine of incidence changes by less than a fifth from pixel to pixel.
-const RIM_PIXELS: f64 = 3.0;
-/// How far outside the outline a pixel may have its centre and still be crossed by it, in pixels.
+const LIMB_PIXELS: f64 = 3.0;
+/// How far outside the outline a pixel may have its center and still be crossed by it, in pixels.
 const MARGIN_PIXELS: f64 = 1.0;
 
 impl Care {
@@ -52,7 +52,7 @@ impl Care {
         let care = Self::of_water(quality);
         if film.max_reflectance(1.0) >= max_reflectance(WATER_INDEX, MIRROR_COS) {
             let reflections = if quality == Quality::Fast { 7 } else { 11 };
-            return Self { deep_cos: 1.0, deep_reflections: reflections, rim_reflections: reflections, ..care };
+            return Self { deep_cos: 1.0, deep_reflections: reflections, limb_reflections: reflections, ..care };
         }
         let enough = max_reflectance(WATER_INDEX, care.deep_cos);
         let cosines = (0..=100).map(|k| 0.01 * f64::from(k));
@@ -62,9 +62,9 @@ impl Care {
 
     fn of_water(quality: Quality) -> Self {
         match quality {
-            Quality::Fast => Self { deep_cos: 0.0, deep_reflections: 3, rim_reflections: 3, rim_samples: 2 },
-            Quality::Standard => Self { deep_cos: 0.35, deep_reflections: 7, rim_reflections: 7, rim_samples: 2 },
-            Quality::Spectral => Self { deep_cos: 0.7, deep_reflections: 7, rim_reflections: 11, rim_samples: 4 },
+            Quality::Fast => Self { deep_cos: 0.0, deep_reflections: 3, limb_reflections: 3, limb_samples: 2 },
+            Quality::Standard => Self { deep_cos: 0.35, deep_reflections: 7, limb_reflections: 7, limb_samples: 2 },
+            Quality::Spectral => Self { deep_cos: 0.7, deep_reflections: 7, limb_reflections: 11, limb_samples: 4 },
         }
     }
 }
@@ -75,7 +75,7 @@ impl Ring {
         Self { edges_rad: None, inner_reflections, samples, outline: false }
     }
 
-    /// For the inner and the outer edge, a corner of the polygon around it: parts along the direction of the centre and across.
+    /// For the inner and the outer edge, a corner of the polygon around it: parts along the direction of the center and across.
     #[must_use]
     pub fn corners(&self) -> [[f32; 2]; 2] {
         let half_side = std::f64::consts::PI / f64::from(SIDES);
@@ -83,12 +83,12 @@ impl Ring {
     }
 }
 
-/// Distance of the eye from a bubble's centre in radii, in the space in which the bubble is round.
+/// Distance of the eye from a bubble's center in radii, in the space in which the bubble is round.
 fn eye_radii(camera: &CameraKey, bubble: &BubbleKey) -> f64 {
-    (bubble.stretch.inverse() * (camera.eye_m - bubble.centre_m)).length() / bubble.radius_m
+    (bubble.stretch.inverse() * (camera.eye_m - bubble.center_m)).length() / bubble.radius_m
 }
 
-/// Angle from a bubble's centre to its outline, in radians and in the space in which it is round; none from inside.
+/// Angle from a bubble's center to its outline, in radians and in the space in which it is round; none from inside.
 fn limb_rad(camera: &CameraKey, bubble: &BubbleKey) -> Option<f64> {
     let sine = eye_radii(camera, bubble).recip();
     (sine < 1.0).then(|| sine.asin())
@@ -109,17 +109,17 @@ pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality, film: &Fi
         return vec![Ring::everywhere(if is_deep { care.deep_reflections } else { 3 }, bubble.samples)];
     };
     let pixel_rad = pixel_rad(camera, bubble);
-    let rim_rad = (limb_rad - RIM_PIXELS * pixel_rad).max(0.0);
-    let deep_rad = (deep_sin * limb_rad.sin()).asin().min(rim_rad);
+    let ring_rad = (limb_rad - LIMB_PIXELS * pixel_rad).max(0.0);
+    let deep_rad = (deep_sin * limb_rad.sin()).asin().min(ring_rad);
     let ring = |edges_rad: [f64; 2], inner_reflections: u32| Ring {
         edges_rad: Some(edges_rad),
         inner_reflections,
         samples: bubble.samples,
         outline: false,
     };
-    let rim = ring([rim_rad, limb_rad + MARGIN_PIXELS * pixel_rad], care.rim_reflections);
-    let rim = Ring { samples: bubble.samples.max(care.rim_samples), outline: true, ..rim };
-    let rings = [ring([0.0, deep_rad], 3), ring([deep_rad, rim_rad], care.deep_reflections), rim];
+    let limb = ring([ring_rad, limb_rad + MARGIN_PIXELS * pixel_rad], care.limb_reflections);
+    let limb = Ring { samples: bubble.samples.max(care.limb_samples), outline: true, ..limb };
+    let rings = [ring([0.0, deep_rad], 3), ring([deep_rad, ring_rad], care.deep_reflections), limb];
     rings.into_iter().filter(|ring| ring.edges_rad.is_some_and(|[inner, outer]| outer > inner)).collect()
 }
 

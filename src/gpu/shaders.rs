@@ -28,7 +28,7 @@ pub enum Library {
     /// The text built into the program.
     #[default]
     Embedded,
-    /// A directory laid out like `shaders/`, read anew at each composition.
+    /// A directory laid out like `shaders/`, read again at each composition.
     Directory(PathBuf),
 }
 

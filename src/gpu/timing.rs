@@ -22,7 +22,7 @@ pub const SHOW_FIELD: &str = "show_field";
 pub struct PassTime {
     /// The pass.
     pub name: &'static str,
-    /// Milliseconds, or nothing where the adapter cannot tell or told nonsense.
+    /// Milliseconds; `None` where the adapter does not report them or reports nonsense.
     pub gpu_ms: Option<f64>,
 }
 

@@ -33,36 +33,36 @@ pub struct Case {
     /// Whether the limiter is on.
     pub limiter: bool,
     /// Steps in one period of the wind.
-    pub steps_a_period: u32,
+    pub steps_per_period: u32,
     /// Steps in all.
     pub steps: u64,
-    /// Runge-Kutta steps that each step is traced in: see [`Case::traces_a_step`].
-    pub traces_a_step: u32,
+    /// Runge-Kutta steps that each step is traced in: see [`Case::traces_per_step`].
+    pub traces_per_step: u32,
 }
 
-/// Runge-Kutta steps a period of the wind with which following it errs by less than 0.005 in l2 of bells after eight periods. Of the
+/// Runge-Kutta steps per period of the wind with which following it errs by less than 0.005 in l2 of bells after eight periods. Of the
 /// fastest wind each is half a radian.
-const TRACES_A_PERIOD: u32 = 32;
+const TRACES_PER_PERIOD: u32 = 32;
 
 /// Part of a period between two remaps: more would let a test that undoes itself within a period undo the error too. A little less than a
 /// quarter, so that none falls on the half period, where answers are asked for.
 const REMAP_PERIODS: f64 = 0.23;
 
 /// Steps in one submission, so that none runs long.
-const STEPS_A_SUBMISSION: u64 = 16;
+const STEPS_PER_SUBMISSION: u64 = 16;
 
 impl Case {
-    /// Time after so many steps.
+    /// Time after a number of steps.
     #[must_use]
     pub fn time(&self, steps: u64) -> f64 {
-        PERIOD * steps as f64 / f64::from(self.steps_a_period)
+        PERIOD * steps as f64 / f64::from(self.steps_per_period)
     }
 
     /// Runge-Kutta steps that a step of a scheme is traced in. Schemes that keep a map follow the wind through a long step in as many as keep
-    /// the trace accurate. The others, which are here to be compared with, take one a step, as they were published.
+    /// the trace accurate. The others, which are here to be compared with, take one per step, as they were published.
     #[must_use]
-    pub fn traces_a_step(scheme: Scheme, steps_a_period: u32) -> u32 {
-        if scheme.keeps_map() { TRACES_A_PERIOD.div_ceil(steps_a_period.max(1)) } else { 1 }
+    pub fn traces_per_step(scheme: Scheme, steps_per_period: u32) -> u32 {
+        if scheme.keeps_map() { TRACES_PER_PERIOD.div_ceil(steps_per_period.max(1)) } else { 1 }
     }
 
     /// How the tracer is moved.
@@ -76,10 +76,10 @@ impl Case {
             conserved: self.quantity == Quantity::Density,
             remap: RemapRule {
                 error_limit_cells: RemapRule::ERROR_LIMIT_CELLS,
-                latest_ticks: (REMAP_PERIODS * f64::from(self.steps_a_period)).max(1.0) as u32,
+                latest_ticks: (REMAP_PERIODS * f64::from(self.steps_per_period)).max(1.0) as u32,
             },
             map_coarsening: self.map_coarsening,
-            // To trace steps more finely than the map would be for nothing.
+            // To trace steps more finely than the map would gain nothing.
             flow_cells: (self.grid.n() as u32).div_ceil(self.map_coarsening.max(1)),
             cap: None,
             drop_rad: None,
@@ -106,16 +106,16 @@ impl Case {
 
     /// Takes all steps; `watcher` hears how many more are done.
     pub fn advance_watched(&self, gpu: &Gpu, field: &mut Field, watcher: &dyn Fn(u64)) -> Result<(), GpuError> {
-        for first in (0..self.steps).step_by(STEPS_A_SUBMISSION as usize) {
+        for first in (0..self.steps).step_by(STEPS_PER_SUBMISSION as usize) {
             let mut recorder = Recorder::new(gpu);
-            for step in first..(first + STEPS_A_SUBMISSION).min(self.steps) {
+            for step in first..(first + STEPS_PER_SUBMISSION).min(self.steps) {
                 let [from, to] = [step, step + 1].map(|step| self.time(step));
-                let wind = Step::long_wind(&self.wind, from, to, self.traces_a_step);
+                let wind = Step::long_wind(&self.wind, from, to, self.traces_per_step);
                 field.advance(&mut recorder, &wind, 1)?;
             }
             recorder.submit(&Default::default());
             gpu.wait()?;
-            watcher(STEPS_A_SUBMISSION.min(self.steps - first));
+            watcher(STEPS_PER_SUBMISSION.min(self.steps - first));
         }
         Ok(())
     }

@@ -57,12 +57,12 @@ impl RgbSpace {
         let [red, green, blue] = self.primaries.map(direction_of);
         let primaries = DMat3::from_cols(red, green, blue);
         let scale = invert(primaries)? * xyz_of(self.white)?;
-        // White is a sum of all three primaries, or they are no primaries.
+        // White must be a sum of all three primaries.
         (scale.min_element() > 0.0).then(|| primaries * DMat3::from_diagonal(scale))
     }
 }
 
-/// XYZ of a chromaticity at X + Y + Z = 1. Primaries need not be light: those of CIE XYZ have y = 0, and one of ACES has y < 0.
+/// XYZ of a chromaticity at X + Y + Z = 1. Primaries need not be light: the primaries of CIE XYZ have y = 0, and one of the ACES primaries has y < 0.
 fn direction_of(xy: DVec2) -> DVec3 {
     DVec3::new(xy.x, xy.y, 1.0 - xy.x - xy.y)
 }

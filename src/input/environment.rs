@@ -31,7 +31,7 @@ pub fn read_environment(path: &Path, notes: &mut Vec<String>) -> Result<Equirect
     let failed = || InputError::DecoderFailed { path: path.to_owned() };
     let mut picture = catch_panic(decode).unwrap_or_else(|| Err(failed()))?;
     let to_bt2020 = picture.space.to_bt2020().or_else(|| {
-        picture.notes.push("has chromaticities of no colour space and is taken as BT.709".to_owned());
+        picture.notes.push("has chromaticities of no valid colour space and is read as BT.709".to_owned());
         BT709.to_bt2020()
     });
     let pixels = convert(picture.pixels, to_bt2020.ok_or_else(failed)?);

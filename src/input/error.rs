@@ -53,7 +53,7 @@ pub enum LoadError {
 #[derive(Debug, Error)]
 pub enum InputError {
     /// There is nothing of that name.
-    #[error("there is no file {}: check its name and folder", path.display())]
+    #[error("file {} does not exist: check its name and folder", path.display())]
     NotFound {
         /// The file asked for.
         path: PathBuf,
@@ -77,7 +77,7 @@ pub enum InputError {
     Unreadable {
         /// The file asked for.
         path: PathBuf,
-        /// What the system said.
+        /// The message of the system.
         reason: io::Error,
     },
     /// No bytes in it.
@@ -139,7 +139,7 @@ pub enum InputError {
         height: usize,
     },
     /// Too few pixels to be the whole sphere.
-    #[error("{} has only {width}x{height} pixels: an environment needs 2x1 at least", path.display())]
+    #[error("{} has only {width}x{height} pixels: an environment needs at least 2x1", path.display())]
     TooSmall {
         /// The file.
         path: PathBuf,
@@ -182,7 +182,7 @@ pub enum InputError {
 }
 
 impl InputError {
-    /// What the system said about opening or reading `path`, in our words.
+    /// The message of the system about opening or reading `path`, reworded.
     pub(super) fn from_io(path: &Path, reason: io::Error) -> Self {
         let path = path.to_owned();
         match reason.kind() {

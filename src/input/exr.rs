@@ -64,7 +64,7 @@ fn check_decoder(path: &Path, header: &Header) -> Result<(), InputError> {
         return unsupported("its compression is HTJ2K");
     }
     if header.channels.list.iter().any(|channel| channel.sampling != openexr::Vec2(1, 1)) {
-        return unsupported("its channels are subsampled, as those of luminance and chroma are");
+        return unsupported("its channels are subsampled, like luminance and chroma channels");
     }
     Ok(())
 }

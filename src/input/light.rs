@@ -1,4 +1,4 @@
-//! Brings the light that a scene names into memory: its environment, its spectrum, and the parts of it that have others.
+//! Loads the light that a scene names: its environment, its spectrum, and the parts of it that have others.
 
 use std::{path::Path, sync::Arc};
 
@@ -10,20 +10,20 @@ use crate::{
         colour::{Illuminant, bt709_to_bt2020},
         environment::{CubeMap, Patch, Procedural},
     },
-    plan::Lamp,
+    plan::SpectralLight,
     scene::{Environment, Fault, Light, LightPatch, is_table},
 };
 
-/// Texels that a cube map with patches has along an edge at least: their edges are then sharp to a third of a degree.
+/// Minimum texels along an edge of a cube map with patches: their edges are then sharp to a third of a degree.
 const MIN_PATCHED_SIZE: usize = 256;
 
-/// Loads the environment that a light names, and the lamps that its patches take out of it; file paths start from a folder. What a user
+/// Loads the environment that a light names, and the spectral lights that its patches take out of it; file paths start from a folder. What a user
 /// should know of how files were read is added to `notes`, a line each.
 pub fn load_environment(
     light: &Light,
     folder: &Path,
     notes: &mut Vec<String>,
-) -> Result<(Arc<CubeMap>, Vec<Lamp>), LoadError> {
+) -> Result<(Arc<CubeMap>, Vec<SpectralLight>), LoadError> {
     let map = match &light.environment {
         _ if light.constant.is_some() => Arc::new(CubeMap::constant(DVec3::ONE)),
         Environment::Tent => Procedural::Tent.map(),
@@ -37,13 +37,13 @@ pub fn load_environment(
     without_patches(light, map, folder, notes)
 }
 
-/// An environment without the light of its patches, and the lamps that these are.
+/// An environment without the light of its patches, and these patches as spectral lights.
 pub(super) fn without_patches(
     light: &Light,
     map: Arc<CubeMap>,
     folder: &Path,
     notes: &mut Vec<String>,
-) -> Result<(Arc<CubeMap>, Vec<Lamp>), LoadError> {
+) -> Result<(Arc<CubeMap>, Vec<SpectralLight>), LoadError> {
     if light.patches.is_empty() {
         return Ok((map, Vec::new()));
     }
@@ -54,17 +54,17 @@ pub(super) fn without_patches(
     let mut names: Vec<&str> = light.patches.iter().map(|patch| patch.illuminant.as_str()).collect();
     names.sort_unstable();
     names.dedup();
-    let lamp = |name: &str| {
+    let spectral_light = |name: &str| {
         let environment =
-            Arc::new(CubeMap::from_fn(size, 1, |direction| of_lamp(light, &patches, name, &map, direction)));
+            Arc::new(CubeMap::from_fn(size, 1, |direction| radiance_of(light, &patches, name, &map, direction)));
         let illuminant = load_illuminant(name, folder, notes).map_err(|error| {
             let patch = light.patches.iter().position(|patch| patch.illuminant == name).unwrap_or(0);
             Fault::unusable("illuminant", error).inside_item("patch", patch).inside("light")
         })?;
-        Ok(Lamp { environment, illuminant: illuminant.into() })
+        Ok(SpectralLight { environment, illuminant: illuminant.into() })
     };
-    let lamps = names.into_iter().map(lamp).collect::<Result<_, LoadError>>()?;
-    Ok((Arc::new(rest), lamps))
+    let spectral_lights = names.into_iter().map(spectral_light).collect::<Result<_, LoadError>>()?;
+    Ok((Arc::new(rest), spectral_lights))
 }
 
 fn patch(patch: &LightPatch) -> Patch {
@@ -76,8 +76,8 @@ fn patch(patch: &LightPatch) -> Patch {
     }
 }
 
-/// What comes from a direction of the light of all patches with one illuminant.
-fn of_lamp(light: &Light, patches: &[Patch], illuminant: &str, map: &CubeMap, direction: DVec3) -> DVec3 {
+/// Radiance from a direction, in the light of all patches with one illuminant.
+fn radiance_of(light: &Light, patches: &[Patch], illuminant: &str, map: &CubeMap, direction: DVec3) -> DVec3 {
     let linear = |rgb: [f64; 3]| bt709_to_bt2020() * DVec3::from(rgb);
     let there = light.constant.map_or(DVec3::ONE, linear) * map.sample(direction);
     let shares = Patch::shares(patches, direction);
@@ -97,7 +97,7 @@ pub fn load_illuminant(name: &str, folder: &Path, notes: &mut Vec<String>) -> Re
 mod tests {
     use super::*;
 
-    fn lit(patches: Vec<LightPatch>) -> (Arc<CubeMap>, Vec<Lamp>) {
+    fn lit(patches: Vec<LightPatch>) -> (Arc<CubeMap>, Vec<SpectralLight>) {
         let light = Light { constant: Some([0.5, 0.4, 0.3]), patches, ..Light::default() };
         load_environment(&light, Path::new(""), &mut Vec::new()).expect("all is built in")
     }
@@ -105,13 +105,13 @@ mod tests {
     #[test]
     fn patches_take_from_the_environment_what_they_show() {
         let sodium = LightPatch { illuminant: "sodium".to_owned(), radius_deg: 30.0, ..LightPatch::default() };
-        let (rest, lamps) = lit(vec![sodium]);
-        assert_eq!(lamps.len(), 1);
+        let (rest, spectral_lights) = lit(vec![sodium]);
+        assert_eq!(spectral_lights.len(), 1);
         let constant = bt709_to_bt2020() * DVec3::new(0.5, 0.4, 0.3);
         let mut covered = 0;
         for angle in (0..36).map(|k| f64::from(k).to_radians() * 5.0) {
             let direction = DVec3::new(angle.cos(), angle.sin(), 0.1);
-            let sum = constant * rest.sample(direction) + lamps[0].environment.sample(direction);
+            let sum = constant * rest.sample(direction) + spectral_lights[0].environment.sample(direction);
             assert!((sum - constant).abs().max_element() < 1e-3, "{angle}: {sum}");
             covered += u32::from(rest.sample(direction).x < 0.5);
         }
@@ -126,9 +126,9 @@ mod tests {
             radiance: Some([2.0; 3]),
             ..LightPatch::default()
         };
-        let (_, lamps) = lit(vec![patch(0.0, "A"), patch(90.0, "sodium"), patch(180.0, "A")]);
-        assert_eq!(lamps.len(), 2);
-        let level = |lamp: usize, direction: DVec3| lamps[lamp].environment.sample(direction).y;
+        let (_, spectral_lights) = lit(vec![patch(0.0, "A"), patch(90.0, "sodium"), patch(180.0, "A")]);
+        assert_eq!(spectral_lights.len(), 2);
+        let level = |index: usize, direction: DVec3| spectral_lights[index].environment.sample(direction).y;
         assert!((level(0, DVec3::X) - 2.0).abs() < 1e-3 && (level(0, DVec3::NEG_X) - 2.0).abs() < 1e-3);
         assert!((level(1, DVec3::Y) - 2.0).abs() < 1e-3 && level(1, DVec3::X) == 0.0);
     }

@@ -1,4 +1,4 @@
-//! Files coming in: environments and texts, each read whole or refused with one line that says what to do.
+//! Files coming in: environments and texts, each read whole or refused with a one-line message that says what to do.
 
 mod chromaticities;
 mod environment;

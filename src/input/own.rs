@@ -47,9 +47,9 @@ impl LoadedScene {
     pub fn with_environment(mut self, environment: CubeMap) -> Result<Self, LoadError> {
         self.scene.light.constant = None;
         let light = &self.scene.light;
-        let (environment, lamps) = without_patches(light, environment.into(), &self.folder, &mut self.notes)?;
+        let (environment, spectral_lights) = without_patches(light, environment.into(), &self.folder, &mut self.notes)?;
         self.resources.environment = environment;
-        self.resources.lamps = lamps;
+        self.resources.spectral_lights = spectral_lights;
         Ok(self)
     }
 }
@@ -88,10 +88,10 @@ mod tests {
         let sky = CubeMap::from_fn(16, 1, |direction| DVec3::splat(if direction.z > 0.0 { 2.0 } else { 0.5 }));
         let lit = LoadedScene::from_scene(scene).expect("valid").with_environment(sky).expect("built in");
         assert_eq!(lit.scene.light.constant, None);
-        let (rest, lamps) = (&lit.resources.environment, &lit.resources.lamps);
+        let (rest, spectral_lights) = (&lit.resources.environment, &lit.resources.spectral_lights);
         assert_eq!((rest.sample(DVec3::Z).y, rest.sample(DVec3::NEG_Z).y), (2.0, 0.5));
         // The patch stands at the horizon along +x, and takes what the environment has there.
         assert!(rest.sample(DVec3::new(1.0, 0.0, 0.1)).y == 0.0);
-        assert_eq!(lamps[0].environment.sample(DVec3::new(1.0, 0.0, 0.1)).y, 2.0);
+        assert_eq!(spectral_lights[0].environment.sample(DVec3::new(1.0, 0.0, 0.1)).y, 2.0);
     }
 }

@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_is_none_and_a_result_is_kept() {
+    fn catch_panic_returns_none_for_a_panic_and_keeps_a_result() {
         assert_eq!(catch_panic(|| 7), Some(7));
         assert_eq!(catch_panic(|| -> i32 { panic!("odd file") }), None);
         assert!(!GUARDED.get());

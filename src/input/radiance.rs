@@ -37,7 +37,7 @@ pub(super) fn decode(path: &Path, mut file: impl BufRead) -> Result<DecodedPictu
     Ok(DecodedPicture { width, height, pixels, space: header.space, notes: header.notes })
 }
 
-/// What a header says.
+/// The contents of a header.
 struct Header {
     /// Whether pixels are CIE XYZ.
     is_xyz: bool,
@@ -128,7 +128,7 @@ fn is_xyz(path: &Path, format: &str) -> Result<bool, InputError> {
     }
 }
 
-/// The beginning of a line, for messages: what is no header may be long and hold anything.
+/// The beginning of a line, for messages: a file without a header may start with anything.
 fn excerpt(line: &str) -> String {
     line.chars().filter(|character| !character.is_control()).take(60).collect()
 }

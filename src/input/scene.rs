@@ -1,4 +1,4 @@
-//! Brings a scene and what it names into memory.
+//! Loads a scene and the files that it names.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -8,7 +8,7 @@ use std::{
 use super::{LoadError, load_environment, load_illuminant, read_table_text, read_text};
 use crate::{
     physics::optics::FilmIndex,
-    plan::{Resources, Shot, Want, want},
+    plan::{FrameRequest, Resources, Shot, request},
     scene::{
         Fault, FilmIndexName, Scene, SceneError, SceneSource, Setting, is_table, nearest, preset_names, preset_toml,
     },
@@ -36,9 +36,9 @@ impl LoadedScene {
     ///
     /// # Errors
     ///
-    /// As [`want()`], with the place in the scene's text.
-    pub fn want(&self, shot: &Shot) -> Result<Want, SceneError> {
-        want(&self.scene, &self.resources, shot).map_err(|fault| self.source.locate(fault))
+    /// As [`request()`], with the place in the scene's text.
+    pub fn request(&self, shot: &Shot) -> Result<FrameRequest, SceneError> {
+        request(&self.scene, &self.resources, shot).map_err(|fault| self.source.locate(fault))
     }
 }
 
@@ -102,10 +102,15 @@ fn no_such_scene(name: String) -> LoadError {
 
 /// Loads all that a scene names; file paths start from a folder.
 fn load_resources(scene: &Scene, folder: &Path, notes: &mut Vec<String>) -> Result<Resources, LoadError> {
-    let (environment, lamps) = load_environment(&scene.light, folder, notes)?;
+    let (environment, spectral_lights) = load_environment(&scene.light, folder, notes)?;
     let illuminant = load_illuminant(&scene.light.illuminant, folder, notes);
     let illuminant = illuminant.map_err(|error| Fault::unusable("illuminant", error).inside("light"))?;
-    Ok(Resources { environment, illuminant: illuminant.into(), lamps, liquids: load_liquids(scene, folder, notes)? })
+    Ok(Resources {
+        environment,
+        illuminant: illuminant.into(),
+        spectral_lights,
+        liquids: load_liquids(scene, folder, notes)?,
+    })
 }
 
 /// A liquid by its name or index, or from the `.csv` file of that path. What a user should know of how it was read is added to `notes`.

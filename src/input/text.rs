@@ -157,7 +157,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let missing = folder.path().join("none.toml");
         let error = read_text(&missing).unwrap_err();
-        assert_eq!(error.to_string(), format!("there is no file {}: check its name and folder", missing.display()));
+        assert_eq!(error.to_string(), format!("file {} does not exist: check its name and folder", missing.display()));
         assert!(matches!(read_text(folder.path()), Err(InputError::Folder { .. })));
     }
 }

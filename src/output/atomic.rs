@@ -9,11 +9,11 @@ use tempfile::{Builder, NamedTempFile};
 
 use super::OutputError;
 
-/// Writes a file so that nobody ever sees half of it: `write` fills a temporary file in the same folder, which then takes the
+/// Writes a file so that no reader ever sees half of it: `write` fills a temporary file in the same folder, which then takes the
 /// file's place in one step. If anything fails, the temporary file is gone and what stood at `path` is untouched.
 ///
 /// A link is followed: the file it points to is replaced, not the link. A run that was killed may have left its temporary file there;
-/// the first file that the program writes to a folder clears those, which nobody has locked any more.
+/// the first file that the program writes to a folder removes those, which are no longer locked.
 ///
 /// # Errors
 /// `path` is a folder or no ordinary file, its folder is missing or not writable, or `write` or the system fails on the way.
@@ -55,7 +55,7 @@ fn files() -> MutexGuard<'static, Files> {
     FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes all temporary files, and lets nobody make or finish one from then on: for the end of the program.
+/// Removes all temporary files, and prevents new ones from then on: for the end of the program.
 pub(super) fn abandon_files() {
     let files = files();
     for path in &files.unfinished {
@@ -88,7 +88,7 @@ impl Temporary {
         }
         loop {
             let file = builder.tempfile_in(folder)?;
-            // Where a file system knows no locks, nobody clears either.
+            // On a file system without locks, no run removes them either.
             let _ = file.as_file().lock();
             // Another run may have cleared it before the lock.
             if file.path().exists() {
@@ -109,7 +109,7 @@ impl Temporary {
     }
 }
 
-/// Removes temporary files that runs have left which are no more: nobody has them locked.
+/// Removes temporary files of runs that have ended: they are not locked.
 fn clear(folder: &Path) {
     for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn what_killed_runs_have_left_is_cleared_and_what_others_write_is_not() {
+    fn temporary_files_of_killed_runs_are_removed_and_those_in_use_are_kept() {
         let folder = tempfile::tempdir().unwrap();
         let [left, locked] = [".soapfilm-left.part", ".soapfilm-locked.part"].map(|name| folder.path().join(name));
         fs::write(&left, "half").unwrap();

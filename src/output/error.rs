@@ -21,7 +21,7 @@ pub enum OutputError {
         path: PathBuf,
     },
     /// The folder for the file does not exist.
-    #[error("cannot write {}: there is no folder {}; make it first", path.display(), folder.display())]
+    #[error("cannot write {}: folder {} does not exist; create it first", path.display(), folder.display())]
     NoFolder {
         /// The file asked for.
         path: PathBuf,
@@ -29,13 +29,13 @@ pub enum OutputError {
         folder: PathBuf,
     },
     /// The folder lets no file be made in it.
-    #[error("cannot write {}: no file can be made in {} ({reason}); choose another folder or allow it", path.display(), folder.display())]
+    #[error("cannot write {}: no file can be created in {} ({reason}); choose another folder or change its permissions", path.display(), folder.display())]
     FolderNotWritable {
         /// The file asked for.
         path: PathBuf,
         /// The folder.
         folder: PathBuf,
-        /// What the system said.
+        /// The message of the system.
         reason: io::Error,
     },
     /// Writing began but failed: a full disk, or content that its format cannot hold.
@@ -43,7 +43,7 @@ pub enum OutputError {
     Write {
         /// The file asked for.
         path: PathBuf,
-        /// What the system or the encoder said.
+        /// The message of the system or the encoder.
         reason: io::Error,
     },
 }

@@ -27,9 +27,9 @@ enum Samples {
 /// A picture of `N` channels to be written, ZIP-compressed.
 #[derive(Debug, Clone, Copy)]
 pub struct ExrPicture<'a, const N: usize> {
-    /// Pixels in a row, 1 at least.
+    /// Pixels in a row, at least 1.
     pub width: usize,
-    /// Rows, 1 at least.
+    /// Rows, at least 1.
     pub height: usize,
     /// The channels' names in the order of a pixel's values: `["R", "G", "B"]`, or as a table needs; ASCII, no two equal.
     pub channels: [&'a str; N],
@@ -37,7 +37,7 @@ pub struct ExrPicture<'a, const N: usize> {
     pub pixels: &'a [[f32; N]],
     /// The primaries of R, G and B.
     pub primaries: Option<ExrPrimaries>,
-    /// What the file says about itself, a line `key: value` each in the `comments` attribute.
+    /// Metadata, one line `key: value` each in the `comments` attribute.
     pub metadata: &'a Metadata,
 }
 

@@ -21,7 +21,7 @@ pub enum TableFormat {
     Exr,
     /// KTX 2.0: an array texture of RGBA, not compressed.
     Ktx2,
-    /// Nothing but texels, RGBA, little-endian, with a JSON file beside that says how many.
+    /// Raw texels, RGBA, little-endian, with a JSON file beside them that describes them.
     Bin,
 }
 
@@ -84,7 +84,7 @@ pub struct FilmTableFile<'a> {
     pub layers: &'a [Vec<Vec3>; 3],
     /// Bits of a number.
     pub precision: TablePrecision,
-    /// What the file says about itself.
+    /// The metadata of the file.
     pub metadata: &'a Metadata,
 }
 

@@ -64,7 +64,7 @@ fn nearest_ratio([mut a, mut b]: [u128; 2]) -> [u128; 2] {
 
 /// A number of frames that cannot be one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("write frames in a second as 30, 23.976 or 24000/1001, from 0.001 to 10000")]
+#[error("write frames per second as 30, 23.976 or 24000/1001, from 0.001 to 10000")]
 pub struct FrameRateError;
 
 impl FromStr for FrameRate {
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_rate_is_refused() {
+    fn an_invalid_frame_rate_is_refused() {
         for wrong in [
             "",
             ".",

@@ -1,4 +1,4 @@
-//! What a picture says about itself.
+//! The metadata of a picture.
 
 use super::FrameRate;
 
@@ -17,7 +17,7 @@ impl Metadata {
     }
 
     /// This and one entry more. Characters that would break the entry are replaced by spaces: line ends and other control
-    /// characters, and in keys all that is not ASCII. Keys longer than 79 characters, the most that PNG holds, are cut; an
+    /// characters, and in keys all that is not ASCII. Keys longer than 79 characters, the maximum in PNG, are cut; an
     /// empty key becomes `Comment`.
     pub fn with(mut self, key: &str, value: &str) -> Self {
         self.entries.push((clean_key(key), clean_value(value)));
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn what_would_break_an_entry_is_replaced() {
+    fn characters_that_break_a_metadata_entry_are_replaced() {
         let metadata = Metadata::new().with(" a:\u{e9}\n b ", "two\nlines\0").with("", "x").with(&"k".repeat(200), "y");
         let entries: Vec<_> = metadata.entries().map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
         let expected = [("a b", "two lines "), ("Comment", "x"), (&"k".repeat(79), "y")];

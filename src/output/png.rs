@@ -9,15 +9,15 @@ use crate::physics::colour::Gamut;
 /// An 8-bit picture to be written.
 #[derive(Debug, Clone, Copy)]
 pub struct PngPicture<'a> {
-    /// Pixels in a row, 1 at least.
+    /// Pixels in a row, at least 1.
     pub width: u32,
-    /// Rows, 1 at least.
+    /// Rows, at least 1.
     pub height: u32,
     /// Red, green, blue and straight alpha of each pixel, encoded by sRGB's curve, row by row from the top left: 4 · width · height bytes.
     pub rgba: &'a [u8],
-    /// The colours that red, green and blue are; the file says so.
+    /// The colour space, which is stored in the file.
     pub gamut: Gamut,
-    /// What the file says about itself, as tEXt chunks (iTXt where a value is not ASCII).
+    /// Metadata, as tEXt chunks (iTXt where a value is not ASCII).
     pub metadata: &'a Metadata,
 }
 

@@ -17,7 +17,7 @@ pub struct PngContents {
     pub height: u32,
     /// Red, green, blue and straight alpha of each pixel, row by row from the top left.
     pub rgba: Vec<u8>,
-    /// The text chunks: those of ASCII first.
+    /// The text chunks, ASCII first.
     pub metadata: Metadata,
 }
 

@@ -8,8 +8,8 @@ use std::{
 /// Standard output does not take what is written to it.
 #[derive(Debug, thiserror::Error)]
 pub enum StreamError {
-    /// Its reader has stopped, as `head` does: nobody wants the rest, and nothing is wrong.
-    #[error("nobody reads the output any more")]
+    /// Its reader has stopped, as `head` does: the rest is not needed, and nothing is wrong.
+    #[error("the reader of the output has stopped")]
     Closed,
     /// It cannot be written: a full disk behind it, say.
     #[error("cannot write to standard output: {0}")]
@@ -32,7 +32,7 @@ pub fn print(text: impl Display) -> Result<(), StreamError> {
     Ok(write!(out, "{text}").and_then(|()| out.flush())?)
 }
 
-/// Tells the user a line on standard error. A line that cannot be written is no reason to stop the work.
+/// Prints a line on standard error. A line that cannot be written does not stop the work.
 pub fn tell(line: impl Display) {
     let _ = io::stderr().write_all(format!("{line}\n").as_bytes());
 }

@@ -24,7 +24,7 @@ impl<W: Write> CsvWriter<W> {
     /// Writes one row. NaN and infinities are written `NaN`, `inf` and `-inf`.
     ///
     /// # Errors
-    /// The writer's, and a row that has not as many values as the table has columns.
+    /// The writer's, and a row whose number of values differs from the number of columns.
     pub fn row(&mut self, values: &[f64]) -> io::Result<()> {
         if values.len() != self.columns {
             let reason = format!("a row of {} values for a table of {} columns", values.len(), self.columns);

@@ -77,7 +77,7 @@ impl Spectrum {
     }
 
     /// As [`Spectrum::from_csv`] for a refractive index, n from 1 to 4 within 360 to 780 nm. A third column, or a second block, of
-    /// extinction coefficients k is checked to be those of a clear film, and left out.
+    /// extinction coefficients k is checked to belong to a clear film, and left out.
     pub fn index_from_csv(name: &str, text: &str, notes: &mut Vec<String>) -> Result<Self, SpectrumError> {
         let rows = read::index(name, text, notes)?;
         Ok(Self::from_points(&read::points(&rows, 0)))
@@ -177,16 +177,16 @@ mod tests {
             ("360,1\n360,1\n780,1", "lamp.csv, line 2: 360 nm follows 360 nm"),
             ("360,1\n780,1,1", "lamp.csv, line 2: 3 column(s) instead of 2"),
             ("360\n780", "lamp.csv, line 1: 1 column(s) instead of 2"),
-            ("390,1\n780,1", "lamp.csv: covers 390 to 780 nm, needed are 380 to 780 nm"),
-            ("360,1\n730,1", "lamp.csv: covers 360 to 730 nm, needed are 380 to 780 nm"),
-            ("nm,power\n", "lamp.csv: holds no data"),
+            ("390,1\n780,1", "lamp.csv: covers 390 to 780 nm, but must cover 380 to 780 nm"),
+            ("360,1\n730,1", "lamp.csv: covers 360 to 730 nm, but must cover 380 to 780 nm"),
+            ("nm,power\n", "lamp.csv: has no data"),
             ("360,0\n780,0", "lamp.csv: has no usable power"),
             ("360,1e300\n780,1e300", "lamp.csv: has no usable power"),
         ];
         let index = |text| {
             Spectrum::index_from_csv("glass.csv", text, &mut Vec::new()).expect_err("must be refused").to_string()
         };
-        assert!(index("nm,n\n360,1.5\n780,0.9").starts_with("glass.csv, line 3: a refractive index of 0.9"));
+        assert!(index("nm,n\n360,1.5\n780,0.9").starts_with("glass.csv, line 3: refractive index 0.9"));
         assert!(index("360,1.5\n500,NaN").starts_with("glass.csv, line 2: `NaN` is not"));
         for (text, expected) in cases {
             let message = refusal(text).to_string();

@@ -16,7 +16,7 @@ pub struct Table {
 /// Rows under one heading.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Block {
-    /// Line of the heading, from 1; that of the first row if there is none.
+    /// Line of the heading, from 1; the line of the first row if there is none.
     pub line: usize,
     /// Names of the columns, if there is a heading.
     pub heading: Vec<String>,
@@ -47,7 +47,7 @@ pub enum Separator {
 }
 
 impl Table {
-    /// Reads a table. Whatever the text is, it has some separator and some rows; what is no number stays as it stands there.
+    /// Reads a table. Whatever the text is, it has some separator and some rows; what is not a number stays as text.
     pub fn parse(text: &str) -> Self {
         let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
         let skipped = |line: &str| line.is_empty() || line.starts_with(['#', '%', '!']);
@@ -75,7 +75,7 @@ impl Separator {
         }
     }
 
-    /// What most of the lines that begin with a number have; of all lines, if none does.
+    /// The separator of most lines that begin with a number; of most lines, if none does.
     fn of(lines: &[(usize, &str)]) -> Self {
         let starts_with_number = |line: &&str| {
             line.trim_start_matches([' ', '\t', '"'])
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn what_parses_as_no_number_is_a_heading_but_nan() {
+    fn a_line_without_any_number_is_a_heading_and_nan_is_a_number() {
         for (text, rows) in [("nan,1\n", 1), ("inf\n", 1), ("foo,1\n", 1), ("foo,bar\n", 0), ("380,5;1,5e-3\n", 1)] {
             assert_eq!(Table::parse(text).blocks[0].rows.len(), rows, "{text}");
         }

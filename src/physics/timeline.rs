@@ -123,7 +123,7 @@ impl<T: PartialEq> PartialEq for Prefix<T> {
 pub struct Timeline<T>(Prefix<(u64, T)>);
 
 impl<T> Timeline<T> {
-    /// What holds during a tick; nothing before the first.
+    /// The value in force during a tick; `None` before the first.
     #[must_use]
     pub fn at(&self, tick: u64) -> Option<&T> {
         self.in_force(tick as f64).map(|(_, value)| value)
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn what_came_before_a_life_is_its_beginning() {
+    fn a_timeline_is_cut_at_its_beginning_and_its_end() {
         assert_eq!(timeline(&[(0, 'a'), (5, 'b')]).since(0), timeline(&[(0, 'a'), (5, 'b')]));
         assert_eq!(timeline(&[(0, 'a'), (5, 'b'), (9, 'c')]).since(7), timeline(&[(0, 'b'), (2, 'c')]));
         assert_eq!(entries(timeline(&[(0, 'a'), (5, 'b')]).iter_since(5)), [(0, 'b')]);

@@ -7,12 +7,12 @@ use std::ops::Range;
 
 use super::FieldKey;
 
-/// Ticks from one checkpoint to the next at least.
+/// Minimum ticks between two checkpoints.
 const SPACING_TICKS: u64 = 60;
 /// Checkpoints of a film at most.
-const MOST: u64 = 8;
-/// Cells in all checkpoints of a film: eight of 256 cells an edge. Finer films have fewer, but two at least.
-const CELLS_KEPT: u64 = MOST * 6 * 256 * 256;
+const MAX_CHECKPOINTS: u64 = 8;
+/// Cells in all checkpoints of a film: eight of 256 cells per edge. Finer films have fewer, but at least two.
+const CELLS_KEPT: u64 = MAX_CHECKPOINTS * 6 * 256 * 256;
 
 /// Checkpoints of one film by their slots on the device: the film's key at the tick of each. Those of another past may be among them;
 /// they are the first to be overwritten.
@@ -22,24 +22,24 @@ pub struct Checkpoints(Vec<FieldKey>);
 impl Checkpoints {
     /// The latest one that a film can go on from, and its slot.
     #[must_use]
-    pub fn latest(&self, wanted: &FieldKey) -> Option<(usize, &FieldKey)> {
-        let usable = self.0.iter().enumerate().filter(|(_, kept)| wanted.continues(kept));
+    pub fn latest(&self, requested: &FieldKey) -> Option<(usize, &FieldKey)> {
+        let usable = self.0.iter().enumerate().filter(|(_, kept)| requested.continues(kept));
         usable.max_by_key(|(_, kept)| kept.moment.tick)
     }
 
-    /// The same checkpoints, where those that a film can go on from have its histories: then both are compared at once.
-    pub(super) fn sharing(mut self, wanted: &FieldKey) -> Self {
-        self.0.iter_mut().filter(|kept| wanted.continues(kept)).for_each(|kept| *kept = wanted.at(kept.moment));
+    /// These checkpoints, where each one that a film can go on from shares the film's histories: then they are compared at once.
+    pub(super) fn sharing(mut self, requested: &FieldKey) -> Self {
+        self.0.iter_mut().filter(|kept| requested.continues(kept)).for_each(|kept| *kept = requested.at(kept.moment));
         self
     }
 
-    /// Enters the film's state at the end of a step, and returns the slot that it goes to: nothing if it need not be kept.
+    /// Enters the film's state at the end of a step, and returns the slot that it goes to; `None` if it need not be kept.
     pub(super) fn keep(&mut self, state: &FieldKey, step: &Range<u64>) -> Option<usize> {
         let is_due = step.start / SPACING_TICKS < step.end / SPACING_TICKS;
         if !is_due || self.0.iter().any(|kept| kept.moment == state.moment && kept.shares_past(state)) {
             return None;
         }
-        if (self.0.len() as u64) < (CELLS_KEPT / state.cell_count()).clamp(2, MOST) {
+        if (self.0.len() as u64) < (CELLS_KEPT / state.cell_count()).clamp(2, MAX_CHECKPOINTS) {
             self.0.push(state.clone());
             return Some(self.0.len() - 1);
         }

@@ -9,24 +9,24 @@ use crate::scene::{Boundary, Bubble, Change, Detail, Scene};
 
 /// Rows of the picture that bubbles are measured in.
 const ROWS: f64 = 1080.0;
-/// Diameter in them up to which half of the cells along an edge show the same: as blown, colours differ by 0.12 (CIEDE2000) on average and by 3
+/// Diameter in pixels up to which half of the cells along an edge look the same: as blown, colours differ by 0.12 (CIEDE2000) on average and by 3
 /// at most, as much as far bubbles may from pictures of many samples; a tenth of a second later by less than a tenth of what the film
 /// changes by in a step.
 const HALF_DIAMETER: f64 = 40.0;
-/// Cells along an edge at least.
-const LEAST_CELLS: u32 = 16;
-/// Cells along an edge of the grid of a whole flow, at least: 1.4° each. It is four times coarser than finer films: its cells are still a fraction
+/// Minimum cells along an edge.
+const MIN_CELLS: u32 = 16;
+/// Minimum cells along an edge of the grid of a whole flow: 1.4° each. It is four times coarser than finer films: its cells are still a fraction
 /// of the smallest eddy, and cubic interpolation of one step's displacement errs by less than can be seen.
-const LEAST_FLOW_CELLS: u32 = 64;
+const MIN_FLOW_CELLS: u32 = 64;
 
 /// Cells along a panel's edge of a bubble's film, and of its flow where that is coarser.
 #[must_use]
 pub fn film_grids(scene: &Scene, index: usize) -> [u32; 2] {
     let bubble = &scene.bubbles[index];
     let cells = bubble.film.cells;
-    let all = [cells, cells.div_ceil(4).max(LEAST_FLOW_CELLS)];
+    let all = [cells, cells.div_ceil(4).max(MIN_FLOW_CELLS)];
     match settled(scene, index, bubble) {
-        Detail::Half => all.map(|cells| cells.div_ceil(2).max(LEAST_CELLS)),
+        Detail::Half => all.map(|cells| cells.div_ceil(2).max(MIN_CELLS)),
         Detail::Auto | Detail::Full => all,
     }
 }
@@ -38,7 +38,8 @@ pub fn settle_detail(scene: &mut Scene) {
     }
 }
 
-/// What `auto` means for a bubble. A film that ends somewhere takes all of its cells, for what rises from its rim is few of them wide.
+/// The detail that `auto` chooses for a bubble. A film with a boundary takes all of its cells, for patches that rise from its rim are a few cells
+/// wide.
 fn settled(scene: &Scene, index: usize, bubble: &Bubble) -> Detail {
     match bubble.film.detail {
         Detail::Auto if bubble.boundary != Boundary::Free => Detail::Full,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{FieldHave, FieldKey, Moment, Pace, Pass, Planner, Reason};
+use super::{FieldKey, FieldState, Moment, Pace, Pass, Planner, Reason};
 
 /// Cells of all films together that are stepped per frame while a window waits for films to catch up.
 const CELLS_PER_FRAME: u64 = 800_000;
@@ -33,65 +33,65 @@ impl StepBudget {
 impl Planner {
     /// The tick that a film has reached. The film that is furthest behind goes first, so that none waits for ever.
     pub(super) fn reached_tick(&self, film: usize) -> u64 {
-        self.after.fields.get(film).and_then(Option::as_ref).map_or(0, |have| have.state.moment.tick)
+        self.after.fields.get(film).and_then(Option::as_ref).map_or(0, |field| field.key.moment.tick)
     }
 
     /// Plans a film's field and returns the key of what will be shown.
-    pub(super) fn field(&mut self, film: usize, wanted: &FieldKey) -> FieldKey {
+    pub(super) fn field(&mut self, film: usize, requested: &FieldKey) -> FieldKey {
         if self.after.fields.len() <= film {
             self.after.fields.resize(film + 1, None);
         }
         let before = self.after.fields[film].take();
-        let mut have = self.start(film, wanted, before.clone());
-        let end = self.step(film, wanted, &mut have);
-        let moment = match have.rest {
+        let mut field = self.start(film, requested, before.clone());
+        let end = self.step(film, requested, &mut field);
+        let moment = match field.rest {
             Some(rest) => Moment::tick(rest.since_tick),
-            None if end == wanted.state_tick() => wanted.moment,
+            None if end == requested.state_tick() => requested.moment,
             None => Moment::tick(end),
         };
-        let shown = wanted.at(moment);
-        if have.shown != Some(moment) || before.is_none_or(|before| before.state.law_differs_until(&shown)) {
-            let reason = if have.shown.is_none() { Reason::Missing } else { Reason::Changed("the moment") };
+        let shown = requested.at(moment);
+        if field.shown != Some(moment) || before.is_none_or(|before| before.key.law_differs_until(&shown)) {
+            let reason = if field.shown.is_none() { Reason::Missing } else { Reason::Changed("the moment") };
             self.push(Pass::ShowField { film, key: shown.clone() }, reason);
-            have.shown = Some(moment);
+            field.shown = Some(moment);
         }
-        have.state = wanted.at(Moment::tick(end));
-        self.after.fields[film] = Some(have);
+        field.key = requested.at(Moment::tick(end));
+        self.after.fields[film] = Some(field);
         shown
     }
 
     /// Plans where a film goes on from: its state, a checkpoint if one is nearer, or its beginning.
-    fn start(&mut self, film: usize, wanted: &FieldKey, before: Option<FieldHave>) -> FieldHave {
+    fn start(&mut self, film: usize, requested: &FieldKey, before: Option<FieldState>) -> FieldState {
         let reason = if before.is_none() { Reason::Missing } else { Reason::Changed("the film's history") };
-        let same_film = before.as_ref().filter(|before| wanted.is_same_film(&before.state));
-        let checkpoints = same_film.map(|before| before.checkpoints.clone().sharing(wanted)).unwrap_or_default();
-        let here = before.filter(|before| wanted.continues(&before.state));
-        let nearer = |key: &FieldKey| here.as_ref().is_none_or(|here| here.state.moment.tick < key.moment.tick);
-        if let Some((slot, key)) = checkpoints.latest(wanted).filter(|(_, key)| nearer(key)) {
-            let state = key.clone();
-            self.push(Pass::RestoreField { film, slot, key: state.clone() }, Reason::Changed("the moment"));
-            return FieldHave { state, shown: None, rest: None, checkpoints };
+        let same_film = before.as_ref().filter(|before| requested.is_same_film(&before.key));
+        let checkpoints = same_film.map(|before| before.checkpoints.clone().sharing(requested)).unwrap_or_default();
+        let here = before.filter(|before| requested.continues(&before.key));
+        let nearer = |key: &FieldKey| here.as_ref().is_none_or(|here| here.key.moment.tick < key.moment.tick);
+        if let Some((slot, key)) = checkpoints.latest(requested).filter(|(_, key)| nearer(key)) {
+            let key = key.clone();
+            self.push(Pass::RestoreField { film, slot, key: key.clone() }, Reason::Changed("the moment"));
+            return FieldState { key, shown: None, rest: None, checkpoints };
         }
         if let Some(here) = here {
-            return FieldHave { checkpoints, ..here };
+            return FieldState { checkpoints, ..here };
         }
-        let start = wanted.at(Moment::default());
+        let start = requested.at(Moment::default());
         self.push(Pass::SeedField { film, key: start.clone() }, reason);
-        FieldHave { state: start, shown: None, rest: None, checkpoints }
+        FieldState { key: start, shown: None, rest: None, checkpoints }
     }
 
     /// Plans a film's steps, with checkpoints on the way for a window, and returns the tick at which they end.
-    fn step(&mut self, film: usize, wanted: &FieldKey, have: &mut FieldHave) -> u64 {
-        let first = have.state.moment.tick;
-        let cells = wanted.cell_count();
+    fn step(&mut self, film: usize, requested: &FieldKey, field: &mut FieldState) -> u64 {
+        let first = field.key.moment.tick;
+        let cells = requested.cell_count();
         let max_steps = self.budget.map_or(usize::MAX, |budget| budget.max_steps(cells));
-        let mut steps = wanted.steps_from(first).peekable();
+        let mut steps = requested.steps_from(first).peekable();
         let mut start = first;
-        if let Some(rest) = have.rest {
-            while let Some(step) = steps.next_if(|step| wanted.undisturbed(step) == Some(rest.law)) {
+        if let Some(rest) = field.rest {
+            while let Some(step) = steps.next_if(|step| requested.undisturbed(step) == Some(rest.law)) {
                 start = step.end;
             }
-            have.rest = have.rest.filter(|_| steps.peek().is_none());
+            field.rest = field.rest.filter(|_| steps.peek().is_none());
         }
         let mut end = start;
         for step in steps.take(max_steps) {
@@ -101,15 +101,15 @@ impl Planner {
             if self.pace == Pace::Whole {
                 continue;
             }
-            let state = wanted.at(Moment::tick(end));
-            if let Some(slot) = have.checkpoints.keep(&state, &step) {
-                self.move_through(film, &state, start..end);
-                self.push(Pass::SaveField { film, slot, key: state }, Reason::Missing);
+            let key = requested.at(Moment::tick(end));
+            if let Some(slot) = field.checkpoints.keep(&key, &step) {
+                self.move_through(film, &key, start..end);
+                self.push(Pass::SaveField { film, slot, key }, Reason::Missing);
                 start = end;
             }
         }
-        self.move_through(film, &wanted.at(Moment::tick(end)), start..end);
-        self.complete &= end == wanted.state_tick();
+        self.move_through(film, &requested.at(Moment::tick(end)), start..end);
+        self.complete &= end == requested.state_tick();
         end
     }
 

@@ -1,15 +1,15 @@
 //! From a bubble and its age to its film's key.
 
-use super::{FieldKey, FilmEnd, FilmKey, laws::initial_film};
+use super::{FieldKey, FilmBoundary, FilmKey, laws::initial_film};
 use crate::{
     physics::{
-        bubble::{Age, CentrePath},
+        bubble::{Age, CenterPath},
         film::{Cap, Evaporation, InitialFilm, Pushes, Regeneration, fold_seed},
     },
     scene::{Bubble, Motion},
 };
 
-/// Whether the film of a bubble can move: one of a single thickness looks the same however it flows.
+/// Whether the film of a bubble can move: a film of one thickness looks the same however it flows.
 pub(super) fn has_field(bubble: &Bubble) -> bool {
     !matches!(initial_film(bubble), InitialFilm::Uniform { .. })
 }
@@ -19,8 +19,8 @@ pub(super) fn cap(bubble: &Bubble) -> Option<Cap> {
     bubble.boundary.cap(bubble.rim_deg)
 }
 
-/// What the film of a bubble that was blown after so many others ends at, unless it is free.
-fn film_end(bubble: &Bubble, generation: u32) -> Option<FilmEnd> {
+/// The boundary of the film of bubble number `generation`, unless it is free.
+fn film_boundary(bubble: &Bubble, generation: u32) -> Option<FilmBoundary> {
     let rim_deg = bubble.boundary.rim_deg(bubble.rim_deg)?;
     let regeneration = || Regeneration {
         rim: rim_deg.to_radians(),
@@ -28,7 +28,7 @@ fn film_end(bubble: &Bubble, generation: u32) -> Option<FilmEnd> {
         amount: bubble.regeneration,
         seed: fold_seed(bubble.film.seed.wrapping_add(generation.into())),
     };
-    Some(FilmEnd {
+    Some(FilmBoundary {
         cap: cap(bubble),
         drop_rad: bubble.boundary.drop_rad(bubble.rim_deg),
         regeneration: (bubble.regeneration > 0.0).then(regeneration),
@@ -45,14 +45,14 @@ pub(super) fn film(bubble: &Bubble, age: &Age, [cells, flow_cells]: [u32; 2], mo
         cells,
         flow_cells,
         initial: life.film,
-        end: film_end(bubble, life.generation).map(Box::new),
+        boundary: film_boundary(bubble, life.generation).map(Box::new),
         tick_s: motion.tick_s,
         scheme: motion.scheme,
         remap_ticks: motion.remap_ticks,
         evaporation: Evaporation::default(),
         flows: life.flows.clone(),
         pushes: Pushes::default(),
-        path: CentrePath::default(),
+        path: CenterPath::default(),
         moment: age.moment,
     };
     key.moment = key.last_moved();

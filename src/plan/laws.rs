@@ -164,7 +164,7 @@ const STIR: f64 = 6.0;
 
 fn stir_push(stir: &Stir, bubble: &Bubble, tick_s: f64) -> Push {
     Push {
-        centre: DVec3::from(stir.at).normalize(),
+        center: DVec3::from(stir.at).normalize(),
         sharpness: Push::sharpness_of(stir.radius_deg.to_radians()),
         velocity: DVec3::from(stir.velocity_m_s) / (bubble.radius_mm * 1e-3),
         rate: STIR / (stir.ticks as f64 * tick_s),
@@ -176,7 +176,7 @@ fn blow_push(blow: &Blow, bubble: &Bubble) -> Push {
     let radius_m = bubble.radius_mm * 1e-3;
     let half_angle = blow.radius_deg.to_radians();
     Push {
-        centre: DVec3::from(blow.at).normalize(),
+        center: DVec3::from(blow.at).normalize(),
         sharpness: Push::sharpness_of(half_angle),
         velocity: blow.speed_m_s / radius_m * DVec3::from(blow.toward).normalize(),
         rate: 0.5 * air_drag(1e-9 * bubble.film.thickness_nm, blow.speed_m_s, half_angle * radius_m),

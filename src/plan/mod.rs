@@ -1,9 +1,9 @@
-//! When: what a picture needs, what is already there, and the passes in between.
+//! When: what a picture needs, what the GPU already holds, and the passes in between.
 //!
-//! A *product* is what a pass leaves on the GPU, and its *key* is all that the pass reads. A product is stale exactly where the wanted key
-//! differs from the one that is there; there are no dirty flags. [`plan`] is pure, has no GPU types, and is the only place where work is
-//! skipped: a scene that did not change plans nothing, a new exposure plans a tonemap, a film at rest is never stepped, one that is far away
-//! has fewer cells.
+//! A *product* is what a pass leaves on the GPU, and its *key* is all that the pass reads. A product is stale exactly where the requested key
+//! differs from the present one; there are no dirty flags. [`plan()`] is pure, has no GPU types, and is the only place where work is skipped:
+//! a scene that did not change plans nothing, a new exposure plans a tonemap, a film at rest is never stepped, and a film that is far away has
+//! fewer cells.
 
 mod checkpoints;
 mod detail;
@@ -12,9 +12,9 @@ mod films;
 pub mod keys;
 mod laws;
 mod pass;
+mod request;
 mod story;
 mod turns;
-mod want;
 
 use std::fmt;
 
@@ -22,42 +22,42 @@ pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmEnd, FilmKey,
-    FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey, RestingFilm,
-    TableKey, TonemapKey, exposed_ev, left_nm, range_nm,
+    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary, FilmKey,
+    FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey, QuadratureKey,
+    RestingFilm, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
 };
 pub use pass::{Pass, Reason};
+pub use request::{Resources, Shot, SpectralLight, has_one_film, request};
 pub use story::Story;
-pub use want::{Lamp, Resources, Shot, has_one_film, want};
 
-/// How much may be done before the next picture must be out.
+/// How much work may be done before the next picture must be shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
-    /// All of it: a file is being made.
+    /// All work: a file is being made.
     Whole,
-    /// A frame's worth, the rest later: a window is waiting. A new table starts coarse, and a film catches up in portions; since people in
+    /// The work of one frame, the rest later: a window is waiting. A new table starts coarse, and a film catches up in portions; since people in
     /// windows go back in time, it leaves checkpoints.
     Frame,
 }
 
 /// What a picture needs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Want {
+pub struct FrameRequest {
     /// The finished picture; the keys of everything before it are inside.
     pub picture: TonemapKey,
     /// For each bubble of the scene, in sight or not, whether its film can move: fields of no other films are kept.
     pub has_field: Vec<bool>,
-    /// How much may be done at once.
+    /// How much work may be done at once.
     pub pace: Pace,
 }
 
-/// What is on the GPU. Nothing at first, and nothing after a lost device.
+/// What is on the GPU: empty at first, and empty again after a lost device.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Have {
-    /// What belongs to each light, the scene's own first.
-    pub lights: Vec<LightHave>,
+pub struct GpuState {
+    /// The products of each light; the scene's own light is the first.
+    pub lights: Vec<LightState>,
     /// The field of each film, by the film's index.
-    pub fields: Vec<Option<FieldHave>>,
+    pub fields: Vec<Option<FieldState>>,
     /// The hole in each film that bursts, by the film's index.
     pub holes: Vec<Option<OpenHoleKey>>,
     /// The linear picture.
@@ -66,24 +66,24 @@ pub struct Have {
     pub picture: Option<TonemapKey>,
 }
 
-/// What is there of one light.
+/// The products of one light on the GPU.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct LightHave {
+pub struct LightState {
     /// The table in use.
     pub table: Option<TableKey>,
-    /// A table in the making, and how many of its rows are done.
+    /// A table that is being baked, and how many of its rows are done.
     pub baking: Option<(TableKey, u32)>,
-    /// The bands.
-    pub bands: Option<BandsKey>,
+    /// The quadrature.
+    pub quadrature: Option<QuadratureKey>,
     /// The environment.
     pub environment: Option<EnvironmentKey>,
 }
 
 /// A film's field: its state at a tick, the moment that its shown thickness belongs to, and earlier states.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FieldHave {
+pub struct FieldState {
     /// Seed, law and the tick of the state.
-    pub state: FieldKey,
+    pub key: FieldKey,
     /// Moment shown, if any was.
     pub shown: Option<Moment>,
     /// Whether the film has come to rest, as the device has found.
@@ -92,14 +92,14 @@ pub struct FieldHave {
     pub checkpoints: Checkpoints,
 }
 
-/// The passes to run, in order, and what will be there afterwards.
+/// The passes to run, in order, and the state of the GPU afterwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Passes, each with its reason.
     pub steps: Vec<(Pass, Reason)>,
     /// What is on the GPU once they have run.
-    pub after: Have,
-    /// Whether the wanted picture will then be there; else plan again.
+    pub after: GpuState,
+    /// Whether the requested picture is then complete; if not, plan again.
     pub complete: bool,
 }
 
@@ -143,7 +143,7 @@ impl fmt::Display for Plan {
                 Pass::OpenHole { film, key } => format!("film {film}, {:.4} s after it burst", key.hole.seconds),
                 Pass::Draw(key) => format!("{}x{}, bubbles: {}", key.size[0], key.size[1], key.bubbles.len()),
                 Pass::Tonemap(key) => format!("exposure {} EV", key.exposure_ev),
-                Pass::FitBands { key, .. } => {
+                Pass::FitQuadrature { key, .. } => {
                     format!("{} wavelengths, {}, films to {} nm", key.count(), key.quality.name(), key.range_nm)
                 }
                 Pass::UploadEnvironment { key, .. } => format!("6x{0}x{0} texels", key.size()),
@@ -155,30 +155,30 @@ impl fmt::Display for Plan {
 }
 
 /// Rows of a table baked a frame while a window waits: on a software rasteriser about 20 ms of 64 columns.
-const ROWS_A_FRAME: u32 = 256;
+const ROWS_PER_FRAME: u32 = 256;
 /// Rows baked in one go otherwise, so that no single dispatch runs long enough for a driver to kill it.
-const ROWS_A_DISPATCH: u32 = 512;
-/// How much coarser than the wanted table the first one is that a waiting window gets.
+const ROWS_PER_DISPATCH: u32 = 512;
+/// How much coarser than the requested table the first table is that a waiting window gets.
 const COARSE: u32 = 16;
-/// The passes that lead from what is there to what is wanted.
+/// The passes that lead from the state of the GPU to the requested frame.
 #[must_use]
-pub fn plan(want: &Want, have: &Have) -> Plan {
+pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
     let mut planner = Planner {
         steps: Vec::new(),
-        after: have.clone(),
-        pace: want.pace,
-        budget: StepBudget::of(want.pace),
+        after: state.clone(),
+        pace: request.pace,
+        budget: StepBudget::of(request.pace),
         complete: true,
     };
-    planner.drop_unneeded(want);
-    let mut picture = want.picture.clone();
+    planner.drop_unneeded(request);
+    let mut picture = request.picture.clone();
     let draw = &mut picture.draw;
     let (has_bubbles, needs_environment) = (!draw.bubbles.is_empty(), draw.needs_environment());
-    planner.after.lights.resize_with(1 + draw.lamps.len(), LightHave::default);
-    for (light, lighting) in std::iter::once(&mut draw.lighting).chain(&mut draw.lamps).enumerate() {
+    planner.after.lights.resize_with(1 + draw.spectral_lights.len(), LightState::default);
+    for (light, lighting) in std::iter::once(&mut draw.lighting).chain(&mut draw.spectral_lights).enumerate() {
         if has_bubbles {
             lighting.table = lighting.table.as_ref().map(|table| planner.table(light, table));
-            planner.bands(light, &lighting.bands);
+            planner.quadrature(light, &lighting.quadrature);
         }
         if needs_environment {
             planner.environment(light, &lighting.environment);
@@ -188,7 +188,7 @@ pub fn plan(want: &Want, have: &Have) -> Plan {
     order.sort_by_key(|index| planner.reached_tick(draw.bubbles[*index].index));
     for index in order {
         if let FilmKey::Field(field) = &mut draw.bubbles[index].film {
-            *field = planner.field(want.picture.draw.bubbles[index].index, field);
+            *field = planner.field(request.picture.draw.bubbles[index].index, field);
         }
         if let Some(hole) = draw.bubbles[index].open_hole() {
             planner.hole(draw.bubbles[index].index, hole);
@@ -200,7 +200,7 @@ pub fn plan(want: &Want, have: &Have) -> Plan {
 
 struct Planner {
     steps: Vec<(Pass, Reason)>,
-    after: Have,
+    after: GpuState,
     pace: Pace,
     budget: Option<StepBudget>,
     complete: bool,
@@ -208,11 +208,11 @@ struct Planner {
 
 impl Planner {
     /// Forgets what no picture of the scene can need: lights, films and holes of other scenes. A film out of sight stays, for its past is long.
-    fn drop_unneeded(&mut self, want: &Want) {
-        let draw = &want.picture.draw;
-        self.after.lights.truncate(1 + draw.lamps.len());
-        self.after.fields.truncate(want.has_field.len());
-        for (field, _) in self.after.fields.iter_mut().zip(&want.has_field).filter(|(_, has_field)| !**has_field) {
+    fn drop_unneeded(&mut self, request: &FrameRequest) {
+        let draw = &request.picture.draw;
+        self.after.lights.truncate(1 + draw.spectral_lights.len());
+        self.after.fields.truncate(request.has_field.len());
+        for (field, _) in self.after.fields.iter_mut().zip(&request.has_field).filter(|(_, has_field)| !**has_field) {
             *field = None;
         }
         for (film, hole) in self.after.holes.iter_mut().enumerate() {
@@ -225,95 +225,99 @@ impl Planner {
         self.steps.push((pass, reason));
     }
 
-    /// Plans a light's table and returns the one that will be there to draw with.
-    fn table(&mut self, light: usize, wanted: &TableKey) -> TableKey {
-        let have = &mut self.after.lights[light];
-        if have.table.as_ref() == Some(wanted) {
-            have.baking = None;
-            return wanted.clone();
+    /// Plans a light's table and returns the table that the frame is drawn with.
+    fn table(&mut self, light: usize, requested: &TableKey) -> TableKey {
+        let state = &mut self.after.lights[light];
+        if state.table.as_ref() == Some(requested) {
+            state.baking = None;
+            return requested.clone();
         }
-        let coarse = wanted.coarser(COARSE);
-        let reason = if have.table.is_none() { Reason::Missing } else { Reason::Changed("film or light") };
-        if self.pace == Pace::Frame && have.table.as_ref() != Some(&coarse) {
-            have.table = Some(coarse.clone());
-            have.baking = None;
+        let coarse = requested.coarser(COARSE);
+        let reason = if state.table.is_none() { Reason::Missing } else { Reason::Changed("film or light") };
+        if self.pace == Pace::Frame && state.table.as_ref() != Some(&coarse) {
+            state.table = Some(coarse.clone());
+            state.baking = None;
             self.push(Pass::BakeTable { light, key: coarse.clone(), rows: 0..coarse.rows }, reason);
             self.complete = false;
             return coarse;
         }
-        self.bake(light, wanted, reason);
+        self.bake(light, requested, reason);
         self.after.lights[light].table.clone().unwrap_or(coarse)
     }
 
-    fn bake(&mut self, light: usize, wanted: &TableKey, reason: Reason) {
+    fn bake(&mut self, light: usize, requested: &TableKey, reason: Reason) {
         let mut done = match &self.after.lights[light].baking {
-            Some((key, rows)) if key == wanted => *rows,
+            Some((key, rows)) if key == requested => *rows,
             _ => 0,
         };
         let (portion, portions) = match self.pace {
-            Pace::Frame => (ROWS_A_FRAME, 1),
-            Pace::Whole => (ROWS_A_DISPATCH, u32::MAX),
+            Pace::Frame => (ROWS_PER_FRAME, 1),
+            Pace::Whole => (ROWS_PER_DISPATCH, u32::MAX),
         };
         for _ in 0..portions {
-            let rows = done..(done + portion).min(wanted.rows);
+            let rows = done..(done + portion).min(requested.rows);
             done = rows.end;
             let reason = if rows.start == 0 { reason } else { Reason::Unfinished };
-            self.push(Pass::BakeTable { light, key: wanted.clone(), rows }, reason);
-            if done == wanted.rows {
-                let have = &mut self.after.lights[light];
-                (have.table, have.baking) = (Some(wanted.clone()), None);
+            self.push(Pass::BakeTable { light, key: requested.clone(), rows }, reason);
+            if done == requested.rows {
+                let state = &mut self.after.lights[light];
+                (state.table, state.baking) = (Some(requested.clone()), None);
                 return;
             }
         }
-        self.after.lights[light].baking = Some((wanted.clone(), done));
+        self.after.lights[light].baking = Some((requested.clone(), done));
         self.complete = false;
     }
 
-    fn bands(&mut self, light: usize, wanted: &BandsKey) {
-        let have = &mut self.after.lights[light].bands;
-        if let Some(reason) = changed(have.as_ref(), wanted, |_, _| "film, light or quality") {
-            *have = Some(wanted.clone());
-            self.push(Pass::FitBands { light, key: wanted.clone() }, reason);
+    fn quadrature(&mut self, light: usize, requested: &QuadratureKey) {
+        let current = &mut self.after.lights[light].quadrature;
+        if let Some(reason) = changed(current.as_ref(), requested, |_, _| "film, light or quality") {
+            *current = Some(requested.clone());
+            self.push(Pass::FitQuadrature { light, key: requested.clone() }, reason);
         }
     }
 
-    fn environment(&mut self, light: usize, wanted: &EnvironmentKey) {
-        let have = &mut self.after.lights[light].environment;
-        if let Some(reason) = changed(have.as_ref(), wanted, |_, _| "environment") {
-            *have = Some(wanted.clone());
-            self.push(Pass::UploadEnvironment { light, key: wanted.clone() }, reason);
+    fn environment(&mut self, light: usize, requested: &EnvironmentKey) {
+        let current = &mut self.after.lights[light].environment;
+        if let Some(reason) = changed(current.as_ref(), requested, |_, _| "environment") {
+            *current = Some(requested.clone());
+            self.push(Pass::UploadEnvironment { light, key: requested.clone() }, reason);
         }
     }
 
-    fn hole(&mut self, film: usize, wanted: OpenHoleKey) {
+    fn hole(&mut self, film: usize, requested: OpenHoleKey) {
         if self.after.holes.len() <= film {
             self.after.holes.resize(film + 1, None);
         }
-        let have = &mut self.after.holes[film];
-        if let Some(reason) = changed(have.as_ref(), &wanted, |_, _| "the moment") {
-            *have = Some(wanted.clone());
-            self.push(Pass::OpenHole { film, key: wanted }, reason);
+        let current = &mut self.after.holes[film];
+        if let Some(reason) = changed(current.as_ref(), &requested, |_, _| "the moment") {
+            *current = Some(requested.clone());
+            self.push(Pass::OpenHole { film, key: requested }, reason);
         }
     }
 
-    fn picture(&mut self, wanted: &TonemapKey) {
-        if let Some(reason) = changed(self.after.radiance.as_ref(), &wanted.draw, DrawKey::difference) {
-            self.push(Pass::Draw(wanted.draw.clone()), reason);
-            self.after.radiance = Some(wanted.draw.clone());
+    fn picture(&mut self, requested: &TonemapKey) {
+        if let Some(reason) = changed(self.after.radiance.as_ref(), &requested.draw, DrawKey::difference) {
+            self.push(Pass::Draw(requested.draw.clone()), reason);
+            self.after.radiance = Some(requested.draw.clone());
         }
-        if let Some(reason) = changed(self.after.picture.as_ref(), wanted, TonemapKey::difference) {
-            self.push(Pass::Tonemap(wanted.clone()), reason);
-            self.after.picture = Some(wanted.clone());
+        if let Some(reason) = changed(self.after.picture.as_ref(), requested, TonemapKey::difference) {
+            self.push(Pass::Tonemap(requested.clone()), reason);
+            self.after.picture = Some(requested.clone());
         }
     }
 }
 
-/// Why a product must be made anew, if it must.
-fn changed<K: PartialEq>(have: Option<&K>, want: &K, difference: impl Fn(&K, &K) -> &'static str) -> Option<Reason> {
-    match have {
+/// Why a product must be made again, or `None` if it is up to date.
+fn changed<K: PartialEq>(
+    current: Option<&K>,
+    requested: &K,
+    difference: impl Fn(&K, &K) -> &'static str,
+) -> Option<Reason> {
+    match current {
         None => Some(Reason::Missing),
-        Some(have) if have == want => None,
-        Some(have) => Some(Reason::Changed(difference(have, want))),
+        Some(current) if current == requested => None,
+        Some(current) => Some(Reason::Changed(difference(current, requested))),
     }
 }
 

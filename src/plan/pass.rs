@@ -2,7 +2,7 @@
 
 use std::{fmt, ops::Range};
 
-use super::keys::{BandsKey, DrawKey, EnvironmentKey, FieldKey, OpenHoleKey, TableKey, TonemapKey};
+use super::keys::{DrawKey, EnvironmentKey, FieldKey, OpenHoleKey, QuadratureKey, TableKey, TonemapKey};
 
 /// One pass, with all that it reads.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,12 +23,12 @@ pub enum Pass {
         /// Rows to bake.
         rows: Range<u32>,
     },
-    /// Fits and sends the bands.
-    FitBands {
+    /// Fits and uploads the quadrature wavelengths.
+    FitQuadrature {
         /// Index of the light.
         light: usize,
-        /// The bands.
-        key: BandsKey,
+        /// The quadrature.
+        key: QuadratureKey,
     },
     /// Sets a film to its initial thickness.
     SeedField {
@@ -91,7 +91,7 @@ impl Pass {
         match self {
             Self::UploadEnvironment { .. } => "upload_environment",
             Self::BakeTable { .. } => "bake_table",
-            Self::FitBands { .. } => "fit_bands",
+            Self::FitQuadrature { .. } => "fit_quadrature",
             Self::SeedField { .. } => "seed_field",
             Self::RestoreField { .. } => "restore_field",
             Self::SaveField { .. } => "save_field",

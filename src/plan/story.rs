@@ -1,4 +1,4 @@
-//! A scene with all that follows from it before a moment is named: its motions and the lives of its bubbles.
+//! A scene with all that follows from it before a moment is named: its motions and the life cycles of its bubbles.
 
 use std::{ops::Deref, sync::OnceLock};
 
@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     physics::{
-        bubble::{Age, Lives},
+        bubble::{Age, LifeCycle},
         timeline::Timeline,
     },
     scene::{Bubble, Event, Motion, Scene},
@@ -35,7 +35,7 @@ struct Plot {
     source: (Motion, Vec<Bubble>, Vec<Event>),
     motions: Timeline<Motion>,
     turns: Turns,
-    lives: Vec<Lives>,
+    life_cycles: Vec<LifeCycle>,
 }
 
 impl Story {
@@ -69,25 +69,25 @@ impl Story {
         self.plot().turns.at(ticks)
     }
 
-    /// Where the centre of a bubble is at a time in seconds, m; the origin for a bubble that there is not.
+    /// Where the center of a bubble is at a time in seconds, m; the origin for a bubble that there is not.
     #[must_use]
-    pub fn centre_m(&self, index: usize, time_s: f64) -> DVec3 {
-        self.lives(index).map_or(DVec3::ZERO, |lives| lives.path().at(time_s).place_m)
+    pub fn center_m(&self, index: usize, time_s: f64) -> DVec3 {
+        self.life_cycle(index).map_or(DVec3::ZERO, |life_cycle| life_cycle.path().at(time_s).place_m)
     }
 
-    /// A bubble at a moment; nothing between two lives, or if there is no such bubble.
+    /// A bubble at a moment; `None` between two lives, or if there is no such bubble.
     #[must_use]
     pub fn age(&self, index: usize, moment: Moment) -> Option<Age> {
-        self.lives(index)?.at(moment)
+        self.life_cycle(index)?.at(moment)
     }
 
-    /// The lives of a bubble; nothing if there is no such bubble.
+    /// The life cycle of a bubble; `None` if there is no such bubble.
     #[must_use]
-    pub fn lives(&self, index: usize) -> Option<&Lives> {
-        self.plot().lives.get(index)
+    pub fn life_cycle(&self, index: usize) -> Option<&LifeCycle> {
+        self.plot().life_cycles.get(index)
     }
 
-    /// What the film of a bubble is at a moment; nothing if there is no such bubble then.
+    /// The film of a bubble at a moment; `None` if there is no such bubble then.
     #[must_use]
     pub fn film_key(&self, index: usize, moment: Moment) -> Option<FilmKey> {
         self.age(index, moment).map(|age| self.film_of_age(index, &age))
@@ -98,7 +98,7 @@ impl Story {
         film(&self.bubbles[index], age, self.grids()[index], &self.motion)
     }
 
-    /// Cells along a panel's edge of a bubble's film, and of its flow where that is coarser; nothing for a film of one thickness.
+    /// Cells along a panel's edge of a bubble's film, and of its flow where that is coarser; `None` for a film of one thickness.
     #[must_use]
     pub fn field_grids(&self, index: usize) -> Option<[u32; 2]> {
         self.bubbles.get(index).filter(|bubble| has_field(bubble)).map(|_| self.grids()[index])
@@ -125,9 +125,9 @@ impl Plot {
     fn new(scene: &Scene) -> Self {
         let motions = scene.motions().collect();
         let turns = Turns::new(&motions, scene.motion.tick_s);
-        let lives = courses(scene, &motions, &turns).into_iter().map(Lives::new).collect();
+        let life_cycles = courses(scene, &motions, &turns).into_iter().map(LifeCycle::new).collect();
         let source = (scene.motion.clone(), scene.bubbles.clone(), scene.events.clone());
-        Self { source, motions, turns, lives }
+        Self { source, motions, turns, life_cycles }
     }
 
     /// Whether it follows from a scene.

@@ -11,7 +11,7 @@ pub(super) struct Turns {
     motions: Timeline<Turn>,
 }
 
-/// What films have turned by when a motion comes into force, and how fast they turn from then on, radians a second.
+/// What films have turned by when a motion comes into force, and how fast they turn from then on, radians per second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Turn {
     before: DQuat,

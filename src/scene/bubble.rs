@@ -22,12 +22,12 @@ section! {
     pub struct Bubble, BubbleKeys: [
         film: Film = Film::default(), "The film at tick 0";
     ]
-    center_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "Center", " m", "centre, m";
+    center_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "Center", " m", "center, m";
     radius_mm: f64 = 50.0, [0.1 ..= 5000.0], "Radius", " mm", "radius, mm";
-    boundary: Boundary = Boundary::Free, [word], "Boundary", "", "what the film ends at";
-    rim_deg: f64 = 120.0, [30.0 ..= 175.0], "Rim", "°", "colatitude of the ring (150 at most) or of the drop's rim; that of a bath is 90";
-    regeneration: f64 = 1.0, [0.0 ..= 10.0], "Regeneration", "", "factor on how many thin patches rise from the rim of a film that has one";
-    patch_mm: f64 = 3.0, [0.1 ..= 100.0], "Patches", " mm", "radius of these patches, mm; at most a quarter of the bubble's";
+    boundary: Boundary = Boundary::Free, [word], "Boundary", "", "boundary of the film";
+    rim_deg: f64 = 120.0, [30.0 ..= 175.0], "Rim", "°", "colatitude of the rim at a ring (at most 150) or a drop; at a bath it is 90";
+    regeneration: f64 = 1.0, [0.0 ..= 10.0], "Regeneration", "", "factor on the rate at which thin patches rise from the rim of the film";
+    patch_mm: f64 = 3.0, [0.1 ..= 100.0], "Patches", " mm", "radius of these patches, mm; at most a quarter of the bubble's radius";
 }
 
 impl Bubble {
@@ -35,7 +35,7 @@ impl Bubble {
         let radius_mm = self.radius_mm;
         (radius_mm > ROUND_MM).then(|| {
             format!(
-                "[[bubble]] number {number} has a radius of {radius_mm} mm and is drawn as a sphere; a real one flattens under its weight beyond {ROUND_MM} mm"
+                "[[bubble]] number {number} has a radius of {radius_mm} mm and is drawn as a sphere; a real bubble flattens under its weight beyond {ROUND_MM} mm"
             )
         })
     }
@@ -46,7 +46,7 @@ impl Bubble {
             && !(lowest..=highest).contains(&self.rim_deg)
         {
             let reason =
-                format!("is {}; a {}'s must be within {lowest} ..= {highest}", self.rim_deg, self.boundary.name());
+                format!("is {}; for a {} it must be within {lowest} ..= {highest}", self.rim_deg, self.boundary.name());
             return Err(Fault::new("rim_deg", reason));
         }
         if self.boundary != Boundary::Free && self.regeneration > 0.0 && self.patch_mm > 0.25 * self.radius_mm {
@@ -60,14 +60,14 @@ impl Bubble {
 section! {
     /// The film of a bubble at tick 0: `[bubble.film]`.
     pub struct Film, FilmKeys:
-    state: FilmStateName = FilmStateName::Blown, [word], "State", "", "how the thickness is spread over the bubble";
-    thickness_nm: f64 = 700.0, [1.0 ..= 10000.0], "Thickness", " nm", "mean total thickness, nm; from 0 on if `state` is `\"uniform\"`";
-    stratification: f64 = 0.7, [-5.0 ..= 5.0], "Stratification", "", "the `a` of the rest state `h = mean * a / sinh(a) * exp(-a * cos(colatitude))`; negative is thick on top; of a `\"rest\"` film alone";
+    state: FilmStateName = FilmStateName::Blown, [word], "State", "", "initial distribution of the thickness";
+    thickness_nm: f64 = 700.0, [1.0 ..= 10000.0], "Thickness", " nm", "mean total thickness, nm; with `state = \"uniform\"` it may be as low as 0";
+    stratification: f64 = 0.7, [-5.0 ..= 5.0], "Stratification", "", "the `a` of the rest state `h = mean * a / sinh(a) * exp(-a * cos(colatitude))`; negative: thick on top; only for `state = \"rest\"`";
     index: FilmIndexName = FilmIndexName::Water, [1.0 ..= 4.0], "Index", "", "refractive index: `\"water\"` at 20 °C with its dispersion, `\"water 25C\"` (0 to 40), `\"glycerol 30%\"` (by mass, in water), the path of a `.csv` [table](#files-that-a-scene-names) of wavelengths and indices, or one number for all wavelengths";
     skin_nm: f64 = 0.0, [0.0 ..= 5.0], "Skins", " nm", "thickness of the layer of soap molecules (n = 1.45) on each face, nm; soap has about 2";
-    seed: u64 = 1, [whole], "Film seed", "", "seed of the patches of a `\"blown\"` film: each seed gives another film";
-    cells: u32 = 256, [16 ..= 1024], "Cells", "", "thickness cells along an edge of the cubed sphere";
-    detail: Detail = Detail::Auto, [word], "Detail", "", "how many of these cells the film takes, and its flow; decided once, when a window opens the scene: zooming does not change the film";
+    seed: u64 = 1, [whole], "Film seed", "", "random seed of the patches of a `\"blown\"` film";
+    cells: u32 = 256, [16 ..= 1024], "Cells", "", "cells of the film along an edge of a panel of the cubed sphere";
+    detail: Detail = Detail::Auto, [word], "Detail", "", "resolution that the film and its flow use; decided once, when a window opens the scene: zooming does not change the film";
 }
 
 impl Film {
@@ -100,11 +100,11 @@ impl Value for FilmIndexName {
 }
 
 words! {
-    /// How many of its cells a film takes.
+    /// The part of its cells that a film takes.
     pub enum Detail: "detail" {
-        Auto = "auto", "Half if the bubble is `free` and never, wherever it is dragged, more than 40 of a picture's 1080 rows across, else all";
+        Auto = "auto", "Half if the bubble is `free` and never, wherever it is dragged, more than 40 pixels across in a picture of 1080 rows, else full";
         Full = "full", "All of these cells";
-        Half = "half", "Half along each edge: enough for a bubble of 40 pixels, for a third of the time";
+        Half = "half", "Half the cells along each edge: enough for a bubble of 40 pixels, in a third of the time";
     }
 }
 

@@ -7,9 +7,9 @@ section! {
     /// A camera on an orbit around its target, +z up: `[camera]`.
     pub struct Camera, CameraKeys:
     target_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "Target", " m", "the point in the middle of the picture, m";
-    azimuth_deg: f64 = 20.0, [finite], "Azimuth", "°", "around the vertical, from +x towards +y";
-    elevation_deg: f64 = 8.0, [-90.0 ..= 90.0], "Elevation", "°", "above the horizon";
-    distance_m: f64 = 0.24, [0.0 ..= 1000.0], "Distance", " m", "from the target to the eye, m; 0 is the target itself";
+    azimuth_deg: f64 = 20.0, [finite], "Azimuth", "°", "azimuth of the eye, from +x towards +y";
+    elevation_deg: f64 = 8.0, [-90.0 ..= 90.0], "Elevation", "°", "elevation of the eye above the horizon";
+    distance_m: f64 = 0.24, [0.0 ..= 1000.0], "Distance", " m", "distance from the target to the eye, m; at 0 the eye is at the target";
     fov_y_deg: f64 = 30.0, [1.0 ..= 170.0], "Field of view", "°", "full vertical field of view";
 }
 

@@ -28,13 +28,13 @@ impl Fault {
         Self::new(key, format!("cannot be used: {error}"))
     }
 
-    /// The same fault seen from the table that holds `key`.
+    /// This fault seen from the table that holds `key`.
     #[must_use]
     pub fn inside(self, key: &str) -> Self {
         self.below(KeyPath::default().key(key))
     }
 
-    /// The same fault seen from the table that holds the list `key`.
+    /// This fault seen from the table that holds the list `key`.
     #[must_use]
     pub fn inside_item(self, key: &str, index: usize) -> Self {
         self.below(KeyPath::default().key(key).item(index))

@@ -94,7 +94,7 @@ fn find_strays_in_items(items: &[Spanned<DeValue>], known: &[Value], path: &KeyP
             }
             // A list would be taken for a table's values in the order of the code.
             other => {
-                let reason = format!("must be a table and holds a value of the type {}", other.type_str());
+                let reason = format!("must be a table, but is a value of the type {}", other.type_str());
                 strays.push(Located::bad_value(item.span().start, &path.item(index), reason));
             }
         }
@@ -103,12 +103,12 @@ fn find_strays_in_items(items: &[Spanned<DeValue>], known: &[Value], path: &KeyP
 
 /// Lists of numbers have a certain length. Parsers would drop what is too much.
 fn check_count(items: &[Spanned<DeValue>], known: &[Value], offset: usize, path: &KeyPath) -> Option<Located> {
-    let (found, wanted) = (items.len(), known.len());
-    let reason = || format!("is a list of {found}; it must hold {wanted} numbers");
-    (found != wanted).then(|| Located::bad_value(offset, path, reason()))
+    let (found, expected) = (items.len(), known.len());
+    let reason = || format!("is a list of {found}; it must hold {expected} numbers");
+    (found != expected).then(|| Located::bad_value(offset, path, reason()))
 }
 
-/// The known item of a list that an item must be like: the one of its kind, where items have kinds. Nothing if there is no such kind, which
+/// The known item of a list that an item must be like: the one of its kind, where items have kinds. `None` if there is no such kind, which
 /// is another error.
 fn known_item<'a>(table: &DeTable, known: &'a [Value]) -> Option<&'a Table> {
     let kind = table.get("kind").and_then(|kind| kind.get_ref().as_str());
@@ -132,8 +132,8 @@ fn type_error(source: &SceneSource, error: &Error) -> Located {
 fn plain_words(message: &str) -> String {
     const WORDS: [(&str, &str); 9] = [
         ("expected f64", "expected a number"),
-        ("expected u64", "expected a whole number from 0 on"),
-        ("expected u32", "expected a whole number from 0 on"),
+        ("expected u64", "expected a whole number, 0 or more"),
+        ("expected u32", "expected a whole number, 0 or more"),
         ("wanted string or table", "expected a word in quotes"),
         ("expected a sequence", "expected a list"),
         ("expected struct", "expected the table"),

@@ -40,7 +40,7 @@ pub enum Problem {
     #[error("no version; add `version = {VERSION}` at the top")]
     MissingVersion,
     /// The version is another one than [`VERSION`].
-    #[error("version {0} cannot be read here; this program reads `version = {VERSION}`")]
+    #[error("version {0} is not supported; this program reads `version = {VERSION}`")]
     UnknownVersion(String),
     /// There is no such key in this table.
     #[error("unknown key {key}; {hint}")]

@@ -24,7 +24,7 @@ pub struct Event {
 }
 
 impl Event {
-    /// Checks everything but the order of the events, in a scene of so many bubbles.
+    /// Checks everything but the order of the events, in a scene of a number of bubbles.
     pub(super) fn check(&self, bubbles: usize) -> Checked {
         match &self.change {
             Change::Motion(change) => change.check(),
@@ -59,7 +59,7 @@ pub enum Change {
 }
 
 impl Change {
-    /// The bubble that it happens to; nothing if it is all of them.
+    /// The bubble that it acts on; `None` for all bubbles.
     #[must_use]
     pub fn bubble(&self) -> Option<usize> {
         match self {
@@ -89,9 +89,9 @@ section! {
     pub struct Stir, StirKeys:
     bubble: usize = 0, [whole], "Bubble", "", "index of the bubble, in the order of the file";
     at: [f64; 3] = [1.0, 0.0, 0.0], [-1.0 ..= 1.0], "At", "", "direction of the point";
-    velocity_m_s: [f64; 3] = [0.0, 0.2, 0.0], [-10.0 ..= 10.0], "Velocity", " m/s", "the velocity that the film is drawn to, m/s; only what is along the film counts";
-    radius_deg: f64 = 15.0, [3.0 ..= 90.0], "Radius", "°", "angle from the point to where the pull is half as strong";
-    ticks: u64 = 12, [1 ..= 100000], "Duration", " ticks", "how long it lasts; in the middle, a film at rest then has four fifths of the velocity";
+    velocity_m_s: [f64; 3] = [0.0, 0.2, 0.0], [-10.0 ..= 10.0], "Velocity", " m/s", "velocity that the film is drawn to, m/s; only its component along the film counts";
+    radius_deg: f64 = 15.0, [3.0 ..= 90.0], "Radius", "°", "angle from the point to half of the strength";
+    ticks: u64 = 12, [1 ..= 100000], "Duration", " ticks", "duration; at its end a film that was at rest has four fifths of the velocity at the center";
 }
 
 impl Stir {
@@ -107,10 +107,10 @@ section! {
     pub struct Blow, BlowKeys:
     bubble: usize = 0, [whole], "Bubble", "", "index of the bubble, in the order of the file";
     at: [f64; 3] = [1.0, 0.0, 0.0], [-1.0 ..= 1.0], "At", "", "direction of the point";
-    toward: [f64; 3] = [-1.0, 1.0, 0.0], [-1.0 ..= 1.0], "Toward", "", "where the air goes";
+    toward: [f64; 3] = [-1.0, 1.0, 0.0], [-1.0 ..= 1.0], "Toward", "", "direction in which the air flows";
     speed_m_s: f64 = 1.0, [0.0 ..= 30.0], "Speed", " m/s", "speed of the air, m/s";
-    radius_deg: f64 = 15.0, [3.0 ..= 90.0], "Radius", "°", "angle from the point to where the jet is half as strong";
-    ticks: u64 = 12, [1 ..= 100000], "Duration", " ticks", "how long it lasts";
+    radius_deg: f64 = 15.0, [3.0 ..= 90.0], "Radius", "°", "angle from the point to half of the strength";
+    ticks: u64 = 12, [1 ..= 100000], "Duration", " ticks", "duration";
 }
 
 impl Blow {
@@ -122,10 +122,10 @@ impl Blow {
 }
 
 section! {
-    /// The bubble's centre goes to another place, as quickly as it can without passing it; a free film feels the acceleration.
+    /// The bubble's center goes to another place, as quickly as it can without passing it; a free film feels the acceleration.
     pub struct Drag, DragKeys:
     bubble: usize = 0, [whole], "Bubble", "", "index of the bubble, in the order of the file";
-    to_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "To", " m", "where the centre goes, m";
+    to_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "To", " m", "new place of the center, m";
 }
 
 section! {
@@ -184,10 +184,10 @@ with_changing_keys!(entry! {});
 words! {
     /// What the key `kind` of an event may be.
     pub enum Kind: "kind of event" {
-        Motion = "motion", "Another motion from then on";
-        Stir = "stir", "Something wet moves over the film";
+        Motion = "motion", "The motion changes from then on";
+        Stir = "stir", "A wet object moves over the film";
         Blow = "blow", "A jet of air meets the film";
-        Drag = "drag", "The bubble goes elsewhere";
+        Drag = "drag", "The bubble moves to another place";
         Prick = "prick", "The bubble bursts";
     }
 }

@@ -13,12 +13,12 @@ section! {
     /// The light around the bubbles: `[light]`.
     pub struct Light, LightKeys: [
         #[serde(rename = "patch", skip_serializing_if = "Vec::is_empty")]
-        patches: Vec<LightPatch> = Vec::new(), "Parts of the environment that are lamps of other spectra, at most [`MAX_PATCHES`]; where two overlap the later one counts";
+        patches: Vec<LightPatch> = Vec::new(), "Parts of the environment with another illuminant, at most [`MAX_PATCHES`]; where two overlap the later one counts";
     ]
     environment: Environment = Environment::Tent, ["`\"tent\"`, `\"windows\"`, a path"], "Environment", "", "the environment map: built in, or an equirectangular `.exr` or `.hdr` file";
     illuminant: String = "D65".to_owned(), ["a name"], "Illuminant", "", "the illuminant whose spectrum white light has: `\"D65\"`, `\"D50\"`, `\"A\"`, `\"E\"`, `\"FL2\"`, `\"FL11\"`, `\"LED\"`, `\"LED-B1\"`, `\"sodium\"`, a black body like `\"3000 K\"`, or the path of a `.csv` [table](#files-that-a-scene-names) of wavelengths and powers";
-    constant: Option<[f64; 3]> = None, [0.0 ..= 65504.0], "Radiance", "", "`[r, g, b]`: this radiance from everywhere in place of the environment, linear BT.709";
-    rotation_deg: f64 = 0.0, [finite], "Rotation", "°", "turns the environment about the vertical, counter-clockwise seen from above";
+    constant: Option<[f64; 3]> = None, [0.0 ..= 65504.0], "Radiance", "", "`[r, g, b]`: the same radiance from everywhere instead of the environment, linear BT.709";
+    rotation_deg: f64 = 0.0, [finite], "Rotation", "°", "rotation of the environment about the vertical, counter-clockwise seen from above";
     intensity: f64 = 1.0, [0.0 ..= 10000.0], "Intensity", "x", "factor on the radiance of the light";
 }
 
@@ -28,12 +28,12 @@ pub const MAX_PATCHES: usize = 8;
 section! {
     /// A round part of the environment that another illuminant lights, as a lamp in a room with a window: `[[light.patch]]`.
     pub struct LightPatch, LightPatchKeys:
-    azimuth_deg: f64 = 0.0, [finite], "Azimuth", "°", "direction of its middle around the vertical, from +x towards +y";
-    elevation_deg: f64 = 0.0, [-90.0 ..= 90.0], "Elevation", "°", "direction of its middle above the horizon";
-    radius_deg: f64 = 20.0, [1.0 ..= 180.0], "Radius", "°", "from its middle to where half of it is left";
+    azimuth_deg: f64 = 0.0, [finite], "Azimuth", "°", "azimuth of its center, from +x towards +y";
+    elevation_deg: f64 = 0.0, [-90.0 ..= 90.0], "Elevation", "°", "elevation of its center above the horizon";
+    radius_deg: f64 = 20.0, [1.0 ..= 180.0], "Radius", "°", "angle from its center to half of its radiance";
     edge_deg: f64 = 4.0, [0.0 ..= 90.0], "Edge", "°", "width of its soft edge";
-    illuminant: String = "D65".to_owned(), ["a name"], "Illuminant", "", "its illuminant, named as that of `[light]`";
-    radiance: Option<[f64; 3]> = None, [0.0 ..= 65504.0], "Radiance", "", "`[r, g, b]`: its radiance, linear BT.709; without it, what the environment has there";
+    illuminant: String = "D65".to_owned(), ["a name"], "Illuminant", "", "its illuminant, named as in `[light]`";
+    radiance: Option<[f64; 3]> = None, [0.0 ..= 65504.0], "Radiance", "", "`[r, g, b]`: its radiance, linear BT.709; without it, the radiance of the environment there";
 }
 
 impl LightPatch {
@@ -95,23 +95,23 @@ section! {
     /// How the radiance becomes a picture: `[view]`.
     pub struct View, ViewKeys:
     exposure_ev: f64 = 1.5, [-20.0 ..= 20.0], "Exposure", " EV", "exposure in stops: the radiance is multiplied by 2 to this power";
-    backdrop: Backdrop = Backdrop::Radiance([0.0012, 0.0012, 0.0016]), [0.0 ..= 65504.0], "Backdrop", "", "what stands straight behind: `\"environment\"`, or a radiance `[r, g, b]`, linear BT.709";
-    quality: Quality = Quality::Standard, [word], "Quality", "", "how exactly colours are computed; they differ in light that meets several walls: single walls are right in all";
-    polariser_deg: Option<f64> = None, [finite], "Polariser", "°", "angle of a polariser before the camera from the horizontal, anticlockwise";
+    backdrop: Backdrop = Backdrop::Radiance([0.0012, 0.0012, 0.0016]), [0.0 ..= 65504.0], "Backdrop", "", "what is seen behind the bubbles: `\"environment\"`, or a radiance `[r, g, b]`, linear BT.709";
+    quality: Quality = Quality::Standard, [word], "Quality", "", "accuracy of colours; the choices differ only in light that meets several walls, and single walls are accurate in all";
+    polariser_deg: Option<f64> = None, [finite], "Polariser", "°", "angle of a polariser in front of the camera, from the horizontal, counter-clockwise";
     white_balance: bool = false, [flag], "White balance", "", "whether 8-bit pictures are adapted to the illuminant (Bradford); light of one hue stays as it is";
-    dither: bool = true, [flag], "Dither", "", "whether 8-bit pictures are dithered, which hides their steps under fine noise";
-    dither_seed: u64 = 0, [whole], "Dither seed", "", "seed of the dither";
+    dither: bool = true, [flag], "Dither", "", "whether 8-bit pictures are dithered: fine noise hides the steps between levels";
+    dither_seed: u64 = 0, [whole], "Dither seed", "", "random seed of the dither";
 }
 
 words! {
-    /// How exactly the shaders compute colours. In all of them single walls and coloured light are right; they differ in the products of two
+    /// Accuracy of the colours in shaders. Single walls and coloured light are accurate at all qualities; they differ in the products of two
     /// and more walls, which colours cannot be multiplied for.
     #[derive(Default)]
     pub enum Quality: "quality" {
-        Fast = "fast", "Fastest: light that meets several walls is summed over few wavelengths";
+        Fast = "fast", "Fastest: light that meets several walls is summed over a few wavelengths";
         #[default]
-        Standard = "standard", "Light that meets several walls is summed over a dozen wavelengths: the error can hardly be seen";
-        Spectral = "spectral", "Most exact: all light is summed over some thirty wavelengths or more";
+        Standard = "standard", "Light that meets several walls is summed over a dozen wavelengths: the error is hardly visible";
+        Spectral = "spectral", "Most accurate: all light is summed over some thirty wavelengths or more";
     }
 }
 

@@ -159,7 +159,7 @@ impl Scene {
         motions
     }
 
-    /// The paths of all files that it names, as they stand in it: those that are not absolute start from the scene's folder.
+    /// The paths of all files that the scene names, as written: relative paths start from the scene's folder.
     pub fn paths_mut(&mut self) -> impl Iterator<Item = &mut String> {
         let environment = match &mut self.light.environment {
             Environment::File(path) => Some(path),

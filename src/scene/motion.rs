@@ -15,21 +15,21 @@ macro_rules! with_changing_keys {
         $then! {
             $($before)*
             flow: Flow = Flow::Free, [word], "Flow", "", "what moves the film";
-            strength: f64 = 1.0, [0.0 ..= 10.0], "Strength", "", "factor on the speed of the flow; of a free film on that of the draught around it";
-            seed: u64 = 1, [whole], "Flow seed", "", "seed of the flow: each seed gives another one";
-            gravity_m_s2: [f64; 3] = [0.0, 0.0, -9.81], [-1000.0 ..= 1000.0], "Gravity", " m/s²", "gravity less the bubble's own acceleration, m/s²; of a free film, as the next five";
-            drag_1_s: f64 = 2.0, [0.0 ..= 1000.0], "Drag", " 1/s", "rate at which the film is slowed down whatever its thickness, 1/s";
-            air_drag: f64 = 0.0, [0.0 ..= 10.0], "Air drag", "", "factor on the drag of the air's boundary layer, which at 1 stops a film of 1 µm in a tenth of a second";
+            strength: f64 = 1.0, [0.0 ..= 10.0], "Strength", "", "factor on the speed of the flow; for a free film, on the speed of the draught around it";
+            seed: u64 = 1, [whole], "Flow seed", "", "random seed of the flow";
+            gravity_m_s2: [f64; 3] = [0.0, 0.0, -9.81], [-1000.0 ..= 1000.0], "Gravity", " m/s²", "gravity minus the acceleration of the bubble, m/s²; this and the next five act on `flow = \"free\"`";
+            drag_1_s: f64 = 2.0, [0.0 ..= 1000.0], "Drag", " 1/s", "rate at which the flow decays at any thickness, 1/s";
+            air_drag: f64 = 0.0, [0.0 ..= 10.0], "Air drag", "", "factor on the drag of the air's boundary layer; at 1 it stops a film of 1 µm in a tenth of a second";
             viscosity_mm2_s: f64 = 100.0, [0.0 ..= 1000000.0], "Viscosity", " mm²/s", "kinematic viscosity of the film, mm²/s; real films have 20 to 2000";
-            diffusion_mm2_s: f64 = 0.5, [0.0 ..= 1000.0], "Diffusion", " mm²/s", "how fast differences of thickness spread within the film, mm²/s";
-            drainage: f64 = 0.0, [0.0 ..= 10000.0], "Drainage", "", "factor on the drainage between surfaces that do not move, which takes hours at 1; the liquid is counted in the drop, the ring or the bath";
-            spin_deg_s: [f64; 3] = [0.0; 3], [-3600.0 ..= 3600.0], "Spin", " °/s", "turn of all films as a whole, degrees a second about the three axes of the world; gravity turns with a free film";
-            evaporation_nm_s: f64 = 0.0, [0.0 ..= 1000.0], "Evaporation", " nm/s", "what evaporates from the whole film, nm of thickness a second, down to 10 nm of black film";
-            humidity: f64 = 1.0, [0.0 ..= 1.0], "Humidity", "", "relative humidity of the air: what evaporates in drier air, by the bubble's radius and the air's speed, comes to `evaporation_nm_s`";
+            diffusion_mm2_s: f64 = 0.5, [0.0 ..= 1000.0], "Diffusion", " mm²/s", "diffusivity of the thickness within the film, mm²/s";
+            drainage: f64 = 0.0, [0.0 ..= 10000.0], "Drainage", "", "factor on the drainage between immobile surfaces, which takes hours at 1; the liquid is counted in the drop, the ring or the bath";
+            spin_deg_s: [f64; 3] = [0.0; 3], [-3600.0 ..= 3600.0], "Spin", " °/s", "rotation of all films as a whole, degrees per second about the three axes of the world; gravity turns with a free film";
+            evaporation_nm_s: f64 = 0.0, [0.0 ..= 1000.0], "Evaporation", " nm/s", "evaporation from the whole film, nm of thickness per second, down to 10 nm of black film";
+            humidity: f64 = 1.0, [0.0 ..= 1.0], "Humidity", "", "relative humidity of the air; below 1, evaporation that follows from the bubble's radius and the air speed is added to `evaporation_nm_s`";
             air_speed_m_s: f64 = 0.1, [0.0 ..= 10.0], "Air speed", " m/s", "speed of the air that carries the vapour away, m/s";
-            black_film_life_s: f64 = 10.0, [0.0 ..= 1000000.0], "Black film", " s", "how long black film lasts on average before a bubble bursts of itself, s";
-            burst_slowdown: f64 = 1.0, [1.0 ..= 10000.0], "Slow motion", "x", "how many times slower than in life a bubble bursts";
-            renew_s: f64 = 2.0, [0.0 ..= 1000000.0], "New bubble", " s", "from the end of a bubble until a new one is blown, s";
+            black_film_life_s: f64 = 10.0, [0.0 ..= 1000000.0], "Black film", " s", "mean life of black film before a bubble bursts by itself, s";
+            burst_slowdown: f64 = 1.0, [1.0 ..= 10000.0], "Slow motion", "x", "factor by which a bubble bursts more slowly than in reality";
+            renew_s: f64 = 2.0, [0.0 ..= 1000000.0], "New bubble", " s", "time from the end of a bubble until a new one is blown, s";
         }
     };
 }
@@ -40,8 +40,8 @@ with_changing_keys!(section! {
     pub struct Motion, MotionKeys:
     tick_s: f64 = 1.0 / 60.0, [0.0001 ..= 0.1], "Tick", " s", "length of a tick, s";
     scheme: Scheme = Scheme::Map, [word], "Scheme", "", "how the liquid is moved";
-    remap_ticks: u32 = 120, [1 ..= 1000], "Remap", " ticks", "most ticks between two remaps of the flow map, which comes before where the map is too distorted";
-    speed: f64 = 1.0, [0.01 ..= 100.0], "Speed", "x", "film time that passes in a second of the window's clock, s";
+    remap_ticks: u32 = 120, [1 ..= 1000], "Remap", " ticks", "maximum ticks between two remaps of the flow map; a map that is too distorted is remapped earlier";
+    speed: f64 = 1.0, [0.01 ..= 100.0], "Speed", "x", "film time per second of the window's clock, s";
 });
 
 /// Declares what an event may change of a section.
@@ -69,7 +69,7 @@ macro_rules! change {
                 Self { $($name: newer.$name.or(self.$name),)+ }
             }
 
-            /// What leads from a motion to another, as far as an event can.
+            /// The change that leads from one motion to another, in the keys that an event can change.
             #[must_use]
             pub fn between(before: &Motion, after: &Motion) -> Self {
                 Self { $($name: (before.$name != after.$name).then_some(after.$name),)+ }
@@ -94,11 +94,11 @@ impl Motion {
     pub(super) fn check_with_rims(&self) -> Checked {
         if self.spin_deg_s[..2] != [0.0; 2] {
             let reason =
-                "turns films that have a rim over; only a turn about the vertical, [0, 0, z], leaves it in place";
+                "turns over films that have a rim; only a turn about the vertical, [0, 0, z], leaves the rim in place";
             return Err(Fault::new("spin_deg_s", reason));
         }
         if !matches!(self.flow, Flow::Free | Flow::Rest) {
-            let reason = "would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone";
+            let reason = "would carry film across a rim; films with a rim move only by `\"free\"` or `\"rest\"`";
             return Err(Fault::new("flow", reason));
         }
         Ok(())

@@ -33,10 +33,10 @@ pub enum Error {
     #[error(transparent)]
     ReferenceFilm(#[from] ReferenceFilmError),
     /// A picture without pixels.
-    #[error("a picture of {}x{} pixels has none: give at least one pixel each way", .0[0], .0[1])]
+    #[error("a picture of {}x{} pixels is empty: give at least one pixel in width and height", .0[0], .0[1])]
     Size([u32; 2]),
     /// A time before the film's start, or none at all.
-    #[error("a film has no time {0} s: give a finite number of seconds from 0 on")]
+    #[error("{0} s is not a time of a film: give a finite number of seconds, 0 or more")]
     Time(f64),
     /// A time that takes too long to reach.
     #[error("{time_s} s are {ticks} ticks of this scene; at most {MAX_TICKS} can be simulated")]
@@ -55,7 +55,7 @@ pub enum Error {
         count: usize,
     },
     /// The bubble has burst, and the next one is not blown yet.
-    #[error("bubble {bubble} has no film at {time_s} s: it has burst and is not blown anew yet")]
+    #[error("bubble {bubble} has no film at {time_s} s: it has burst, and the next bubble is not blown yet")]
     NoFilm {
         /// The bubble asked for.
         bubble: usize,
@@ -63,7 +63,7 @@ pub enum Error {
         time_s: f64,
     },
     /// A thickness that no film here has.
-    #[error("a film is not {0} nm thick: give 0 to {MAX_THICKNESS_NM} nm")]
+    #[error("a thickness of {0} nm is out of range: give 0 to {MAX_THICKNESS_NM} nm")]
     Thickness(f64),
     /// No cosine of an angle at which light meets a film.
     #[error("{0} is not the cosine of an angle of incidence: give 0 to 1, where 1 is along the normal")]

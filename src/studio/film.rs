@@ -6,7 +6,7 @@ use super::{Error, Studio, moment, shot};
 use crate::{
     input::LoadedScene,
     physics::sphere::{CubedSphere, HaloTable, PaddedField},
-    plan::{BubbleKey, FilmKey, Story, Want, film_grids, settle_detail},
+    plan::{BubbleKey, FilmKey, FrameRequest, Story, film_grids, settle_detail},
     scene::{Camera, Scene},
     verify::{
         reference::{MovedFilms, ReferenceError, film_sphere, moved_film},
@@ -17,15 +17,15 @@ use crate::{
 /// One cell of a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmCell {
-    /// Unit vector from the bubble's centre to the cell's middle, in the world's axes: +z is up.
+    /// Unit vector from the bubble's center to the cell's middle, in the world's axes: +z is up.
     pub direction: DVec3,
-    /// The cell's solid angle in steradians; those of all cells add up to 4π.
+    /// The cell's solid angle in steradians; the angles of all cells add up to 4π.
     pub solid_angle_sr: f64,
     /// Thickness along the normal, nm; 0 where there is no film: in a hole, below a ring or a bath.
     pub thickness_nm: f64,
 }
 
-/// Width and height in pixels of the picture that brings a film: small, for only the film is read.
+/// Width and height in pixels of the picture that computes a film: small, for only the film is read.
 const SIZE: [u32; 2] = [64, 64];
 
 /// Reads a bubble's film at a time in seconds.
@@ -36,7 +36,7 @@ pub(super) fn read(
     time_s: f64,
 ) -> Result<Vec<FilmCell>, Error> {
     let asked = Asked::new(loaded, bubble, time_s)?;
-    studio.renderer.bring(&asked.want)?;
+    studio.renderer.render(&asked.request)?;
     let (grid, films) = match asked.key.film {
         FilmKey::Uniform(_) => (asked.grid_of_scene()?, MovedFilms::new()),
         FilmKey::Field(_) => {
@@ -48,7 +48,7 @@ pub(super) fn read(
 }
 
 /// Thickness of each cell of a bubble's film, moved by the film model in f64 on the CPU; no adapter is needed. It is slow, and takes films of the
-/// scheme `map` with at most 64 cells along an edge. `progress` hears how many more ticks of the film's time are done. The other arguments are those of
+/// scheme `map` with at most 64 cells along an edge. `progress` hears how many more ticks of the film's time are done. The other arguments are as in
 /// [`Studio::film`].
 ///
 /// # Errors
@@ -75,8 +75,8 @@ pub fn reference_film(
 
 /// A bubble's film that is asked for.
 struct Asked {
-    /// What brings it: a small picture of the bubble alone.
-    want: Want,
+    /// The frame request that computes it: a small picture of the bubble alone.
+    request: FrameRequest,
     key: BubbleKey,
     /// Cells along an edge that the scene has for it.
     cells: u32,
@@ -91,10 +91,10 @@ impl Asked {
         let moment = moment(&loaded.scene, time_s)?;
         let mut close_up = loaded.clone();
         look_at(&mut close_up.scene, bubble, time_s);
-        let mut want = shot(&close_up, SIZE, moment, false)?;
-        want.picture.draw.bubbles.retain(|key| key.index == bubble);
-        let key = want.picture.draw.bubbles.first().cloned().ok_or(Error::NoFilm { bubble, time_s })?;
-        Ok(Self { want, key, cells: film_grids(&close_up.scene, bubble)[0] })
+        let mut request = shot(&close_up, SIZE, moment, false)?;
+        request.picture.draw.bubbles.retain(|key| key.index == bubble);
+        let key = request.picture.draw.bubbles.first().cloned().ok_or(Error::NoFilm { bubble, time_s })?;
+        Ok(Self { request, key, cells: film_grids(&close_up.scene, bubble)[0] })
     }
 
     /// The grid of a film of one thickness, which has no field.
@@ -106,10 +106,10 @@ impl Asked {
 /// Turns the camera to a bubble. How fine its film is stays as the scene's own camera has it.
 fn look_at(scene: &mut Scene, bubble: usize, time_s: f64) {
     settle_detail(scene);
-    let centre_m = Story::new(scene.clone()).centre_m(bubble, time_s);
+    let center_m = Story::new(scene.clone()).center_m(bubble, time_s);
     let distance_m = 4.0 * 1e-3 * scene.bubbles[bubble].radius_mm;
     // From above, where a camera is never below a bath.
-    scene.camera = Camera { target_m: centre_m.into(), distance_m, elevation_deg: 45.0, ..Camera::default() };
+    scene.camera = Camera { target_m: center_m.into(), distance_m, elevation_deg: 45.0, ..Camera::default() };
 }
 
 /// The film as pictures see it: thinned by evaporation, with its hole, and with nothing beyond its rim.

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! It only calls what the other modules offer. Whoever needs more, such as frames in a loop, a window or passes one by one, finds there
-//! [`plan::want`](crate::plan::want()) and [`gpu::Renderer`](crate::gpu::Renderer).
+//! [`plan::request`](crate::plan::request()) and [`gpu::Renderer`](crate::gpu::Renderer).
 
 mod colour;
 mod error;
@@ -27,11 +27,11 @@ use crate::{
     input::LoadedScene,
     output::Metadata,
     physics::colour::Gamut,
-    plan::{Moment, Pace, Shot, Want},
+    plan::{FrameRequest, Moment, Pace, Shot},
     scene::Scene,
 };
 
-/// Ticks that one picture may need: a day at 60 a second takes hours, more is a slip of the pen.
+/// Ticks that one picture may need: a day at 60 per second takes hours; more is a mistake in the input.
 pub const MAX_TICKS: u64 = 10_000_000;
 
 /// The thickest film that has a colour here, nm.
@@ -86,8 +86,8 @@ impl Studio {
         Ok(Picture { size, rgba, metadata: metadata(scene, time_s) })
     }
 
-    /// Draws the scene's radiance in linear BT.709 as f32, before exposure and tone curve. Units are those of the environment: white light of
-    /// radiance 1 is (1, 1, 1). The arguments are those of [`Studio::render`].
+    /// Draws the scene's radiance in linear BT.709 as f32, before exposure and tone curve. Units are as in the environment: white light of
+    /// radiance 1 is (1, 1, 1). The arguments are as in [`Studio::render`].
     ///
     /// # Errors
     /// As [`Studio::render`], and [`Error::Gpu`] on adapters without pictures in full precision.
@@ -101,18 +101,18 @@ impl Studio {
     /// need not be in sight of the scene's camera.
     ///
     /// # Errors
-    /// [`Error::NoBubble`] and [`Error::NoFilm`] if there is no such bubble, or none at that time, and those of [`Studio::render`].
+    /// [`Error::NoBubble`] and [`Error::NoFilm`] if there is no such bubble, or none at that time, and the errors of [`Studio::render`].
     pub fn film(&mut self, scene: &LoadedScene, bubble: usize, time_s: f64) -> Result<Vec<FilmCell>, Error> {
         film::read(self, scene, bubble, time_s)
     }
 
-    /// Brings a picture of a scene onto the device.
+    /// Renders a picture of a scene on the device.
     fn draw(&mut self, loaded: &LoadedScene, size: [u32; 2], time_s: f64, full_precision: bool) -> Result<(), Error> {
         if size.contains(&0) {
             return Err(Error::Size(size));
         }
         self.renderer.gpu.check_picture_size(size)?;
-        self.renderer.bring(&shot(loaded, size, moment(&loaded.scene, time_s)?, full_precision)?)?;
+        self.renderer.render(&shot(loaded, size, moment(&loaded.scene, time_s)?, full_precision)?)?;
         Ok(())
     }
 
@@ -123,9 +123,9 @@ impl Studio {
 }
 
 /// What a picture of a scene needs.
-fn shot(loaded: &LoadedScene, size: [u32; 2], moment: Moment, full_precision: bool) -> Result<Want, Error> {
+fn shot(loaded: &LoadedScene, size: [u32; 2], moment: Moment, full_precision: bool) -> Result<FrameRequest, Error> {
     let shot = Shot { size, moment, full_precision, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-    Ok(loaded.want(&shot)?)
+    Ok(loaded.request(&shot)?)
 }
 
 /// The film's moment at a time in seconds, if it can be reached.

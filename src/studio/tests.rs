@@ -14,13 +14,13 @@ fn times_are_reached_or_refused() {
     let scene = Scene::default();
     assert_eq!(moment(&scene, 0.5).expect("reached"), Moment::tick(30));
     for time_s in [-1.0, f64::NAN, f64::INFINITY] {
-        assert!(told(moment(&scene, time_s)).contains("give a finite number of seconds from 0 on"));
+        assert!(told(moment(&scene, time_s)).contains("give a finite number of seconds, 0 or more"));
     }
     assert!(told(moment(&scene, 1e7)).contains("600000000 ticks"));
 }
 
 #[test]
-fn colours_are_those_of_the_reference() {
+fn colours_match_the_reference() {
     use crate::physics::{
         colour::{FilmOptics, Illuminant, Walls},
         optics::FilmMaterial,
@@ -43,5 +43,5 @@ fn numbers_that_no_film_has_are_refused() {
     for cosine in [-0.1, 1.1, f64::NAN] {
         assert!(told(colour(100.0, cosine)).contains("give 0 to 1"));
     }
-    assert_eq!(told(Err::<(), _>(Error::Size([0, 5]))).split(':').next(), Some("a picture of 0x5 pixels has none"));
+    assert_eq!(told(Err::<(), _>(Error::Size([0, 5]))).split(':').next(), Some("a picture of 0x5 pixels is empty"));
 }

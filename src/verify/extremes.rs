@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     gpu::GpuError,
-    plan::{BLACK_FILM_NM, left_nm},
+    plan::{BLACK_FILM_NM, remaining_nm},
     scene::{Change, Event, Motion, MotionChange, Scene},
 };
 
@@ -91,8 +91,8 @@ fn film(run: &mut Run<'_>, name: &str, scene: &Scene, seconds: f64) -> Result<()
         return Ok(());
     }
     run.at_most(format!("{name}: fastest flow over free fall"), all / free_fall, 1.0);
-    let most = (-slowest_decay(scene) * 0.5 * seconds).exp();
-    run.at_most(format!("{name}: fastest flow of the second half of {seconds} s over the first"), second / first, most);
+    let max = (-slowest_decay(scene) * 0.5 * seconds).exp();
+    run.at_most(format!("{name}: fastest flow of the second half of {seconds} s over the first"), second / first, max);
     Ok(())
 }
 
@@ -153,7 +153,7 @@ fn black(run: &mut Run<'_>) -> Result<(), GpuError> {
         ("a film that turns black", CELLS, 40.0, 420, 1.0),
     ];
     // The shorter run of few cells comes to what the longer one of many does, but for how it ends.
-    for (name, cells, evaporation_nm_s, ticks, most) in films {
+    for (name, cells, evaporation_nm_s, ticks, max) in films {
         if cells > CELLS && run.extent == Extent::Short {
             continue;
         }
@@ -165,11 +165,11 @@ fn black(run: &mut Run<'_>) -> Result<(), GpuError> {
         let mut played = Played::new(run.gpu, &scene)?;
         let before = played.thickness()?;
         played.play_to(ticks)?;
-        let thinned_nm = evaporation_nm_s * ticks as f64 * scene.motion.tick_s;
-        let after: Vec<f64> = played.thickness()?.into_iter().map(|nm| left_nm(nm, thinned_nm)).collect();
+        let evaporated_nm = evaporation_nm_s * ticks as f64 * scene.motion.tick_s;
+        let after: Vec<f64> = played.thickness()?.into_iter().map(|nm| remaining_nm(nm, evaporated_nm)).collect();
         let (fastest, unfinished) = (played.fastest()?, after.iter().filter(|value| !value.is_finite()).count());
         run.at_most(format!("{name}: values not finite"), unfinished as f64, 0.0);
-        run.at_most(format!("{name}: fastest flow over free fall"), fastest / free_fall(&scene), most);
+        run.at_most(format!("{name}: fastest flow over free fall"), fastest / free_fall(&scene), max);
         if evaporation_nm_s == 0.0 {
             run.at_most(format!("{name}: drift of mass"), departures(played.sphere(), &before, &after).1, 1e-7);
         } else {

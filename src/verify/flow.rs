@@ -36,7 +36,7 @@ fn measured(
     spans: u32,
 ) -> Result<Option<FlowOutcome>, GpuError> {
     let outcome =
-        |case| FlowRun { case, cells, steps_a_span: steps, spans, cycles: Cycles::default() }.measure(run.gpu);
+        |case| FlowRun { case, cells, steps_per_span: steps, spans, cycles: Cycles::default() }.measure(run.gpu);
     case.map(outcome).transpose()
 }
 

@@ -34,7 +34,7 @@ pub const RULES: Rules = Rules {
     drop_rad: None,
 };
 
-/// A field of some thickness by direction, in nm, with so many cells along a panel's edge.
+/// A field of a thickness by direction, in nm, with a number of cells along a panel's edge.
 pub fn field(
     gpu: &Gpu,
     cells: usize,
@@ -82,7 +82,7 @@ impl<'a> FreeFilm<'a> {
                     dt_s: step_s,
                     forces,
                     pushes: Vec::new(),
-                    thinned_nm: 0.0,
+                    evaporated_nm: 0.0,
                     black_nm: 1.0,
                     strain: 0.0,
                 };

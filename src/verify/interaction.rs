@@ -46,10 +46,10 @@ fn pushed(run: &mut Run<'_>) -> Result<(), GpuError> {
         let scene = Scene { events: vec![event], ..weightless(64) };
         let mut played = Played::new(run.gpu, &scene)?;
         played.play_to(2)?;
-        let (grid, centre) = (played.flow()?.sphere(), DVec3::from(stir.at).normalize());
+        let (grid, center) = (played.flow()?.sphere(), DVec3::from(stir.at).normalize());
         let nearest = (0..grid.cells())
             .min_by(|a, b| {
-                let angle = |cell: usize| grid.cell_direction(cell).distance_squared(centre);
+                let angle = |cell: usize| grid.cell_direction(cell).distance_squared(center);
                 angle(*a).total_cmp(&angle(*b))
             })
             .unwrap_or(0);

@@ -50,7 +50,7 @@ impl Check {
         stated.or(self.name.contains("dE2000").then_some("dE2000")).unwrap_or("")
     }
 
-    /// Whether the value keeps to the limit. A value that is no number does not.
+    /// Whether the value is within the limit. NaN is not.
     #[must_use]
     pub fn passed(&self) -> bool {
         self.measured <= self.limit

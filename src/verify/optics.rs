@@ -74,7 +74,7 @@ fn cases() -> Vec<Case> {
         cases.push(water(light, Standard, 1500.0, 2, standard));
         cases.push(water(light, Spectral, 1500.0, 2, spectral));
     }
-    // More bands for thicker films keep `fast` what it is for thin ones.
+    // More wavelengths for thicker films keep `fast` what it is for thin ones.
     cases.extend([3000.0, 10_000.0, 30_000.0].map(|thickest_nm| water("D65", Fast, thickest_nm, 2, fast)));
     // Beyond the last visible fringe of one wall. Two walls of nearly one thickness show fringes however thick they are, and so do one and
     // another of nearly twice its thickness.
@@ -107,7 +107,7 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     nothing(run)
 }
 
-/// The larger of two errors; what is no number is larger than all.
+/// The larger of two errors; NaN is larger than all.
 fn worse(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
 }
@@ -175,8 +175,8 @@ fn nothing(run: &mut Run<'_>) -> Result<(), GpuError> {
     for quality in Quality::ALL {
         for (name, film, points, limit) in &cases {
             let seen = measure(run.gpu, &optics(film.clone(), "D65")?, quality, points)?;
-            let most = seen.iter().map(|xyz| xyz.length()).fold(0.0, worse);
-            run.at_most(format!("{name}, {}: reflected", quality.name()), most, *limit);
+            let max = seen.iter().map(|xyz| xyz.length()).fold(0.0, worse);
+            run.at_most(format!("{name}, {}: reflected", quality.name()), max, *limit);
         }
         let dense = optics(FilmIndex::Constant(3.0), "D65")?;
         let seen = measure(run.gpu, &dense, quality, &single)?;
@@ -186,8 +186,8 @@ fn nothing(run: &mut Run<'_>) -> Result<(), GpuError> {
         let (spectra, seen) = (water.spectra(), measure(run.gpu, &water, quality, &thin)?);
         // A film of 5 nm is black to the eye: its XYZ is compared, not its colour, to less than a step of 8 bits.
         let off = |((cos, walls), xyz): (&(f64, Walls), &DVec3)| (spectra.xyz(*cos, *walls) - *xyz).abs().max_element();
-        let most = thin.iter().zip(&seen).filter(|((cos, _), _)| *cos >= 0.05).map(off).fold(0.0, worse);
-        run.at_most(format!("5 nm, {}: XYZ", quality.name()), most, 1.0 / 255.0);
+        let max = thin.iter().zip(&seen).filter(|((cos, _), _)| *cos >= 0.05).map(off).fold(0.0, worse);
+        run.at_most(format!("5 nm, {}: XYZ", quality.name()), max, 1.0 / 255.0);
     }
     Ok(())
 }

@@ -18,7 +18,7 @@ use crate::{
         optics::reflectance,
         sphere::CubedSphere,
     },
-    plan::{BLACK_FILM_NM, left_nm},
+    plan::{BLACK_FILM_NM, remaining_nm},
     scene::{Change, Event, Scene, Stir},
 };
 
@@ -81,7 +81,7 @@ fn alternations(bright: &[f64]) -> f64 {
     f64::from(count)
 }
 
-/// The thickness from the top to the bottom, a value for each two cells: that of the nearest one.
+/// The thickness from the top to the bottom, a value for each two cells: the value of the nearest one.
 fn along_meridian(sphere: CubedSphere, thickness_nm: &[f64], longitude: f64) -> Vec<f64> {
     let (sin, cos) = longitude.sin_cos();
     (1..CELLS)
@@ -205,8 +205,8 @@ fn drained(run: &mut Run<'_>) -> Result<(), GpuError> {
     let (mut unsorted, mut first, mut shrunk, mut black): (f64, _, f64, _) = (0.0, None, 0.0, 0.0);
     for tick in (120..=300).step_by(12) {
         played.play_to(tick)?;
-        let thinned_nm = EVAPORATION_NM_S * tick as f64 * scene.motion.tick_s;
-        let left: Vec<f64> = played.thickness()?.into_iter().map(|nm| left_nm(nm, thinned_nm)).collect();
+        let evaporated_nm = EVAPORATION_NM_S * tick as f64 * scene.motion.tick_s;
+        let left: Vec<f64> = played.thickness()?.into_iter().map(|nm| remaining_nm(nm, evaporated_nm)).collect();
         let (sphere, areas) = (played.sphere(), played.sphere().areas());
         let caps = [0.8, 0.0, -0.8].map(|low| mean_between(sphere, &left, low, low + 0.2));
         unsorted = unsorted.max(caps[0] / caps[1]).max(caps[1] / caps[2]);

@@ -11,7 +11,7 @@ use crate::{
         colour::{BT2020, Gamut, bt709_to_bt2020, ciede2000, xyz_to_lab},
         environment::CubeMap,
     },
-    plan::{DrawKey, Lamp, Moment, Pace, Resources, Shot, Want, want},
+    plan::{DrawKey, FrameRequest, Moment, Pace, Resources, Shot, SpectralLight, request},
     scene::{Backdrop, Bubble, Camera, Film, FilmStateName, Flow, Motion, Quality, Scene, View},
 };
 
@@ -21,7 +21,7 @@ const SIZE: [u32; 2] = [256, 144];
 const LAMPS: usize = 6;
 /// Lights of the scenes in turn.
 const LIGHTS: [&str; 4] = ["D65", "A", "LED", "FL2"];
-/// Limits on the mean and the 99.9th percentile of CIEDE2000. That percentile lies at the rim, where a pixel spans many fringes and much of
+/// Limits on the mean and the 99.9th percentile of CIEDE2000. That percentile lies at the limb, where a pixel spans many fringes and much of
 /// the surroundings, of which both pictures take samples.
 const LIMITS: [(Quality, [f64; 2]); 3] =
     [(Quality::Fast, [1.0, 8.0]), (Quality::Standard, [0.3, 3.0]), (Quality::Spectral, [0.05, 0.6])];
@@ -30,9 +30,9 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut renderer = Renderer::new(pollster::block_on(run.gpu.another())?);
     let scenes = if run.is_long() { 12 } else { LIGHTS.len() };
     let lamps = ["sodium", "A"].into_iter().take(run.short_or_full(1, 2));
-    let lamps: Vec<_> = lamps.map(lamplit_scene).collect::<Result<_, _>>()?;
+    let lamps: Vec<_> = lamps.map(mixed_light_scene).collect::<Result<_, _>>()?;
     measure(run, &mut renderer, "daylight and a lamp", lamps)?;
-    // A truth takes a minute: a short run takes that of the room with a lamp alone, where all kinds of light meet.
+    // A truth takes a minute: a short run computes only the room with a lamp, where all kinds of light meet.
     if run.extent == Extent::Short {
         return Ok(());
     }
@@ -49,12 +49,12 @@ fn measure(
 ) -> Result<(), GpuError> {
     let mut errors: [Vec<f64>; LIMITS.len()] = Default::default();
     for (mut scene, resources) in scenes {
-        let truth = reference::radiance(&wanted(&scene, &resources)?.picture.draw, &Default::default(), &|| ());
+        let truth = reference::radiance(&frame_request(&scene, &resources)?.picture.draw, &Default::default(), &|| ());
         let truth = truth.map_err(|error| GpuError::Refused(error.to_string()))?;
         for ((quality, _), errors) in LIMITS.iter().zip(&mut errors) {
             scene.view.quality = *quality;
-            let want = wanted(&scene, &resources)?;
-            errors.extend(differences(&want.picture.draw, &truth, &radiance(renderer, &want)?));
+            let request = frame_request(&scene, &resources)?;
+            errors.extend(differences(&request.picture.draw, &truth, &radiance(renderer, &request)?));
         }
     }
     for ((quality, limits), mut errors) in LIMITS.into_iter().zip(errors) {
@@ -68,12 +68,12 @@ fn measure(
     Ok(())
 }
 
-/// A scene in daylight, some of whose soft lamps are of another illuminant: those of another random scene.
-fn lamplit_scene(illuminant: &str) -> Result<(Scene, Resources), GpuError> {
+/// A scene in daylight, some of whose soft lamps are of another illuminant: the lamps of another random scene.
+fn mixed_light_scene(illuminant: &str) -> Result<(Scene, Resources), GpuError> {
     let (scene, mut resources) = random_scene(0)?;
     let (_, other) = random_scene(1)?;
     let illuminant = Arc::new(illuminant.parse().map_err(|error| GpuError::Refused(format!("{error}")))?);
-    resources.lamps = vec![Lamp { environment: other.environment, illuminant }];
+    resources.spectral_lights = vec![SpectralLight { environment: other.environment, illuminant }];
     Ok((scene, resources))
 }
 
@@ -116,11 +116,16 @@ fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
     let environment = Arc::new(CubeMap::from_fn(128, 1, light));
     Ok((
         scene,
-        Resources { environment, illuminant: Arc::new(illuminant), lamps: Vec::new(), liquids: BTreeMap::new() },
+        Resources {
+            environment,
+            illuminant: Arc::new(illuminant),
+            spectral_lights: Vec::new(),
+            liquids: BTreeMap::new(),
+        },
     ))
 }
 
-fn wanted(scene: &Scene, resources: &Resources) -> Result<Want, GpuError> {
+fn frame_request(scene: &Scene, resources: &Resources) -> Result<FrameRequest, GpuError> {
     let shot = Shot {
         size: SIZE,
         moment: Moment::default(),
@@ -129,11 +134,11 @@ fn wanted(scene: &Scene, resources: &Resources) -> Result<Want, GpuError> {
         yardstick: false,
         pace: Pace::Whole,
     };
-    want(scene, resources, &shot).map_err(|error| GpuError::Refused(error.to_string()))
+    request(scene, resources, &shot).map_err(|error| GpuError::Refused(error.to_string()))
 }
 
-fn radiance(renderer: &mut Renderer, want: &Want) -> Result<Vec<DVec3>, GpuError> {
-    renderer.bring(want)?;
+fn radiance(renderer: &mut Renderer, request: &FrameRequest) -> Result<Vec<DVec3>, GpuError> {
+    renderer.render(request)?;
     let Some(picture) = renderer.read_radiance() else { return Ok(Vec::new()) };
     let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&picture.wait(&renderer.gpu)?);
     Ok(pixels.into_iter().map(|[r, g, b, _]| DVec3::new(r.into(), g.into(), b.into())).collect())
@@ -155,7 +160,7 @@ fn is_covered(key: &DrawKey, pixel: usize) -> bool {
     let [column, row] = [pixel % SIZE[0] as usize, pixel / SIZE[0] as usize].map(|k| k as f64 + 0.5);
     let ray = reference::camera(&key.camera).ray(SIZE, DVec2::new(column, row));
     key.bubbles.iter().any(|bubble| {
-        let offset = bubble.centre_m - key.camera.eye_m;
+        let offset = bubble.center_m - key.camera.eye_m;
         offset.reject_from_normalized(ray).length() < bubble.radius_m
     })
 }

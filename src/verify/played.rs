@@ -86,7 +86,7 @@ impl<'a> Played<'a> {
         self.film.rest().map(|rest| rest.since_tick as f64 * self.story.motion.tick_s)
     }
 
-    /// Kinetic energy of the flow over that of a unit of mass a steradian: ½ ∫ u², rad²/s².
+    /// Kinetic energy of the flow for a unit of mass per steradian: ½ ∫ u², rad²/s².
     pub fn energy(&self) -> Result<f64, GpuError> {
         let (areas, velocity) = (self.flow()?.sphere().areas(), self.velocity()?);
         Ok(areas.iter().zip(velocity).map(|(area, u)| 0.5 * area * u.length_squared()).sum())
@@ -107,7 +107,7 @@ pub(super) fn key(story: &Story, tick: u64) -> Result<FieldKey, GpuError> {
 
 /// The largest of some numbers; no number if one is none.
 pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |most: f64, value| if value.is_nan() { f64::NAN } else { most.max(value) })
+    values.fold(0.0, |max: f64, value| if value.is_nan() { f64::NAN } else { max.max(value) })
 }
 
 /// How far values left the range of those before, as a part of it (or of their size, if they had none), and the change of their mass over

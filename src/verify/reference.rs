@@ -14,7 +14,7 @@ use crate::{
     },
     plan::{
         BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey, Lighting, Moment, Opening,
-        left_nm,
+        remaining_nm,
     },
 };
 
@@ -58,9 +58,9 @@ pub fn needs_device(bubble: &BubbleKey) -> bool {
 /// A film's grid that is too coarse or too fine, or one that [`needs_device`] and is not there.
 pub fn radiance(key: &DrawKey, films: &MovedFilms, progress: &(dyn Fn() + Sync)) -> Result<Vec<DVec3>, ReferenceError> {
     let mut sum = radiance_in(key, &key.lighting, films, progress)?;
-    for lamp in &key.lamps {
-        let lamp = radiance_in(key, lamp, films, progress)?;
-        sum.iter_mut().zip(lamp).for_each(|(sum, lamp)| *sum += lamp);
+    for spectral_light in &key.spectral_lights {
+        let added = radiance_in(key, spectral_light, films, progress)?;
+        sum.iter_mut().zip(added).for_each(|(sum, added)| *sum += added);
     }
     Ok(sum)
 }
@@ -73,7 +73,7 @@ fn radiance_in(
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<DVec3>, ReferenceError> {
     let light = &lighting.light;
-    let optics = lighting.bands.optics.spectra_to(lighting.bands.range_nm);
+    let optics = lighting.quadrature.optics.spectra_to(lighting.quadrature.range_nm);
     let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
     let scene = PictureScene {
         size: key.size,
@@ -135,14 +135,14 @@ pub fn film_sphere<'a>(
             Box::new(move |direction| film.value(direction))
         }
     };
-    let (to_film, thinned_nm, cap) = (key.to_film, key.thinned_nm, key.cap);
+    let (to_film, evaporated_nm, cap) = (key.to_film, key.evaporated_nm, key.cap);
     let film_nm = move |direction: DVec3| {
         let direction = match cap {
             Some(cap) if on_bath => cap.folded(direction),
             Some(cap) if !cap.contains(direction) => return 0.0,
             _ => direction,
         };
-        left_nm(field(direction), thinned_nm)
+        remaining_nm(field(direction), evaporated_nm)
     };
     let thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match key.hole {
         None => Box::new(move |direction| film_nm(to_film * direction)),
@@ -155,7 +155,7 @@ pub fn film_sphere<'a>(
             Box::new(move |direction| hole.pierced(to_film * direction, film_nm(to_film * direction)))
         }
     };
-    Ok(FilmSphere { centre_m: key.centre_m, radius_m: key.radius_m, stretch: key.stretch, thickness_nm })
+    Ok(FilmSphere { center_m: key.center_m, radius_m: key.radius_m, stretch: key.stretch, thickness_nm })
 }
 
 /// Direction of the thinnest cell of a film; the top of one that is as thin everywhere.
@@ -167,7 +167,7 @@ fn thinnest(film: &FilmKey, thickness_nm: impl Fn(DVec3) -> f64) -> Result<DVec3
     Ok(thinnest.map_or(DVec3::Z, |(_, direction)| direction))
 }
 
-/// A film at its moment: the scheme of the GPU in f64 by the same steps, remapped when as many ticks have passed as there are at most.
+/// A film at its moment: the scheme of the GPU in f64 by the same steps, remapped when the maximum number of ticks has passed.
 pub fn film(key: &FieldKey) -> Result<FlowMap, GridError> {
     let mut film = FlowMap::new(CubedSphere::new(key.cells as usize)?, key.scheme, key.initial.profile())?;
     let mut since_remap = 0;
@@ -188,7 +188,7 @@ pub fn film(key: &FieldKey) -> Result<FlowMap, GridError> {
     Ok(film)
 }
 
-/// Moves a film by so many ticks.
+/// Moves a film by a number of ticks.
 fn advance(film: &mut FlowMap, key: &FieldKey, tick: u64, ticks: f64) {
     let law = key.law(tick);
     if law != FlowLaw::Rest {

@@ -20,13 +20,13 @@ pub const MAX_CELLS: u32 = 64;
 pub enum ReferenceFilmError {
     /// A grid that the model has no room for.
     #[error(
-        "the reference moves films of at most {most} cells along an edge, and this one has {cells}: lower the bubble's film.cells, as with --set bubble.0.film.cells=32"
+        "the reference moves films of at most {max} cells along an edge, and this one has {cells}: lower the bubble's film.cells, as with --set bubble.0.film.cells=32"
     )]
     TooFine {
         /// Cells along an edge.
         cells: u32,
         /// As many as there may be.
-        most: u32,
+        max: u32,
     },
     /// A grid that is too coarse.
     #[error(transparent)]
@@ -51,9 +51,9 @@ impl ReferenceFilm {
         if key.scheme != Scheme::Map {
             return Err(ReferenceFilmError::Scheme(key.scheme.name()));
         }
-        let most = MAX_CELLS.min(key.flow_cells);
-        if key.cells > most {
-            return Err(ReferenceFilmError::TooFine { cells: key.cells, most });
+        let max = MAX_CELLS.min(key.flow_cells);
+        if key.cells > max {
+            return Err(ReferenceFilmError::TooFine { cells: key.cells, max });
         }
         let remap = RemapRule { error_limit_cells: RemapRule::ERROR_LIMIT_CELLS, latest_ticks: key.remap_ticks };
         let rules = FilmRules { cap: key.cap(), drop_rad: key.drop_rad(), remap };

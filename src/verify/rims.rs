@@ -164,7 +164,7 @@ fn drop(run: &mut Run<'_>) -> Result<(), GpuError> {
     }
     let [free, held] = leaks;
     run.at_most("flow through the middle of a drop, part of the largest", held, 1e-3);
-    run.at_most("flow through the middle of a drop, over that of a film without", held / free, 0.1);
+    run.at_most("flow through the middle of a drop, over the flow of a film without a drop", held / free, 0.1);
     Ok(())
 }
 
@@ -224,10 +224,10 @@ fn patch(run: &mut Run<'_>) -> Result<(), GpuError> {
         let seen = |film: &mut FreeFilm<'_>| {
             let nm = film.thickness()?;
             let deficit = |cell: usize| areas[cell] * (NM - nm[cell]).max(0.0);
-            let centre: DVec3 = (0..grid.cells()).map(|cell| deficit(cell) * grid.cell_direction(cell)).sum();
+            let center: DVec3 = (0..grid.cells()).map(|cell| deficit(cell) * grid.cell_direction(cell)).sum();
             let thin = (0..grid.cells()).filter(|cell| NM - nm[*cell] > 0.5 * LACK * NM);
             let area: f64 = thin.map(|cell| areas[cell]).sum();
-            Ok::<_, GpuError>((centre.normalize().z.acos(), (area / PI).sqrt()))
+            Ok::<_, GpuError>((center.normalize().z.acos(), (area / PI).sqrt()))
         };
         let mut moments = vec![seen(&mut film)?];
         for _ in 0..2 {

@@ -44,7 +44,7 @@ pub struct Sorting {
 pub struct Sorted {
     /// Part of the variance of thickness that height explains.
     pub explained: f64,
-    /// Standard deviation over that of the blown film.
+    /// Standard deviation over the standard deviation of the blown film.
     pub kept: f64,
     /// Fringes between bottom and top, 2nΔh / 550 nm.
     pub fringes: f64,
@@ -55,7 +55,7 @@ pub struct Sorted {
     /// Remaps of the map since the start.
     pub remaps: u32,
     /// Process time of a step since the start, ms.
-    pub cpu_ms_a_step: f64,
+    pub cpu_ms_per_step: f64,
 }
 
 const RADIUS_M: f64 = 0.05;
@@ -95,10 +95,10 @@ impl Sorting {
             let end = (time_s / self.dt_s).round() as u32;
             film.run(end - steps, self.dt_s)?;
             steps = end;
-            let cpu_ms_a_step = cpu.elapsed().as_secs_f64() * 1e3 / f64::from(steps.max(1));
+            let cpu_ms_per_step = cpu.elapsed().as_secs_f64() * 1e3 / f64::from(steps.max(1));
             let control: ControlBlock = bytemuck::pod_read_unaligned(&film.field.read_control(gpu).wait(gpu)?);
             let now = film.thickness()?;
-            found.push(Sorted { remaps: control.remaps, cpu_ms_a_step, ..compared(film.sphere(), &blown, &now) });
+            found.push(Sorted { remaps: control.remaps, cpu_ms_per_step, ..compared(film.sphere(), &blown, &now) });
         }
         Ok(found)
     }

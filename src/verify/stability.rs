@@ -86,8 +86,8 @@ fn fields(run: &mut Run<'_>) -> Result<(), GpuError> {
 }
 
 fn deformation() -> Wind {
-    // The usual axis is one.
-    Wind::new(WindKind::NonDivergent, None).unwrap_or_else(|_| unreachable!("the usual axis has a direction"))
+    // The default axis is a direction.
+    Wind::new(WindKind::NonDivergent, None).unwrap_or_else(|_| unreachable!("the default axis has a direction"))
 }
 
 /// Steps from a thousandth of a cell to 200 cells, and none at all.
@@ -172,7 +172,7 @@ fn gravity(run: &mut Run<'_>) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// One value that is no number, in the tracer and in the map.
+/// One NaN, in the tracer and in the map.
 fn spoilt(run: &mut Run<'_>) -> Result<(), GpuError> {
     let wind = deformation();
     let step = |k: u32| Step::wind(&wind, 0.05 * f64::from(k), 0.05 * f64::from(k + 1));
@@ -232,9 +232,13 @@ fn stress(run: &mut Run<'_>, stress: &Stress<'_>) -> Result<(), GpuError> {
     kept(run, name, field.sphere(), [&before, &after]);
     if stress.planted.is_some() {
         let control: Vec<ControlBlock> = bytemuck::pod_collect_to_vec(&field.read_control(run.gpu).wait(run.gpu)?);
-        let healed = control.iter().map(|block| block.healed).sum::<u32>();
-        // A value reaches 36 stencils a lookup until it is healed: far below this, and more than none.
-        run.at_most(format!("{name}: values healed"), if healed == 0 { f64::NAN } else { f64::from(healed) }, 2000.0);
+        let sanitised = control.iter().map(|block| block.sanitised).sum::<u32>();
+        // A value reaches 36 stencils a lookup until it is sanitised: far below this, and more than none.
+        run.at_most(
+            format!("{name}: values sanitised"),
+            if sanitised == 0 { f64::NAN } else { f64::from(sanitised) },
+            2000.0,
+        );
     }
     Ok(())
 }

@@ -14,7 +14,7 @@ use crate::{
 };
 use glam::DVec3;
 
-/// A test on 60 cells an edge (1.5°) in 120 steps a period.
+/// A test on 60 cells per edge (1.5°) in 120 steps per period.
 struct Test {
     wind: WindKind,
     tracer: TracerKind,
@@ -84,9 +84,9 @@ fn published(run: &mut Run<'_>, test: &Test) -> Result<(), GpuError> {
         quantity: Quantity::Density,
         scheme: test.scheme,
         limiter: test.limiter,
-        steps_a_period: 120,
+        steps_per_period: 120,
         steps,
-        traces_a_step: 1,
+        traces_per_step: 1,
         map_coarsening: 1,
     };
     let (norms, remaps) = measured(run, &case)?;
@@ -111,14 +111,14 @@ fn range(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(*value), high.max(*value)))
 }
 
-/// Smooth hills converge at the order of the map's interpolation, the fourth: 16 a doubling, of which the coarsest grid, that hardly
+/// Smooth hills converge at the order of the map's interpolation, the fourth: 16 per doubling, of which the coarsest grid, that hardly
 /// resolves the wind, is granted to miss a third. On the finest grid bells, whose slope has a jump, keep to what a prototype with twice as
 /// many remaps reached.
 fn convergence(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut coarser = l2_on(run, 30, GH)?;
     for (n, limit) in [(60, 1.0 / 11.0), (120, 1.0 / 16.0)] {
         let l2 = l2_on(run, n, GH)?;
-        run.at_most(format!("GaussianHills map: error of N = {n} over that of N = {}", n / 2), l2 / coarser, limit);
+        run.at_most(format!("GaussianHills map: error of N = {n} over error of N = {}", n / 2), l2 / coarser, limit);
         coarser = l2;
     }
     let bells = l2_on(run, 120, CB)?;
@@ -126,7 +126,7 @@ fn convergence(run: &mut Run<'_>) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// l2 of a density after a period of the non-divergent wind, in two steps a cell.
+/// l2 of a density after a period of the non-divergent wind, in two steps per cell.
 fn l2_on(run: &Run<'_>, n: usize, tracer: TracerKind) -> Result<f64, GpuError> {
     let wind = wind(WindKind::NonDivergent, None)?;
     let case = Case {
@@ -136,9 +136,9 @@ fn l2_on(run: &Run<'_>, n: usize, tracer: TracerKind) -> Result<f64, GpuError> {
         quantity: Quantity::Density,
         scheme: Scheme::Map,
         limiter: false,
-        steps_a_period: 2 * n as u32,
+        steps_per_period: 2 * n as u32,
         steps: 2 * n as u64,
-        traces_a_step: 1,
+        traces_per_step: 1,
         map_coarsening: 1,
     };
     Ok(measured(run, &case)?.0.l2)
@@ -162,9 +162,9 @@ fn seams(run: &mut Run<'_>) -> Result<(), GpuError> {
                 scheme: Scheme::Map,
                 limiter,
                 // No step takes cells to cells.
-                steps_a_period: 77,
+                steps_per_period: 77,
                 steps: 77,
-                traces_a_step: 1,
+                traces_per_step: 1,
                 map_coarsening: 1,
             };
             let mut field = Field::new(run.gpu, grid, case.rules())?;
@@ -199,9 +199,9 @@ fn constant_ratio(run: &mut Run<'_>) -> Result<(), GpuError> {
         quantity: Quantity::Ratio,
         scheme: Scheme::Map,
         limiter: false,
-        steps_a_period: 60,
+        steps_per_period: 60,
         steps: 60,
-        traces_a_step: 1,
+        traces_per_step: 1,
         map_coarsening: 1,
     };
     let mut field = Field::new(run.gpu, case.grid, case.rules())?;

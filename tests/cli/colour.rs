@@ -25,7 +25,7 @@ fn colours_come_in_the_promised_columns() {
     assert!((y(0) / truth - 1.0).abs() < 0.002, "{} {truth}", y(0));
 }
 
-/// Two walls by arguments are those of a list, and light leaves through the front wall where it came in unless told otherwise.
+/// Two walls by arguments give what a list gives, and light leaves through the front wall where it came in unless told otherwise.
 #[test]
 fn two_walls_are_given_as_arguments_too() {
     let desk = Desk::new();
@@ -135,7 +135,7 @@ fn broken_spectra_are_refused_by_file_and_line() {
         ("short.csv", "400,1\n700,1\n", "short.csv: covers 400 to 700 nm"),
         ("zero.csv", "360,0\n780,0\n", "zero.csv: has no usable power"),
         ("ultraviolet.csv", "360,1\n366,0\n780,0\n", "ultraviolet.csv: cannot be seen"),
-        ("empty.csv", "", "empty.csv: holds no data"),
+        ("empty.csv", "", "empty.csv: has no data"),
     ] {
         desk.write(file, text);
         let line = desk.refused(&format!("colour --thickness 300 --cos 1 --illuminant {file}"));

@@ -27,7 +27,7 @@ fn the_reference_moves_a_film_without_any_adapter_as_the_device_does() {
         return;
     }
     let apart = read("device.csv").iter().zip(&expected).map(|(a, b)| (a[4] - b[4]).abs()).fold(0.0, f64::max);
-    // What tests/gpu/film_model.rs allows in so many steps.
+    // What tests/gpu/film_model.rs allows in this many steps.
     assert!(apart < 0.05, "{apart} nm");
 }
 

@@ -62,8 +62,5 @@ fn a_sequence_is_drawn_whole_or_not_at_all() {
     let other = "[[bubble]]\ncenter_m = [0, 900, 0]\nfilm.index = 1.5\n[[event]]\ntick = 60\nkind = \"drag\"\nbubble = 1\nto_m = [0, 0.01, 0]\n";
     desk.write("late.toml", format!("version = 1\n[[bubble]]\n{other}"));
     let line = desk.refused("sequence late.toml -o frames --frames 0..90 --size 32x18");
-    assert!(
-        line.contains("late.toml:5: `index` in [bubble.film] number 2 is another than that of [[bubble]] number 1"),
-        "{line}"
-    );
+    assert!(line.contains("late.toml:5: `index` in [bubble.film] number 2 differs from [[bubble]] number 1"), "{line}");
 }

@@ -18,7 +18,7 @@ fn a_frame_alone_is_the_frame_of_a_run() {
     assert_ne!(bytes("run/frame_000000.png"), bytes("run/frame_000005.png"), "the film moves");
     let before = std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap();
     let again = desk.done(&format!("sequence default -o alone --frames 5..5 {size}")).unwrap();
-    assert!(again.err.contains("already there"), "{}", again.err);
+    assert!(again.err.contains("already existed"), "{}", again.err);
     assert_eq!(std::fs::metadata(desk.path("alone/frame_000005.png")).unwrap().modified().unwrap(), before);
 }
 
@@ -65,7 +65,7 @@ fn a_saved_history_replays() {
     for time_s in [0.2, 1.0, 0.4, 1.4] {
         support::display(&mut renderer, &support::still(&loaded, [64, 36], time_s));
     }
-    let mut want = support::still(&loaded, [64, 36], 1.5);
-    want.picture.draw.full_precision = false;
-    assert_eq!(support::display(&mut renderer, &want), pixels("once.png"), "another process, after scrubbing");
+    let mut request = support::still(&loaded, [64, 36], 1.5);
+    request.picture.draw.full_precision = false;
+    assert_eq!(support::display(&mut renderer, &request), pixels("once.png"), "another process, after scrubbing");
 }

@@ -49,9 +49,9 @@ fn opengl_gives_the_same_picture_of_a_film_that_flows() {
     let mut loaded = load("windows");
     loaded.scene.bubbles[0].film.cells = 32;
     loaded.scene.view.dither = false;
-    let mut want = still(&loaded, [96, 54], 0.1);
-    want.picture.draw.full_precision = false;
-    let [a, b] = [own, opengl].map(|gpu| display(&mut Renderer::new(gpu), &want));
+    let mut request = still(&loaded, [96, 54], 0.1);
+    request.picture.draw.full_precision = false;
+    let [a, b] = [own, opengl].map(|gpu| display(&mut Renderer::new(gpu), &request));
     let apart: Vec<u8> = a.iter().zip(&b).map(|(a, b)| a.abs_diff(*b)).collect();
     let mean = apart.iter().map(|steps| f64::from(*steps)).sum::<f64>() / apart.len() as f64;
     assert!(mean < 0.05, "{mean} steps of 255 on average");
@@ -64,7 +64,7 @@ fn opengl_draws_in_full_precision_or_says_that_it_cannot() {
     let mut loaded = load("furnace");
     loaded.scene.bubbles.clear();
     let mut renderer = Renderer::new(opengl);
-    match renderer.bring(&still(&loaded, [16, 9], 0.0)) {
+    match renderer.render(&still(&loaded, [16, 9], 0.0)) {
         Ok(plan) => {
             assert!(plan.complete);
             let bytes = renderer.read_radiance().unwrap().wait(&renderer.gpu).unwrap();

@@ -18,7 +18,7 @@ fn a_film_on_a_bath_is_a_function_of_its_scene_and_tick() {
     loaded.scene.bubbles[0].regeneration = 5.0;
     loaded.scene.motion.drainage = 100.0;
     let film = |renderer: &mut soapfilm::gpu::Renderer, time_s: f64| {
-        renderer.bring(&still(&loaded, [64, 36], time_s)).unwrap();
+        renderer.render(&still(&loaded, [64, 36], time_s)).unwrap();
         renderer.read_film(0).unwrap().unwrap().1.wait(&renderer.gpu).unwrap()
     };
     let at_once = film(&mut renderer, 0.7);
@@ -30,16 +30,16 @@ fn a_film_on_a_bath_is_a_function_of_its_scene_and_tick() {
 }
 
 #[test]
-fn a_bath_looks_as_its_f64_twin_does() {
+fn a_bath_matches_its_f64_twin() {
     let Some(mut renderer) = renderer() else { return };
     for preset in ["bath", "ring"] {
         let mut loaded = load(preset);
         loaded.scene.bubbles[0].film.state = soapfilm::scene::FilmStateName::Rest;
-        let mut want = still(&loaded, [64, 36], 0.0);
+        let mut request = still(&loaded, [64, 36], 0.0);
         // Fewer samples than pictures of this size have, the same for both.
-        want.picture.draw.bubbles[0].samples = short_or_long(2, 8);
-        let found = radiance(&mut renderer, &want);
-        let truth = reference::radiance(&want.picture.draw, &Default::default(), &|| ()).unwrap();
+        request.picture.draw.bubbles[0].samples = short_or_long(2, 8);
+        let found = radiance(&mut renderer, &request);
+        let truth = reference::radiance(&request.picture.draw, &Default::default(), &|| ()).unwrap();
         let brightest = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
         let error = mean_and_max(found.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element() / brightest));
         eprintln!("measured: {preset} against f64, parts of the brightest: {error:?}");

@@ -7,7 +7,7 @@ use soapfilm::{
         film::Hole,
         sphere::{CubedSphere, HaloTable, PaddedField},
     },
-    plan::{BLACK_FILM_NM, OpenHoleKey, Pass, Want, left_nm},
+    plan::{BLACK_FILM_NM, FrameRequest, OpenHoleKey, Pass, remaining_nm},
     scene::{Change, Event, FilmStateName, Prick},
 };
 
@@ -26,12 +26,12 @@ fn thin(mean_nm: f64) -> LoadedScene {
 }
 
 /// The thickness that a film shows, and its mean.
-fn shown(renderer: &mut Renderer, want: &Want) -> (CubedSphere, Vec<f64>, f64) {
-    renderer.bring(want).unwrap();
-    let thinned_nm = want.picture.draw.bubbles[0].thinned_nm;
+fn shown(renderer: &mut Renderer, request: &FrameRequest) -> (CubedSphere, Vec<f64>, f64) {
+    renderer.render(request).unwrap();
+    let evaporated_nm = request.picture.draw.bubbles[0].evaporated_nm;
     let (grid, thickness_nm) = renderer.read_film(0).unwrap().unwrap();
     let values: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.wait(&renderer.gpu).unwrap());
-    let values: Vec<f64> = values.into_iter().map(|nm| left_nm(nm.into(), thinned_nm)).collect();
+    let values: Vec<f64> = values.into_iter().map(|nm| remaining_nm(nm.into(), evaporated_nm)).collect();
     let total: f64 = grid.areas().iter().zip(&values).map(|(area, nm)| area * nm).sum();
     (grid, values, total / (4.0 * std::f64::consts::PI))
 }
@@ -44,7 +44,7 @@ fn black_part(grid: CubedSphere, values: &[f64]) -> f64 {
 }
 
 #[test]
-fn what_collapses_to_black_film_is_not_lost() {
+fn a_collapse_to_black_film_loses_no_liquid() {
     let Some(mut renderer) = renderer() else { return };
     // 28 nm at the top, 114 nm at the bottom: the upper third is thin enough to collapse, and nothing evaporates.
     let mut loaded = thin(60.0);
@@ -114,10 +114,10 @@ fn pricked(at: [f64; 3]) -> LoadedScene {
     loaded
 }
 
-/// Rim of the hole of a wanted picture, on the device and in f64.
-fn rims(renderer: &mut Renderer, want: &Want) -> (Vec<RimValue>, Hole) {
-    let (grid, values, _) = shown(renderer, want);
-    let bubble = &want.picture.draw.bubbles[0];
+/// Rim of the hole of a requested picture, on the device and in f64.
+fn rims(renderer: &mut Renderer, request: &FrameRequest) -> (Vec<RimValue>, Hole) {
+    let (grid, values, _) = shown(renderer, request);
+    let bubble = &request.picture.draw.bubbles[0];
     let OpenHoleKey { radius_m, hole, .. } = bubble.open_hole().unwrap();
     let field = PaddedField::from_cells(grid, &HaloTable::new(grid), |cell| values[cell]);
     let buffer = renderer.read_hole(0).unwrap();
@@ -126,12 +126,12 @@ fn rims(renderer: &mut Renderer, want: &Want) -> (Vec<RimValue>, Hole) {
 }
 
 #[test]
-fn a_hole_opens_as_its_f64_twin_does() {
+fn a_hole_matches_its_f64_twin() {
     let Some(mut renderer) = renderer() else { return };
     let loaded = pricked([0.5, -0.3, 0.6]);
     for time_s in [0.4, 0.9, 1.6] {
-        let want = still(&loaded, SIZE, time_s);
-        let (found, truth) = rims(&mut renderer, &want);
+        let request = still(&loaded, SIZE, time_s);
+        let (found, truth) = rims(&mut renderer, &request);
         for (found, truth) in found.iter().zip(&truth.rim) {
             // Sums of 512 parts in f32, and bilinear lookups that differ by rounding.
             assert!((f64::from(found.outer_rad) - truth.outer_rad).abs() < 1e-4, "{found:?} {truth:?}");
@@ -147,16 +147,16 @@ fn a_burst_film_moves_no_more_and_then_is_gone() {
     let mut loaded = pricked([1.0, 0.2, 0.0]);
     loaded.scene.bubbles[0].film.state = FilmStateName::Blown;
     let first = still(&loaded, SIZE, 0.5);
-    renderer.bring(&first).unwrap();
-    let later = renderer.bring(&still(&loaded, SIZE, 0.8)).unwrap();
+    renderer.render(&first).unwrap();
+    let later = renderer.render(&still(&loaded, SIZE, 0.8)).unwrap();
     let names: Vec<&str> = later.steps.iter().map(|(pass, _)| pass.name()).collect();
     assert_eq!(names, ["open_hole", "draw", "tonemap"]);
-    let want = still(&loaded, SIZE, 3.5);
-    assert!(want.picture.draw.bubbles.is_empty());
-    let gone = radiance(&mut renderer, &want);
+    let request = still(&loaded, SIZE, 3.5);
+    assert!(request.picture.draw.bubbles.is_empty());
+    let gone = radiance(&mut renderer, &request);
     assert!(gone.iter().all(|pixel| pixel.distance(gone[0]) < 1e-6), "nothing but the backdrop");
     // The burst lasts some 2.4 s of slow motion, and the new bubble comes 2 s later.
-    let next = renderer.bring(&still(&loaded, SIZE, 4.9)).unwrap();
+    let next = renderer.render(&still(&loaded, SIZE, 4.9)).unwrap();
     assert!(next.steps.iter().any(|(pass, _)| matches!(pass, Pass::SeedField { .. })), "a new bubble");
 }
 
@@ -178,7 +178,7 @@ fn holes_need_no_film_on_the_device() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = pricked([1.0, 0.0, 0.0]);
     loaded.scene.bubbles[0].film.state = FilmStateName::Uniform;
-    let plan = renderer.bring(&still(&loaded, SIZE, 1.0)).unwrap();
+    let plan = renderer.render(&still(&loaded, SIZE, 1.0)).unwrap();
     assert!(!plan.steps.iter().any(|(pass, _)| matches!(pass, Pass::StepField { .. } | Pass::SeedField { .. })));
     let rim: Vec<RimValue> = bytemuck::pod_collect_to_vec(&renderer.read_hole(0).unwrap().wait(&renderer.gpu).unwrap());
     // All around as far as the speed of Taylor and Culick takes it.

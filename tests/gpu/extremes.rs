@@ -10,7 +10,7 @@ use soapfilm::{
         colour::{BT2020, bt709_to_bt2020},
         environment::CubeMap,
     },
-    plan::Want,
+    plan::FrameRequest,
     scene::{Backdrop, Bubble, Camera, FilmIndexName, FilmStateName, Flow, Quality},
 };
 
@@ -28,7 +28,7 @@ fn at_rest(environment: &str) -> LoadedScene {
     loaded
 }
 
-/// The same in light that is 1 from everywhere.
+/// This picture in light that is 1 from everywhere.
 fn in_a_furnace() -> LoadedScene {
     at_rest("furnace")
 }
@@ -37,16 +37,16 @@ fn departure_from_white(pixels: &[DVec3]) -> f64 {
     mean_and_max(pixels.iter().map(|pixel| (*pixel - 1.0).abs().max_element())).1
 }
 
-fn still_image(loaded: &LoadedScene) -> Want {
+fn still_image(loaded: &LoadedScene) -> FrameRequest {
     still(loaded, SIZE, 0.0)
 }
 
 /// A still as windows have it: half floats, then eight bits.
-fn shown(loaded: &LoadedScene) -> Want {
-    let mut want = still_image(loaded);
-    want.picture.draw.full_precision = false;
-    want.picture.draw.exposed_ev = soapfilm::plan::exposed_ev(want.picture.exposure_ev);
-    want
+fn shown(loaded: &LoadedScene) -> FrameRequest {
+    let mut request = still_image(loaded);
+    request.picture.draw.full_precision = false;
+    request.picture.draw.exposed_ev = soapfilm::plan::exposed_ev(request.picture.exposure_ev);
+    request
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn a_film_of_index_1_is_not_there() {
     }
 }
 
-/// A bubble of few pixels takes the most samples, and a film of 30 um the most bands.
+/// A bubble of few pixels takes the maximum of samples, and a film of 30 µm the maximum of wavelengths.
 #[test]
 fn no_sample_of_a_small_bubble_of_thick_film_is_lost() {
     let Some(mut renderer) = renderer() else { return };
@@ -81,18 +81,18 @@ fn no_sample_of_a_small_bubble_of_thick_film_is_lost() {
 #[test]
 fn a_small_bubble_far_from_the_origin_looks_the_same() {
     let Some(mut renderer) = renderer() else { return };
-    let place = |centre_m: [f64; 3]| {
+    let place = |center_m: [f64; 3]| {
         let mut loaded = at_rest("windows");
-        loaded.scene.bubbles[0] = Bubble { radius_mm: 1.0, center_m: centre_m, ..loaded.scene.bubbles[0].clone() };
-        loaded.scene.camera = Camera { target_m: centre_m, distance_m: 0.005, ..Camera::default() };
+        loaded.scene.bubbles[0] = Bubble { radius_mm: 1.0, center_m, ..loaded.scene.bubbles[0].clone() };
+        loaded.scene.camera = Camera { target_m: center_m, distance_m: 0.005, ..Camera::default() };
         loaded
     };
     let near = radiance(&mut renderer, &still_image(&place([0.0; 3])));
     // Places are given in binary fractions, for f64 itself holds 1000.001 only to 1e-13.
-    for centre_m in [[1000.0; 3], [-1000.0, 512.0, 0.25]] {
-        let far = radiance(&mut renderer, &still_image(&place(centre_m)));
+    for center_m in [[1000.0; 3], [-1000.0, 512.0, 0.25]] {
+        let far = radiance(&mut renderer, &still_image(&place(center_m)));
         let (_, error) = mean_and_max(near.iter().zip(&far).map(|(a, b)| (*a - *b).abs().max_element()));
-        assert!(error < 1e-4, "{centre_m:?}: {error}");
+        assert!(error < 1e-4, "{center_m:?}: {error}");
     }
 }
 
@@ -110,8 +110,8 @@ fn strong_light_and_a_dark_exposure_cancel() {
     let plain = picture(&mut renderer, 0.0);
     for stops in [-13.0, -8.0, 8.0, 20.0] {
         let other = picture(&mut renderer, stops);
-        let most = plain.iter().zip(&other).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
-        assert!(most <= 1, "{stops} stops: {most} steps");
+        let max = plain.iter().zip(&other).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
+        assert!(max <= 1, "{stops} stops: {max} steps");
     }
 }
 
@@ -138,9 +138,9 @@ fn the_brightest_light_is_shown_without_holes() {
     assert!(pixels.chunks(4).all(|rgba| rgba[..3].iter().all(|value| value.abs_diff(level) <= 1)), "{level} expected");
 }
 
-/// From a bubble's centre no direction leads to its centre; through the middle of its outline none leads away from it.
+/// From a bubble's center no direction leads to its center; through the middle of its outline none leads away from it.
 #[test]
-fn an_eye_at_the_centre_or_on_the_axis_sees_as_one_beside_it() {
+fn an_eye_at_the_center_or_on_the_axis_sees_as_one_beside_it() {
     let Some(mut renderer) = renderer() else { return };
     for distance_m in [0.0, 0.24] {
         let mut loaded = at_rest("default");
@@ -174,7 +174,7 @@ fn hot_lamps() -> CubeMap {
     })
 }
 
-/// Fitted wavelengths may not take away more light than there is: least of all from a dense film, whose fringes are sharp, among hot lamps.
+/// Fitted wavelengths may not take away more light than there is, not even from a dense film, whose fringes are sharp, among hot lamps.
 #[test]
 fn no_light_is_negative_and_qualities_agree_on_dense_films() {
     let Some(mut renderer) = renderer() else { return };
@@ -193,11 +193,11 @@ fn no_light_is_negative_and_qualities_agree_on_dense_films() {
         let scale = mean_and_max(truth.iter().map(|pixel| (xyz * *pixel).y)).0;
         for quality in Quality::ALL {
             let pixels = if quality == Quality::Spectral { truth.clone() } else { picture(quality) };
-            let least = pixels.iter().map(|pixel| (xyz * *pixel).min_element()).fold(f64::INFINITY, f64::min);
+            let min = pixels.iter().map(|pixel| (xyz * *pixel).min_element()).fold(f64::INFINITY, f64::min);
             let (error, _) =
                 mean_and_max(truth.iter().zip(&pixels).map(|(a, b)| (xyz * (*a - *b)).abs().max_element()));
-            eprintln!("measured: index {index}, {}: {:.4}, least {least:.2e}", quality.name(), error / scale);
-            assert!(least >= -1e-6 * scale, "index {index}, {}: {least}", quality.name());
+            eprintln!("measured: index {index}, {}: {:.4}, min {min:.2e}", quality.name(), error / scale);
+            assert!(min >= -1e-6 * scale, "index {index}, {}: {min}", quality.name());
             let limit = if quality == Quality::Fast { fast } else { standard };
             assert!(error <= limit * scale, "index {index}, {}: {}", quality.name(), error / scale);
         }

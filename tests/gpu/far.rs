@@ -5,7 +5,7 @@ use soapfilm::{
     gpu::Renderer,
     input::LoadedScene,
     physics::colour::{BT2020, Lab, ciede2000, xyz_to_lab},
-    plan::Want,
+    plan::FrameRequest,
     scene::{Backdrop, Camera, Detail, FilmStateName, Flow, Scene},
     verify::reference,
 };
@@ -21,24 +21,24 @@ fn diameters() -> &'static [f64] {
 }
 
 /// The picture with each bubble's samples and filter as given.
-fn drawn(renderer: &mut Renderer, want: &Want, samples: u32, filtered: bool) -> Vec<DVec3> {
-    let mut want = want.clone();
-    for bubble in &mut want.picture.draw.bubbles {
+fn drawn(renderer: &mut Renderer, request: &FrameRequest, samples: u32, filtered: bool) -> Vec<DVec3> {
+    let mut request = request.clone();
+    for bubble in &mut request.picture.draw.bubbles {
         (bubble.samples, bubble.filtered) = (samples, filtered);
     }
-    radiance(renderer, &want)
+    radiance(renderer, &request)
 }
 
 /// The picture with three times as many samples along a pixel's side.
-fn truth(renderer: &mut Renderer, want: &Want) -> Vec<DVec3> {
-    drawn(renderer, want, 3 * want.picture.draw.bubbles[0].samples, false)
+fn truth(renderer: &mut Renderer, request: &FrameRequest) -> Vec<DVec3> {
+    drawn(renderer, request, 3 * request.picture.draw.bubbles[0].samples, false)
 }
 
 /// Pixels whose middle the bubble covers.
-fn covered(want: &Want) -> Vec<usize> {
-    let key = &want.picture.draw;
+fn covered(request: &FrameRequest) -> Vec<usize> {
+    let key = &request.picture.draw;
     let bubble = &key.bubbles[0];
-    let offset = bubble.centre_m - key.camera.eye_m;
+    let offset = bubble.center_m - key.camera.eye_m;
     let is_covered = |k: &usize| {
         let position = DVec2::new((*k as u32 % SIZE[0]) as f64 + 0.5, (*k as u32 / SIZE[0]) as f64 + 0.5);
         let ray = reference::camera(&key.camera).ray(SIZE, position);
@@ -58,12 +58,12 @@ fn lab(pixel: DVec3, brightest: f64) -> Lab {
 }
 
 /// Colour differences (CIEDE2000) of the pixels that the bubble covers, the truth's brightest at Y = 1.
-fn differences(want: &Want, truth: &[DVec3], seen: &[DVec3]) -> Vec<f64> {
+fn differences(request: &FrameRequest, truth: &[DVec3], seen: &[DVec3]) -> Vec<f64> {
     let white = brightest(truth);
-    covered(want).into_iter().map(|k| ciede2000(lab(truth[k], white), lab(seen[k], white))).collect()
+    covered(request).into_iter().map(|k| ciede2000(lab(truth[k], white), lab(seen[k], white))).collect()
 }
 
-/// Looks at a bubble of the default size from where it is so many pixels across; returns what a pixel spans there, in m.
+/// Looks at a bubble of the default size from where it is `diameter` pixels across; returns the span of a pixel there, in m.
 fn step_back(scene: &mut Scene, diameter: f64) -> f64 {
     let pixel_m = 0.1 / diameter;
     let distance_m = pixel_m * f64::from(SIZE[1]) / (2.0 * (0.5 * FOV_Y_DEG).to_radians().tan());
@@ -91,25 +91,25 @@ fn far_bubbles_do_not_sparkle() {
         let mut errors = Vec::new();
         for tenths in [3.0, 7.0, 0.0].into_iter().take(short_or_long(2, 3)) {
             loaded.scene.bubbles[0].center_m = [0.0, 0.0, 0.1 * tenths * pixel_m];
-            let want = still(&loaded, SIZE, 0.0);
-            errors.extend(differences(&want, &truth(&mut renderer, &want), &radiance(&mut renderer, &want)));
+            let request = still(&loaded, SIZE, 0.0);
+            errors.extend(differences(&request, &truth(&mut renderer, &request), &radiance(&mut renderer, &request)));
         }
-        let (mean, most) = mean_and_max(errors);
-        eprintln!("measured: sorted film, {diameter} pixels across: dE2000 mean {mean:.3}, max {most:.3}");
-        assert!(mean <= 0.2 && most <= 3.0, "{diameter}: {mean} {most}");
+        let (mean, max) = mean_and_max(errors);
+        eprintln!("measured: sorted film, {diameter} pixels across: dE2000 mean {mean:.3}, max {max:.3}");
+        assert!(mean <= 0.2 && max <= 3.0, "{diameter}: {mean} {max}");
     }
 }
 
-/// Where a pixel is one sample and spans more than a cell, filtering the thickness over it brings the picture nearer.
+/// Where a pixel is one sample and spans more than a cell, filtering the thickness over it makes the picture more accurate.
 #[test]
 fn filtered_thickness_is_nearer_to_the_truth() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = sorted();
     step_back(&mut loaded.scene, 60.0);
-    let want = still(&loaded, SIZE, 0.0);
-    let truth = drawn(&mut renderer, &want, 12, false);
+    let request = still(&loaded, SIZE, 0.0);
+    let truth = drawn(&mut renderer, &request, 12, false);
     let [plain, filtered] = [false, true]
-        .map(|filtered| mean_and_max(differences(&want, &truth, &drawn(&mut renderer, &want, 1, filtered))));
+        .map(|filtered| mean_and_max(differences(&request, &truth, &drawn(&mut renderer, &request, 1, filtered))));
     eprintln!("measured: one sample a pixel: dE2000 {plain:.3?} plain, {filtered:.3?} filtered");
     assert!(filtered.0 <= 0.9 * plain.0, "{filtered:?} {plain:?}");
 }
@@ -122,7 +122,7 @@ const DRIFT_PIXELS: [f64; 2] = [0.31, 0.17];
 struct Changes {
     truth: f64,
     excess: f64,
-    most: f64,
+    max: f64,
 }
 
 fn changes(renderer: &mut Renderer, loaded: &mut LoadedScene, diameter: f64, time_s: f64) -> Changes {
@@ -132,20 +132,20 @@ fn changes(renderer: &mut Renderer, loaded: &mut LoadedScene, diameter: f64, tim
     for frame in 0..short_or_long(3, 6) {
         let [right, up] = DRIFT_PIXELS.map(|pixels| f64::from(frame) * pixels * pixel_m);
         loaded.scene.bubbles[0].center_m = [0.0, right, up];
-        let want = still(loaded, SIZE, time_s);
-        let pictures = [truth(renderer, &want), radiance(renderer, &want)];
+        let request = still(loaded, SIZE, time_s);
+        let pictures = [truth(renderer, &request), radiance(renderer, &request)];
         let white = *white.get_or_insert(brightest(&pictures[0]));
         let colours = pictures.map(|picture| picture.into_iter().map(|pixel| lab(pixel, white)).collect::<Vec<_>>());
         if let Some(before) = before.replace(colours.clone()) {
-            for k in covered(&want) {
+            for k in covered(&request) {
                 let [truth, seen] = [0, 1].map(|which| change(&before[which][k], &colours[which][k]));
                 truths.push(truth.length());
                 excesses.push(seen.distance(truth));
             }
         }
     }
-    let (excess, most) = mean_and_max(excesses);
-    Changes { truth: mean_and_max(truths).0, excess, most }
+    let (excess, max) = mean_and_max(excesses);
+    Changes { truth: mean_and_max(truths).0, excess, max }
 }
 
 fn change(from: &Lab, to: &Lab) -> DVec3 {
@@ -154,7 +154,7 @@ fn change(from: &Lab, to: &Lab) -> DVec3 {
 
 /// Freshly blown, and a second later, when gravity has drawn the patches out.
 #[test]
-fn far_blown_bubbles_change_as_they_must() {
+fn far_blown_bubbles_change_little_more_than_the_truth() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = load("default");
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
@@ -162,14 +162,14 @@ fn far_blown_bubbles_change_as_they_must() {
         for diameter in diameters().iter().copied() {
             let changes = changes(&mut renderer, &mut loaded, diameter, time_s);
             eprintln!("measured: {time_s} s, {diameter} pixels across: {changes:.3?} from frame to frame");
-            let Changes { truth, excess, most } = changes;
-            assert!(excess <= 0.1 * truth && most <= 20.0, "{time_s} s, {diameter}: {changes:?}");
+            let Changes { truth, excess, max } = changes;
+            assert!(excess <= 0.1 * truth && max <= 20.0, "{time_s} s, {diameter}: {changes:?}");
         }
     }
 }
 
-/// A blown film of all of its cells, or of half, seen from where the bubble is so many pixels across.
-fn blown(detail: Detail, diameter: f64, time_s: f64) -> Want {
+/// A blown film with all of its cells, or with half, seen from where the bubble is `diameter` pixels across.
+fn blown(detail: Detail, diameter: f64, time_s: f64) -> FrameRequest {
     let mut loaded = load("default");
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
     loaded.scene.bubbles[0].film.detail = detail;
@@ -180,23 +180,23 @@ fn blown(detail: Detail, diameter: f64, time_s: f64) -> Want {
 /// A film on coarser grids: as blown within the limits of a far bubble that is sorted, and a little later within a tenth of what the next tick
 /// changes, as far bubbles that drift must be.
 #[test]
-fn half_of_the_cells_show_a_far_bubble_as_it_is() {
+fn a_far_bubble_with_half_of_the_cells_looks_the_same() {
     let (Some(mut full), Some(mut half)) = (renderer(), renderer()) else { return };
     for (time_s, limits) in [(0.0, Some([0.2, 3.0])), (0.1, None)] {
         for diameter in diameters().iter().copied() {
-            let want = blown(Detail::Full, diameter, time_s);
-            let truth = radiance(&mut full, &want);
+            let request = blown(Detail::Full, diameter, time_s);
+            let truth = radiance(&mut full, &request);
             let seen = radiance(&mut half, &blown(Detail::Half, diameter, time_s));
-            let (mean, most) = mean_and_max(differences(&want, &truth, &seen));
+            let (mean, max) = mean_and_max(differences(&request, &truth, &seen));
             let next = limits.is_none().then(|| {
                 let next = radiance(&mut full, &blown(Detail::Full, diameter, time_s + 1.0 / 60.0));
-                mean_and_max(differences(&want, &truth, &next)).0
+                mean_and_max(differences(&request, &truth, &next)).0
             });
             eprintln!(
-                "measured: half of the cells, {time_s} s, {diameter} pixels across: dE2000 mean {mean:.3}, max {most:.3}; the next tick {next:.3?}"
+                "measured: half of the cells, {time_s} s, {diameter} pixels across: dE2000 mean {mean:.3}, max {max:.3}; the next tick {next:.3?}"
             );
-            if let Some([mean_limit, most_limit]) = limits {
-                assert!(mean <= mean_limit && most <= most_limit, "{time_s} s, {diameter}: {mean} {most}");
+            if let Some([mean_limit, max_limit]) = limits {
+                assert!(mean <= mean_limit && max <= max_limit, "{time_s} s, {diameter}: {mean} {max}");
             }
             assert!(next.is_none_or(|next| mean <= 0.1 * next), "{time_s} s, {diameter}: {mean} {next:?}");
         }
@@ -204,9 +204,9 @@ fn half_of_the_cells_show_a_far_bubble_as_it_is() {
 }
 
 /// Mean and spread of the colours of a bubble in CIELAB, where white has the Y given.
-fn colours(want: &Want, picture: &[DVec3], white: f64) -> [DVec3; 2] {
+fn colours(request: &FrameRequest, picture: &[DVec3], white: f64) -> [DVec3; 2] {
     let black = Lab { l: 0.0, a: 0.0, b: 0.0 };
-    let colours: Vec<DVec3> = covered(want).into_iter().map(|k| change(&black, &lab(picture[k], white))).collect();
+    let colours: Vec<DVec3> = covered(request).into_iter().map(|k| change(&black, &lab(picture[k], white))).collect();
     let count = colours.len() as f64;
     let mean = colours.iter().sum::<DVec3>() / count;
     let variance = colours.iter().map(|colour| (*colour - mean) * (*colour - mean)).sum::<DVec3>() / count;
@@ -214,18 +214,18 @@ fn colours(want: &Want, picture: &[DVec3], white: f64) -> [DVec3; 2] {
 }
 
 /// When small differences have grown, a film on coarser grids is another one of the same kind, at a fraction of the work: the mean and the spread of
-/// its colours differ by no more than those of films of other seeds, which at this time are 2 to 5 apart.
+/// its colours differ by no more than the colours of films of other seeds, which at this time are 2 to 5 apart.
 #[test]
-fn half_of_the_cells_sort_themselves_alike() {
+fn a_film_with_half_of_the_cells_sorts_itself_alike() {
     let Some(mut renderer) = renderer() else { return };
     let mut white = None;
     let found = [Detail::Full, Detail::Half].map(|detail| {
-        let (want, before) = (blown(detail, 40.0, 1.0), renderer.counts);
+        let (request, before) = (blown(detail, 40.0, 1.0), renderer.counts);
         let cpu = cpu_time::ProcessTime::now();
-        let picture = radiance(&mut renderer, &want);
+        let picture = radiance(&mut renderer, &request);
         let cells = renderer.counts.cells_stepped - before.cells_stepped;
         let cpu_s = cpu.elapsed().as_secs_f64();
-        (colours(&want, &picture, *white.get_or_insert(brightest(&picture))), cells, cpu_s)
+        (colours(&request, &picture, *white.get_or_insert(brightest(&picture))), cells, cpu_s)
     });
     eprintln!("measured: 1 s of film, mean and spread of its colours, cells moved, CPU time: {found:.3?}");
     let [(full, full_cells, _), (half, half_cells, _)] = found;

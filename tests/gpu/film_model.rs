@@ -3,7 +3,7 @@
 //! Both are driven by one key and take the same steps, so what is between them is rounding: f32 has 24 bits, and a value is off by up to
 //! ε = 6e-8 of itself after each operation.
 //!
-//! One thing is not: a limited lookup keeps within the range of the four cells around, and where a place lies on a line through cell centres to
+//! One thing is not: a limited lookup keeps within the range of the four cells around, and where a place lies on a line through cell centers to
 //! within rounding, rounding decides which cells those are. Then one cell differs by as much as an interpolation overshoots, some nm. Of
 //! random places one in several hundred thousand does, and the seeds here are such that none does.
 
@@ -19,14 +19,14 @@ use soapfilm::{
         transport_case::values,
     },
     physics::{
-        bubble::CentrePath,
+        bubble::CenterPath,
         film::{Cap, Evaporation, Flow, FlowLaw, FreeFlow, InitialFilm, Push, Pushes, Regeneration},
         flow::FlowForces,
         sphere::CubedSphere,
         timeline::Timeline,
         transport::Scheme,
     },
-    plan::{FieldKey, FilmEnd, Moment},
+    plan::{FieldKey, FilmBoundary, Moment},
     verify::reference_film::ReferenceFilm,
 };
 
@@ -34,7 +34,7 @@ use crate::support::gpu;
 
 const TICK_S: f64 = 1.0 / 60.0;
 
-/// What a free film of 5 cm is subject to. Gravity is tilted: a film that drains straight down is looked up exactly on lines through cell centres,
+/// What a free film of 5 cm is subject to. Gravity is tilted: a film that drains straight down is looked up exactly on lines through cell centers,
 /// where rounding decides which cells are those around that limit the lookup.
 const FREE: FreeFlow = FreeFlow {
     forces: FlowForces { gravity: DVec3::new(50.0, -30.0, -190.0), drag: 2.0, air_drag: 1e4, viscosity: 0.04 },
@@ -50,20 +50,20 @@ fn key(cells: u32, seed: u32, law: FlowLaw) -> FieldKey {
         cells,
         flow_cells: 64,
         initial: InitialFilm::Blown { thickness_nm: 700.0, stratification: 0.0, seed },
-        end: None,
+        boundary: None,
         tick_s: TICK_S,
         scheme: Scheme::Map,
         remap_ticks: 10,
         evaporation: Evaporation::default(),
         flows: Timeline::from_iter([(0, law)]),
         pushes: Pushes::default(),
-        path: CentrePath::default(),
+        path: CenterPath::default(),
         moment: Moment::default(),
     }
 }
 
-fn ending(cap: Option<Cap>, drop_rad: Option<f64>, regeneration: Option<Regeneration>) -> Option<Box<FilmEnd>> {
-    Some(Box::new(FilmEnd { cap, drop_rad, regeneration }))
+fn ending(cap: Option<Cap>, drop_rad: Option<f64>, regeneration: Option<Regeneration>) -> Option<Box<FilmBoundary>> {
+    Some(Box::new(FilmBoundary { cap, drop_rad, regeneration }))
 }
 
 /// What both films are at the end of a step.
@@ -103,7 +103,7 @@ impl<'a> OnDevice<'a> {
         });
         let control: ControlBlock =
             bytemuck::pod_read_unaligned(&self.film.field.read_control(self.gpu).wait(self.gpu).unwrap());
-        assert_eq!(control.healed, 0);
+        assert_eq!(control.sanitised, 0);
         State {
             thickness_nm: values(self.gpu, &mut self.film.field).unwrap(),
             zeta,
@@ -133,7 +133,7 @@ fn apart(found: &[f64], expected: &[f64]) -> [f64; 2] {
     let difference = || found.iter().zip(expected).map(|(a, b)| a - b);
     let rms = mean_square(&mut difference()).sqrt();
     let size = mean_square(&mut expected.iter().copied()).sqrt();
-    [rms / size.max(1e-12), difference().fold(0.0, |most: f64, d| most.max(d.abs()))]
+    [rms / size.max(1e-12), difference().fold(0.0, |max: f64, d| max.max(d.abs()))]
 }
 
 /// What was largest over all steps.
@@ -148,7 +148,7 @@ struct Apart {
 /// Plays a history on the device and one in f64, and compares the two after each step.
 fn compare(gpu: &Gpu, name: &str, [key, in_f64]: [&FieldKey; 2], ticks: u64) -> (Apart, State) {
     let (mut device, mut twin) = (OnDevice::new(gpu, key), ReferenceFilm::new(in_f64).unwrap());
-    let mut most = Apart::default();
+    let mut largest = Apart::default();
     let steps: Vec<Range<u64>> = key.at(Moment::tick(ticks)).steps_from(0).collect();
     for step in &steps {
         let [now, twin_now] = [key, in_f64].map(|key| key.at(Moment::tick(step.end)));
@@ -157,42 +157,46 @@ fn compare(gpu: &Gpu, name: &str, [key, in_f64]: [&FieldKey; 2], ticks: u64) -> 
         let (found, expected) = (device.state(), state_in_f64(&twin, &twin_now));
         assert_eq!(found.remaps, expected.remaps, "{name} at tick {}", step.end);
         let [rms, max] = apart(&found.thickness_nm, &expected.thickness_nm);
-        most.thickness_rms = most.thickness_rms.max(rms);
-        most.thickness_nm = most.thickness_nm.max(max);
+        largest.thickness_rms = largest.thickness_rms.max(rms);
+        largest.thickness_nm = largest.thickness_nm.max(max);
         if !found.zeta.is_empty() {
-            most.zeta = most.zeta.max(apart(&found.zeta, &expected.zeta)[0]);
+            largest.zeta = largest.zeta.max(apart(&found.zeta, &expected.zeta)[0]);
         }
         for (found, expected) in [(found.spared_nm, expected.spared_nm), (found.drained_nm, expected.drained_nm)] {
-            most.counted_nm = most.counted_nm.max((found - expected).abs());
+            largest.counted_nm = largest.counted_nm.max((found - expected).abs());
         }
     }
     let end = state_in_f64(&twin, &in_f64.at(Moment::tick(ticks)));
-    eprintln!("measured: {name}, {} steps, {} remaps: {most:?}", steps.len(), end.remaps);
-    (most, end)
+    eprintln!("measured: {name}, {} steps, {} remaps: {largest:?}", steps.len(), end.remaps);
+    (largest, end)
 }
 
 /// Holds a comparison to its limits.
 fn hold(gpu: &Gpu, name: &str, key: &FieldKey, ticks: u64) -> State {
-    let (most, end) = compare(gpu, name, [key, key], ticks);
+    let (largest, end) = compare(gpu, name, [key, key], ticks);
     let zeta = if name == "ring" { RING_ZETA } else { ZETA };
-    assert!(most.thickness_rms < THICKNESS && most.zeta < zeta && most.counted_nm < COUNTED_NM, "{name}: {most:?}");
+    assert!(
+        largest.thickness_rms < THICKNESS && largest.zeta < zeta && largest.counted_nm < COUNTED_NM,
+        "{name}: {largest:?}"
+    );
     end
 }
 
-/// Root mean square of the difference of thickness, over that of the thickness. A place is known to 2e-6 of a cell, for the arc tangent that finds
-/// it errs by 1e-7; a step looks five up, and random thickness changes by a twentieth from cell to cell: 2e-7 a step, which adds up over
-/// remaps and grows as fast as the flow shears what it has moved. Measured: 6e-6 at most.
+/// Root mean square of the difference of thickness, relative to the thickness. A place is known to 2e-6 of a cell, for the arc tangent that finds
+/// it errs by 1e-7; a step looks five up, and random thickness changes by a twentieth from cell to cell: 2e-7 per step, which adds up over
+/// remaps and grows as fast as the flow shears what it has moved. Measured: 6e-6 at largest.
 const THICKNESS: f64 = 1e-5;
-/// The same of vorticity. It follows from second differences of ψ, in which ε grows by the square of cells a radian, a hundred. Measured: 2e-5.
+/// The limit for vorticity. It follows from second differences of ψ, in which ε grows by the square of the cells per radian, a hundred. Measured:
+/// 2e-5.
 const ZETA: f64 = 4e-5;
-/// The same beyond a ring, where images are magnified sixfold and where those of cells on the diagonals of the panels at the poles lie exactly on
-/// the edge between two panels, to either of which rounding may count them. Measured: 7e-5.
+/// This limit beyond a ring, where images are magnified sixfold and where the images of cells on the diagonals of the panels at the poles lie
+/// exactly on the edge between two panels, to either of which rounding may count them. Measured: 7e-5.
 const RING_ZETA: f64 = 1.5e-4;
 /// What has left and what was spared, as sums in f32 have it, of films of 700 nm. Measured: 1.3e-5.
 const COUNTED_NM: f64 = 5e-5;
 
 #[test]
-fn a_free_film_is_the_f64_one() {
+fn a_free_film_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     for (cells, seed) in [(16, 2), (24, 3)] {
         let end = hold(&gpu, "free", &key(cells, seed, FlowLaw::Free(FREE)), 16);
@@ -201,20 +205,20 @@ fn a_free_film_is_the_f64_one() {
 }
 
 #[test]
-fn a_film_that_ends_somewhere_is_the_f64_one() {
+fn a_film_with_a_boundary_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
-    let ends = [("bath", ending(Some(Cap::HEMISPHERE), None, None)), ("drop", ending(None, Some(0.4), None))];
-    for (name, end) in ends {
-        hold(&gpu, name, &FieldKey { end, ..key(20, 3, FlowLaw::Free(FREE)) }, 16);
+    let boundaries = [("bath", ending(Some(Cap::HEMISPHERE), None, None)), ("drop", ending(None, Some(0.4), None))];
+    for (name, boundary) in boundaries {
+        hold(&gpu, name, &FieldKey { boundary, ..key(20, 3, FlowLaw::Free(FREE)) }, 16);
     }
-    // The images in a ring lie exactly on lines through cell centres: no lookup there may be limited, and a smooth film has none that is.
+    // The images in a ring lie exactly on lines through cell centers: no lookup there may be limited, and a smooth film has none that is.
     let initial = InitialFilm::Rest { thickness_nm: 700.0, stratification: 0.6 };
-    let end = ending(Some(Cap::above(2.0)), None, None);
-    hold(&gpu, "ring", &FieldKey { end, initial, ..key(24, 3, FlowLaw::Free(FREE)) }, 16);
+    let boundary = ending(Some(Cap::above(2.0)), None, None);
+    hold(&gpu, "ring", &FieldKey { boundary, initial, ..key(24, 3, FlowLaw::Free(FREE)) }, 16);
 }
 
 #[test]
-fn a_film_that_spreads_is_the_f64_one() {
+fn a_film_with_diffusion_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     for diffusion in [4e-4, 0.05, 2.0] {
         let law = FlowLaw::Free(FreeFlow { diffusion, ..FREE });
@@ -223,7 +227,7 @@ fn a_film_that_spreads_is_the_f64_one() {
 }
 
 #[test]
-fn a_film_that_thins_and_turns_black_is_the_f64_one() {
+fn a_film_that_thins_and_turns_black_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     let initial = InitialFilm::Blown { thickness_nm: 120.0, stratification: 0.0, seed: 6 };
     let evaporation = Evaporation::new(&Timeline::from_iter([(0, 100.0), (9, 400.0)]), TICK_S);
@@ -233,12 +237,12 @@ fn a_film_that_thins_and_turns_black_is_the_f64_one() {
 }
 
 #[test]
-fn a_film_that_drains_and_regenerates_is_the_f64_one() {
+fn a_film_that_drains_and_regenerates_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     // Fifteen hundred times as fast as in life.
     let law = FlowLaw::Free(FreeFlow { drainage: 1e-10, ..FREE });
     let regeneration = |rim| Some(Regeneration { rim, radius: 0.25, amount: 3.0, seed: 8 });
-    let ends = [
+    let boundaries = [
         ("drains into a drop", ending(None, Some(0.4), None)),
         (
             "drains into a bath, with patches",
@@ -246,29 +250,29 @@ fn a_film_that_drains_and_regenerates_is_the_f64_one() {
         ),
         ("regenerates at a drop", ending(None, Some(0.4), regeneration(2.7))),
     ];
-    for (name, end) in ends {
-        let end = hold(&gpu, name, &FieldKey { end, ..key(20, 7, law) }, 16);
+    for (name, boundary) in boundaries {
+        let end = hold(&gpu, name, &FieldKey { boundary, ..key(20, 7, law) }, 16);
         assert!(end.drained_nm > 0.5, "{name}: {}", end.drained_nm);
     }
 }
 
 #[test]
-fn a_film_that_is_pushed_is_the_f64_one() {
+fn a_pushed_film_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     let push = |at: DVec3, velocity: DVec3, rate: f64, ticks: Range<u64>| {
-        (ticks, Push { centre: at.normalize(), sharpness: Push::sharpness_of(0.3), velocity, rate })
+        (ticks, Push { center: at.normalize(), sharpness: Push::sharpness_of(0.3), velocity, rate })
     };
     let pushes = Pushes::from_iter([
         push(DVec3::new(0.5, 0.4, 0.3), DVec3::new(-2.0, 2.0, 0.0), 18.0, 0..8),
         push(DVec3::new(-0.3, 0.1, 0.9), DVec3::new(60.0, 0.0, -30.0), 20.0, 5..9),
     ]);
-    let path = CentrePath::new(DVec3::ZERO, [(0.05, DVec3::new(0.4, 0.0, 0.2))]);
+    let path = CenterPath::new(DVec3::ZERO, [(0.05, DVec3::new(0.4, 0.0, 0.2))]);
     let pushed = FieldKey { pushes, path, ..key(20, 9, FlowLaw::Free(FREE)) };
     hold(&gpu, "pushed", &pushed, 16);
 }
 
 #[test]
-fn a_film_in_a_flow_in_closed_form_is_the_f64_one() {
+fn a_film_in_a_closed_form_flow_matches_the_f64_model() {
     let Some(gpu) = gpu() else { return };
     let stirred = FlowLaw::Prescribed { flow: Flow::Stirred, strength: 1.0, seed: 2 };
     hold(&gpu, "stirred", &key(24, 1, stirred), 60);
@@ -299,6 +303,6 @@ fn a_planted_difference_is_found() {
         key(16, 2, FlowLaw::Free(FreeFlow { forces, ..FREE }))
     };
     // A thousandth of it.
-    let (most, _) = compare(&gpu, "planted", [&film(0.04), &film(0.04004)], 4);
-    assert!(most.zeta > ZETA, "{most:?}");
+    let (largest, _) = compare(&gpu, "planted", [&film(0.04), &film(0.04004)], 4);
+    assert!(largest.zeta > ZETA, "{largest:?}");
 }

@@ -23,8 +23,8 @@ fn case(kind: FlowCaseKind, mode: (u32, u32), k: f64) -> FlowCase {
     FlowCase::new(kind, DVec3::ONE.normalize(), Mode::new(mode.0, mode.1, 0).unwrap(), 1.0, k).unwrap()
 }
 
-fn run(gpu: &Gpu, case: FlowCase, cells: u32, steps_a_span: u32, spans: u32) -> FlowOutcome {
-    FlowRun { case, cells, steps_a_span, spans, cycles: Cycles::default() }.measure(gpu).unwrap()
+fn run(gpu: &Gpu, case: FlowCase, cells: u32, steps_per_span: u32, spans: u32) -> FlowOutcome {
+    FlowRun { case, cells, steps_per_span, spans, cycles: Cycles::default() }.measure(gpu).unwrap()
 }
 
 /// The cells of a buffer in padded storage.
@@ -75,7 +75,7 @@ fn viscosity_wears_a_harmonic_down() {
     assert!(found.l2 <= 3e-3, "{found:?}");
 }
 
-/// 60 steps a period: the leapfrog is fast by (2π/60)²/24 = 4.6e-4.
+/// 60 steps per period: the leapfrog is fast by (2π/60)²/24 = 4.6e-4.
 #[test]
 fn a_film_sloshes_with_and_without_drag_and_overturns() {
     let Some(gpu) = gpu() else { return };
@@ -95,7 +95,7 @@ fn a_film_sloshes_with_and_without_drag_and_overturns() {
 /// Everything at once, step by step. f32 rounds each step's ζ and ψ to 6e-8 and each trace's origin to as much; ten steps and the sums
 /// inside them add up to some 1e-6. Both take the mean away at the start of each step, by the metric.
 #[test]
-fn the_gpu_does_what_its_f64_twin_does() {
+fn the_gpu_matches_its_f64_twin() {
     let Some(gpu) = gpu() else { return };
     let forces = FlowForces { gravity: DVec3::new(0.3, -0.2, -2.0), drag: 0.5, air_drag: 1.5, viscosity: 0.01 };
     let start = case(FlowCaseKind::RossbyHaurwitz, (1, 1), 0.3);
@@ -127,7 +127,7 @@ fn the_gpu_does_what_its_f64_twin_does() {
     }
 }
 
-/// A value that is no number is counted, stands for zero, and reaches nothing else.
+/// A value that is not finite is counted, is read as zero, and reaches nothing else.
 #[test]
 fn nonsense_is_contained() {
     let Some(gpu) = gpu() else { return };
@@ -146,7 +146,7 @@ fn nonsense_is_contained() {
     let forces = FlowForces { gravity: DVec3::NEG_Z, drag: 0.1, air_drag: 100.0, viscosity: 0.01 };
     submit(&gpu, |recorder| solver.step(recorder, 0.01, &forces).unwrap());
     // The trial of the first step and the step itself both meet the four.
-    assert_eq!(read_measures(&gpu, &solver).unwrap().unusable, 8);
+    assert_eq!(read_measures(&gpu, &solver).unwrap().invalid, 8);
     for buffer in [solver.zeta(), solver.psi()] {
         let (_, max) = mean_and_max(read(&gpu, &solver, buffer).into_iter().map(f64::abs));
         assert!(max < 50.0, "{max}");

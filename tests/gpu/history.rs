@@ -1,9 +1,9 @@
-//! A film's history: equal histories give equal bits however they were cut into frames, and nothing is done for nothing.
+//! A film's history: equal histories give equal bits however they were cut into frames, and no work is done in vain.
 
 use soapfilm::{
     gpu::{Renderer, timing::Counts},
     input::LoadedScene,
-    plan::{FieldHave, Moment, Pace, Want},
+    plan::{FieldState, FrameRequest, Moment, Pace},
     scene::{Blow, Change, Drag, Event, Flow, MotionChange, Scene, Stir},
 };
 
@@ -48,9 +48,9 @@ fn seconds(ticks: f64) -> f64 {
     ticks / 60.0
 }
 
-/// What a window wants at a moment: a frame's worth.
-fn frame(loaded: &LoadedScene, ticks: f64) -> Want {
-    Want { pace: Pace::Frame, ..still(loaded, SIZE, seconds(ticks)) }
+/// What a window requests at a moment: a frame's worth.
+fn frame(loaded: &LoadedScene, ticks: f64) -> FrameRequest {
+    FrameRequest { pace: Pace::Frame, ..still(loaded, SIZE, seconds(ticks)) }
 }
 
 /// Between two ticks, and within a step.
@@ -79,7 +79,7 @@ fn equal_histories_give_equal_bits() {
         let mut renderer = renderer().unwrap();
         for ticks in ticks {
             // A window draws what it has got so far and goes on, whether the film has caught up or not.
-            renderer.bring(&frame(&loaded, *ticks)).unwrap();
+            renderer.render(&frame(&loaded, *ticks)).unwrap();
         }
         assert_eq!(arrive(&mut renderer, &loaded), expected, "{name}");
     }
@@ -94,7 +94,7 @@ fn a_history_made_while_it_runs_is_the_saved_one() {
     for tick in (0..130).step_by(short_or_long(7, 3)) {
         let happened = loaded.scene.events.iter().filter(|event| event.tick <= tick);
         live.scene.events = happened.cloned().collect();
-        running.bring(&frame(&live, tick as f64)).unwrap();
+        running.render(&frame(&live, tick as f64)).unwrap();
     }
     let saved = Scene::from_toml(&live.scene.to_toml(), "saved").unwrap();
     let read = LoadedScene { scene: saved, ..small() };
@@ -102,11 +102,11 @@ fn a_history_made_while_it_runs_is_the_saved_one() {
     assert_eq!(arrive(&mut running, &live), arrive(&mut other, &read));
 }
 
-/// What the device did to get from the picture of one time to that of another.
+/// What the device did to get from the picture of one time to the picture of another.
 fn cost(loaded: &LoadedScene, from_ticks: f64, to_ticks: f64) -> Option<[Counts; 2]> {
     let mut renderer = renderer()?;
     let mut at = |ticks: f64| {
-        assert!(renderer.bring(&still(loaded, SIZE, seconds(ticks))).unwrap().complete);
+        assert!(renderer.render(&still(loaded, SIZE, seconds(ticks))).unwrap().complete);
         renderer.counts
     };
     let first = at(from_ticks);
@@ -159,7 +159,7 @@ fn equal_histories_of_a_film_that_rests_for_a_while_give_equal_bits() {
     let read = |ticks: &[f64]| {
         let mut renderer = renderer()?;
         for ticks in ticks {
-            while !renderer.bring(&frame(&loaded, *ticks)).unwrap().complete {}
+            while !renderer.render(&frame(&loaded, *ticks)).unwrap().complete {}
         }
         let pixels = radiance(&mut renderer, &still(&loaded, SIZE, seconds(*ticks.last()?)));
         let pixels: Vec<_> = pixels.into_iter().map(|pixel| pixel.to_array().map(f64::to_bits)).collect();
@@ -224,7 +224,7 @@ fn scrubbing_to_random_moments_gives_the_bits_of_a_run_from_scratch() {
     loaded.scene.bubbles[0].film.thickness_nm = 250.0;
     (loaded.scene.motion.evaporation_nm_s, loaded.scene.motion.black_film_life_s) = (25.0, 1e6);
     let read = |renderer: &mut Renderer, ticks: f64| {
-        while !renderer.bring(&frame(&loaded, ticks)).unwrap().complete {}
+        while !renderer.render(&frame(&loaded, ticks)).unwrap().complete {}
         let (_, film) = renderer.read_film(0).unwrap().unwrap();
         (film.wait(&renderer.gpu).unwrap(), renderer.counts.cells_stepped)
     };
@@ -266,7 +266,7 @@ fn a_film_drains_by_the_law_in_force_alone() {
     let flow = |flow| MotionChange { flow: Some(flow), ..MotionChange::default() };
     loaded.scene.events = vec![event(61, flow(Flow::Free)), event(130, flow(Flow::Sloshing))];
     let read = |renderer: &mut Renderer, ticks: f64| {
-        while !renderer.bring(&frame(&loaded, ticks)).unwrap().complete {}
+        while !renderer.render(&frame(&loaded, ticks)).unwrap().complete {}
         let (_, film) = renderer.read_film(0).unwrap().unwrap();
         film.wait(&renderer.gpu).unwrap()
     };
@@ -281,9 +281,9 @@ fn a_film_drains_by_the_law_in_force_alone() {
 fn states_end_where_steps_do() {
     let Some(mut renderer) = renderer() else { return };
     let loaded = eventful();
-    let mut state = |want: &Want| {
-        while !renderer.bring(want).unwrap().complete {}
-        renderer.have().fields[0].clone().map(|FieldHave { state, shown, .. }| (state.moment, shown)).unwrap()
+    let mut state = |request: &FrameRequest| {
+        while !renderer.render(request).unwrap().complete {}
+        renderer.state().fields[0].clone().map(|FieldState { key, shown, .. }| (key.moment, shown)).unwrap()
     };
     let jumped = state(&still(&loaded, SIZE, seconds(END_TICKS)));
     for ticks in [0.0, 77.7, 12.0] {

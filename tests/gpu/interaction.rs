@@ -26,12 +26,12 @@ fn events() -> (Stir, Blow) {
     (stir, Blow { at: [-0.3, 0.1, 0.9], toward: [1.0, 0.0, -0.5], radius_deg: 25.0, ticks: 4, ..Blow::default() })
 }
 
-/// Vorticity after so many steps of the twin, from the events' own numbers.
+/// Vorticity after a number of steps of the twin, from the numbers of the events.
 fn twin(steps: u32) -> Vec<f64> {
     let (stir, blow) = events();
     let (radius_m, stir_s) = (0.05, 20.0 / 60.0);
     let push = |at: [f64; 3], radius_deg: f64, velocity: DVec3, rate: f64| Push {
-        centre: DVec3::from(at).normalize(),
+        center: DVec3::from(at).normalize(),
         sharpness: Push::sharpness_of(radius_deg.to_radians()),
         velocity: velocity / radius_m,
         rate,
@@ -63,7 +63,7 @@ fn twin(steps: u32) -> Vec<f64> {
 }
 
 #[test]
-fn pushes_do_on_the_device_what_they_do_in_f64() {
+fn pushes_on_the_device_match_their_f64_twin() {
     let Some(gpu) = gpu() else { return };
     let (stir, blow) = events();
     let mut scene = weightless(CELLS);
@@ -86,7 +86,7 @@ fn a_jet_straight_at_the_film_moves_nothing() {
         let scene = Scene { events: vec![Event { tick: 0, change: Change::Blow(blow) }], ..weightless(CELLS) };
         let mut played = Played::new(&gpu, &scene).unwrap();
         played.play_to(6).unwrap();
-        played.velocity().unwrap().iter().fold(0.0, |most: f64, u| most.max(u.length()))
+        played.velocity().unwrap().iter().fold(0.0, |max: f64, u| max.max(u.length()))
     };
     let (straight, oblique) = (largest([-0.3, -0.5, -0.8]), largest([-0.3, 0.5, -0.8]));
     assert!(straight < 1e-5 * oblique && oblique > 1.0, "{straight} {oblique}");
@@ -94,13 +94,13 @@ fn a_jet_straight_at_the_film_moves_nothing() {
 
 /// A picture of a bubble that flies through the air, and the matrix that stretches it.
 fn pushed_picture(renderer: &mut Renderer, loaded: &LoadedScene, size: [u32; 2]) -> (Vec<DVec3>, Vec<DVec3>, DMat3) {
-    let mut want = still(loaded, size, 25.0 / 60.0);
+    let mut request = still(loaded, size, 25.0 / 60.0);
     // Fewer samples than pictures of this size have, the same for both.
-    want.picture.draw.bubbles[0].samples = short_or_long(2, 8);
-    let draw = &want.picture.draw;
+    request.picture.draw.bubbles[0].samples = short_or_long(2, 8);
+    let draw = &request.picture.draw;
     let stretch = draw.bubbles[0].stretch;
     let truth = reference::radiance(draw, &Default::default(), &|| ()).unwrap();
-    (radiance(renderer, &want), truth, stretch)
+    (radiance(renderer, &request), truth, stretch)
 }
 
 /// A bubble of one thickness that a drag has pushed out of shape, in a preset's light.
@@ -113,7 +113,7 @@ fn dragged(preset: &str, to_m: [f64; 3]) -> LoadedScene {
 }
 
 #[test]
-fn a_pushed_bubble_is_the_f64_one() {
+fn a_pushed_bubble_matches_the_f64_picture() {
     let Some(mut renderer) = renderer() else { return };
     for (to_m, largest_stretch, limit) in [([0.0, 0.05, 0.02], 0.02, 5e-4), ([0.0, 0.3, 0.1], 0.2, 3e-3)] {
         let mut loaded = dragged("default", to_m);
@@ -123,10 +123,10 @@ fn a_pushed_bubble_is_the_f64_one() {
         assert!(size > 1e-3 && size < largest_stretch, "{size}");
         let brightest = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
         let apart = seen.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element() / brightest);
-        let (mean, most) = mean_and_max(apart);
-        eprintln!("measured: stretch {size:.4}, mean {mean:.5}, most {most:.4} of the brightest");
+        let (mean, max) = mean_and_max(apart);
+        eprintln!("measured: stretch {size:.4}, mean {mean:.5}, max {max:.4} of the brightest");
         // The film has the mean of the angles at its first two walls, which differ in proportion to the stretch.
-        assert!(mean < limit, "stretch {size}: {mean} {most}");
+        assert!(mean < limit, "stretch {size}: {mean} {max}");
     }
 }
 
@@ -140,8 +140,8 @@ fn an_ellipsoid_vanishes_in_even_light() {
     let (seen, truth, stretch) = pushed_picture(&mut renderer, &loaded, [32, 20]);
     assert_ne!(stretch, DMat3::IDENTITY);
     let even = truth[0];
-    let (_, most) = mean_and_max(seen.iter().chain(&truth).map(|pixel| (*pixel - even).abs().max_element() / even.x));
-    assert!(most < 2e-3, "{most}");
+    let (_, max) = mean_and_max(seen.iter().chain(&truth).map(|pixel| (*pixel - even).abs().max_element() / even.x));
+    assert!(max < 2e-3, "{max}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use glam::DVec3;
 use soapfilm::{
     input::{LoadedScene, load_environment},
     physics::{colour::Illuminant, environment::CubeMap},
-    plan::Lamp,
+    plan::SpectralLight,
     scene::{Environment, Flow, Quality},
     verify::reference,
 };
@@ -28,41 +28,42 @@ fn a_lamp_of_the_same_illuminant_changes_nothing() {
     let alone = radiance(&mut renderer, &still(&loaded, SIZE, 0.0));
     loaded.resources.environment = Arc::new(CubeMap::from_fn(64, 1, |d| (1.0 - share(d)) * whole(d)));
     let environment = Arc::new(CubeMap::from_fn(64, 1, |d| share(d) * whole(d)));
-    loaded.resources.lamps = vec![Lamp { environment, illuminant: loaded.resources.illuminant.clone() }];
+    loaded.resources.spectral_lights =
+        vec![SpectralLight { environment, illuminant: loaded.resources.illuminant.clone() }];
     let split = radiance(&mut renderer, &still(&loaded, SIZE, 0.0));
     let (_, error) = mean_and_max(alone.iter().zip(&split).map(|(a, b)| (*a - *b).abs().max_element()));
     assert!(error <= 1e-3, "{error}");
-    loaded.resources.lamps[0].illuminant = Arc::new("sodium".parse::<Illuminant>().unwrap());
+    loaded.resources.spectral_lights[0].illuminant = Arc::new("sodium".parse::<Illuminant>().unwrap());
     let other = radiance(&mut renderer, &still(&loaded, SIZE, 0.0));
     let (mean, _) = mean_and_max(alone.iter().zip(&other).map(|(a, b)| (*a - *b).abs().max_element()));
     assert!(mean > 0.01, "a lamp of another spectrum must look different: {mean}");
 }
 
-/// The preset's lamp in the tent, whose lamps are soft, against the f64 picture: the limits are those of the other presets, for filtered
+/// The preset's lamp in the tent, whose lamps are soft, against the f64 picture: the limits are as for the other presets, for filtered
 /// lookups of the environment against averages over samples.
 #[test]
-fn the_picture_in_two_lights_is_the_f64_one() {
+fn the_picture_in_two_lights_matches_the_f64_picture() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = load("two_lights");
     loaded.scene.bubbles[0].film.cells = 64;
     loaded.scene.motion.flow = Flow::Rest;
     loaded.scene.light.environment = Environment::Tent;
-    let (environment, lamps) = load_environment(&loaded.scene.light, Path::new(""), &mut Vec::new()).unwrap();
-    (loaded.resources.environment, loaded.resources.lamps) = (environment, lamps);
+    let (environment, spectral_lights) = load_environment(&loaded.scene.light, Path::new(""), &mut Vec::new()).unwrap();
+    (loaded.resources.environment, loaded.resources.spectral_lights) = (environment, spectral_lights);
     // Fewer samples than pictures of this size have, the same for both.
-    let wanted = |loaded: &LoadedScene| {
-        let mut want = still(loaded, SIZE, 0.0);
-        want.picture.draw.bubbles[0].samples = short_or_long(2, 6);
-        want
+    let frame_request = |loaded: &LoadedScene| {
+        let mut request = still(loaded, SIZE, 0.0);
+        request.picture.draw.bubbles[0].samples = short_or_long(2, 6);
+        request
     };
-    let want = wanted(&loaded);
-    assert_eq!(want.picture.draw.lamps.len(), 1);
+    let request = frame_request(&loaded);
+    assert_eq!(request.picture.draw.spectral_lights.len(), 1);
     // The f64 picture knows no qualities.
-    let truth = reference::radiance(&want.picture.draw, &Default::default(), &|| ()).unwrap();
+    let truth = reference::radiance(&request.picture.draw, &Default::default(), &|| ()).unwrap();
     for quality in Quality::ALL {
         loaded.scene.view.quality = quality;
-        let want = wanted(&loaded);
-        let seen = radiance(&mut renderer, &want);
+        let request = frame_request(&loaded);
+        let seen = radiance(&mut renderer, &request);
         let mut levels: Vec<f64> = truth.iter().map(|pixel| pixel.max_element()).collect();
         levels.sort_by(f64::total_cmp);
         let scale = levels[levels.len() * 9 / 10];

@@ -6,12 +6,12 @@ use crate::support::hold;
 
 /// One and two walls under several lights at each quality; what is not there is not seen.
 #[test]
-fn colours_of_films_are_the_spectral_ones() {
+fn colours_of_films_match_the_spectral_sum() {
     hold(Part::Optics, 30);
 }
 
 /// Random bubbles in coloured light.
 #[test]
-fn pictures_in_coloured_light_are_the_f64_ones() {
+fn pictures_in_coloured_light_match_the_f64_pictures() {
     hold(Part::Picture, 4);
 }

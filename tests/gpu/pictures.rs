@@ -10,7 +10,7 @@ use soapfilm::{
         environment::{CubeMap, Equirect, direction_of_uv},
         picture::PictureCamera,
     },
-    plan::Want,
+    plan::FrameRequest,
     scene::{Backdrop, Camera, FilmStateName, Flow, preset_names},
     verify::reference,
 };
@@ -44,8 +44,8 @@ fn lamp(towards: DVec3, degrees: f64) -> CubeMap {
     CubeMap::from_fn(512, 1, radiance)
 }
 
-fn camera(want: &Want) -> PictureCamera {
-    let key = &want.picture.draw.camera;
+fn camera(request: &FrameRequest) -> PictureCamera {
+    let key = &request.picture.draw.camera;
     PictureCamera {
         eye_m: key.eye_m,
         forward: key.forward,
@@ -88,12 +88,12 @@ fn a_bubble_vanishes_in_even_light() {
 }
 
 /// Where a bubble shows a lamp, by plane geometry alone. With the angle α of the ray and ψ of the lamp, both from the direction to the
-/// centre, and sin θ = (D / R) sin α: the outer reflection turns the ray by π − 2θ away from the centre, so α + π − 2θ = ψ on the lamp's
+/// center, and sin θ = (D / R) sin α: the outer reflection turns the ray by π − 2θ away from the center, so α + π − 2θ = ψ on the lamp's
 /// own side; one inner reflection turns it as far the other way, so π − 2θ − α = ψ on the opposite side.
 fn seen_at(camera: &PictureCamera, size: [u32; 2], radius_m: f64, lamp: DVec3, inner: bool) -> DVec2 {
-    let to_centre = -camera.eye_m.normalize();
+    let to_center = -camera.eye_m.normalize();
     let ratio = camera.eye_m.length() / radius_m;
-    let psi = to_centre.angle_between(lamp);
+    let psi = to_center.angle_between(lamp);
     let turned = |alpha: f64| std::f64::consts::PI - 2.0 * (ratio * alpha.sin()).min(1.0).asin();
     let misses = |alpha: f64| turned(alpha) + if inner { -alpha } else { alpha } - psi;
     let (mut low, mut high) = (0.0, (1.0 / ratio).asin());
@@ -102,8 +102,8 @@ fn seen_at(camera: &PictureCamera, size: [u32; 2], radius_m: f64, lamp: DVec3, i
         let middle = 0.5 * (low + high);
         if misses(middle) > 0.0 { low = middle } else { high = middle }
     }
-    let side = lamp.reject_from_normalized(to_centre).normalize() * if inner { -1.0 } else { 1.0 };
-    camera.position(size, low.cos() * to_centre + low.sin() * side).unwrap()
+    let side = lamp.reject_from_normalized(to_center).normalize() * if inner { -1.0 } else { 1.0 };
+    camera.position(size, low.cos() * to_center + low.sin() * side).unwrap()
 }
 
 /// Front highlights upright, back ones inverted, each within half a pixel of where exact perspective puts it.
@@ -219,8 +219,8 @@ fn environments_have_no_seam() {
     loaded.scene.bubbles.clear();
     // Looks along -x, where the file's edges meet.
     loaded.scene.camera = Camera { azimuth_deg: 0.0, elevation_deg: 0.0, ..Camera::default() };
-    let want = still(&loaded, SIZE, 0.0);
-    let (eye, pixels) = (camera(&want), radiance(&mut renderer, &want));
+    let request = still(&loaded, SIZE, 0.0);
+    let (eye, pixels) = (camera(&request), radiance(&mut renderer, &request));
     let error = |k: u32| {
         let position = DVec2::new(f64::from(k % SIZE[0]) + 0.5, f64::from(k / SIZE[0]) + 0.5);
         (pixels[k as usize].x - formula(eye.ray(SIZE, position))).abs()
@@ -255,9 +255,9 @@ fn small_bubbles_do_not_twinkle() {
     assert!(max > 0.0 && spread <= 0.005, "{energies:?}");
 }
 
-/// Pixels on either side of the outline that count as the rim: light grazes the film there, thick films have fringes as narrow as pixels,
+/// Pixels on either side of the outline that count as the limb: light grazes the film there, thick films have fringes as narrow as pixels,
 /// and reflections squeeze the room together.
-const RIM_PIXELS: f64 = 4.0;
+const LIMB_PIXELS: f64 = 4.0;
 
 /// How far the GPU's picture is from the f64 one.
 struct Distance {
@@ -265,35 +265,35 @@ struct Distance {
     mean: f64,
     /// Largest difference of pixels that the bubble's outline stays clear of, in the same units.
     inside_max: f64,
-    /// Largest difference of the others, in units of the light's white, all of which a film reflects at the rim.
-    rim_max: f64,
+    /// Largest difference of the others, in units of the light's white, all of which a film reflects at the limb.
+    limb_max: f64,
 }
 
 fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedScene, time_s: f64) -> Distance {
     let size = [160, 90];
-    let want = still(loaded, size, time_s);
-    let seen = radiance(renderer, &want);
-    let truth = reference::radiance(&want.picture.draw, &Default::default(), &|| ()).unwrap();
+    let request = still(loaded, size, time_s);
+    let seen = radiance(renderer, &request);
+    let truth = reference::radiance(&request.picture.draw, &Default::default(), &|| ()).unwrap();
     let mut levels: Vec<f64> = truth.iter().map(|pixel| pixel.max_element()).collect();
     levels.sort_by(f64::total_cmp);
     let scale = levels[levels.len() * 9 / 10];
     let errors: Vec<f64> = seen.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element() / scale).collect();
-    let eye = camera(&want);
+    let eye = camera(&request);
     let limb = (0.05 / eye.eye_m.length()).asin();
-    let at_rim = |k: usize| {
+    let at_limb = |k: usize| {
         let position = DVec2::new((k % 160) as f64 + 0.5, (k / 160) as f64 + 0.5);
-        // Not a number, and so never at the rim, with the camera inside.
-        (eye.ray(size, position).angle_between(-eye.eye_m) - limb).abs() < RIM_PIXELS * eye.pixel_height_m
+        // Not a number, and so never at the limb, with the camera inside.
+        (eye.ray(size, position).angle_between(-eye.eye_m) - limb).abs() < LIMB_PIXELS * eye.pixel_height_m
     };
-    let part = |rim: bool| {
-        let errors = errors.iter().enumerate().filter(|(k, _)| at_rim(*k) == rim).map(|(_, error)| *error);
+    let part = |limb: bool| {
+        let errors = errors.iter().enumerate().filter(|(k, _)| at_limb(*k) == limb).map(|(_, error)| *error);
         errors.fold(0.0, f64::max)
     };
     let (mean, _) = mean_and_max(errors.iter().copied());
-    let white = want.picture.draw.lighting.light.gain.max_element() / scale;
-    let distance = Distance { mean, inside_max: part(false), rim_max: part(true) / white };
-    let Distance { mean, inside_max, rim_max } = distance;
-    eprintln!("measured: GPU - f64 picture, {name}: mean {mean:.5}, max {inside_max:.4}, at the rim {rim_max:.4}");
+    let white = request.picture.draw.lighting.light.gain.max_element() / scale;
+    let distance = Distance { mean, inside_max: part(false), limb_max: part(true) / white };
+    let Distance { mean, inside_max, limb_max } = distance;
+    eprintln!("measured: GPU - f64 picture, {name}: mean {mean:.5}, max {inside_max:.4}, at the limb {limb_max:.4}");
     distance
 }
 
@@ -301,7 +301,7 @@ fn distance_from_reference(renderer: &mut Renderer, name: &str, loaded: &LoadedS
 /// colours are saturated), and light of the third inner reflection on given to the second, which is the same light here. At the outline:
 /// one analytic coverage and one ray a pixel against 64 rays, where the film turns from 10 % to 100 % of reflectance within a pixel.
 #[test]
-fn the_picture_in_even_light_is_the_f64_one() {
+fn the_picture_in_even_light_matches_the_f64_picture() {
     let Some(mut renderer) = renderer() else { return };
     let mut still_film = uniform(320.0, even_light());
     still_film.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
@@ -312,14 +312,14 @@ fn the_picture_in_even_light_is_the_f64_one() {
         [(&moving, "stirred film at 0.51 s, even light"), (&still_film, "uniform 320 nm, even light, black card")];
     for (loaded, name) in films.into_iter().take(short_or_long(1, 2)) {
         let distance = distance_from_reference(&mut renderer, name, loaded, 0.51);
-        assert!(distance.mean <= 0.01 && distance.inside_max <= 0.05 && distance.rim_max <= 0.12, "{name}");
+        assert!(distance.mean <= 0.01 && distance.inside_max <= 0.05 && distance.limb_max <= 0.12, "{name}");
     }
 }
 
 /// With a tent around it, filtered lookups of the environment stand against averages over samples: edges of lamps differ by a part of
-/// their contrast within a pixel, and most where the rim squeezes them.
+/// their contrast within a pixel, and most where the limb squeezes them.
 #[test]
-fn the_pictures_of_presets_are_the_f64_ones() {
+fn the_pictures_of_presets_match_the_f64_pictures() {
     let Some(mut renderer) = renderer() else { return };
     let tent = load("default").resources.environment;
     for name in ["lamplight", "inside", "bands"].into_iter().take(short_or_long(1, 3)) {
@@ -327,7 +327,7 @@ fn the_pictures_of_presets_are_the_f64_ones() {
         loaded.resources.environment = tent.clone();
         loaded.scene.bubbles[0].film.cells = 64;
         let distance = distance_from_reference(&mut renderer, name, &loaded, 0.0);
-        assert!(distance.mean <= 0.012 && distance.inside_max <= 0.15 && distance.rim_max <= 0.12, "{name}");
+        assert!(distance.mean <= 0.012 && distance.inside_max <= 0.15 && distance.limb_max <= 0.12, "{name}");
     }
 }
 
@@ -338,12 +338,12 @@ fn equal_history_gives_equal_bits() {
     let mut second = Renderer::new(pollster::block_on(first.gpu.another()).unwrap());
     let mut loaded = load("fresh");
     loaded.scene.bubbles[0].film.cells = 64;
-    let want = |time_s| still(&loaded, SIZE, time_s);
-    let at_once = display(&mut first, &want(1.01));
+    let request = |time_s| still(&loaded, SIZE, time_s);
+    let at_once = display(&mut first, &request(1.01));
     for time_s in [0.2, 0.5, 0.505, 0.9] {
-        display(&mut second, &want(time_s));
+        display(&mut second, &request(time_s));
     }
-    assert!(display(&mut second, &want(1.01)) == at_once);
+    assert!(display(&mut second, &request(1.01)) == at_once);
 }
 
 /// Every preset draws, and shows something: but for the furnace, whose bubble must not be seen.

@@ -20,7 +20,7 @@ use crate::{
     support::{REQUIRE_TOOLS, has_tools},
 };
 
-/// Values for the constants that a module declares: each of a constant's, beside the first of all others' and beside the last.
+/// Values for the constants that a module declares: each value of a constant, beside the first values of all others and beside the last.
 fn specialisations(kernel: &Kernel, module: &Module) -> Result<Vec<PipelineConstants>, String> {
     let shared = SHARED_CONSTANTS.iter().map(|(name, value)| (*name, vec![*value]));
     let declared = kernel.overrides.iter().map(|constant| (constant.name, constant.values.clone()));

@@ -26,11 +26,11 @@ fn mean_nm(film: &[FilmCell]) -> f64 {
 }
 
 #[test]
-fn pictures_are_those_of_the_renderer() {
+fn studio_pictures_match_the_renderer() {
     let (Some(mut studio), Some(mut renderer)) = (studio(), support::renderer()) else { return };
     let loaded = load_scene("furnace").unwrap();
-    let want = support::still(&loaded, [40, 30], 0.5);
-    let expected = support::radiance(&mut renderer, &want);
+    let request = support::still(&loaded, [40, 30], 0.5);
+    let expected = support::radiance(&mut renderer, &request);
     let found = studio.radiance(&loaded, [40, 30], 0.5).unwrap();
     assert_eq!((found.rgb.len(), found.rows().len()), (1200, 30));
     let to_bt709 = soapfilm::physics::colour::bt2020_to_bt709();
@@ -67,7 +67,7 @@ fn films_keep_their_liquid_wherever_the_camera_looks() {
 }
 
 #[test]
-fn what_is_no_film_has_no_thickness() {
+fn cells_beyond_a_rim_have_no_film() {
     let Some(mut studio) = studio() else { return };
     let bath = scene(|scene| scene.bubbles[0].boundary = Boundary::Bath);
     for cell in studio.film(&bath, 0, 0.0).unwrap() {

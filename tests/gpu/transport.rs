@@ -60,7 +60,7 @@ fn moved(
 /// The same steps in f64. Per step and cell f32 rounds the position to 6e-8 (which the steepest slope of bells of radius 1/2,
 /// 0.9 π a radian, turns into 2e-7) and the sums of a lookup to as much; 60 steps that add in the worst case are 2.5e-5.
 #[test]
-fn the_gpu_does_what_its_f64_twin_does() {
+fn the_gpu_matches_its_f64_twin() {
     let Some(gpu) = gpu() else { return };
     let wind = Wind::new(WindKind::NonDivergent, None).unwrap();
     let tracer = Tracer::new(TracerKind::CosineBells, wind.tracer_rotation());
@@ -82,7 +82,7 @@ fn the_gpu_does_what_its_f64_twin_does() {
     }
 }
 
-/// Maps of cells so many times as wide as the tracer's lead to the same places, but for the error of interpolating them, which is of the fourth
+/// Maps of cells several times as wide as the tracer's lead to the same places, but for the error of interpolating them, which is of the fourth
 /// order. Where the number is even, lookups take two by two cells at once, which begin at odd cells or at even ones.
 #[test]
 fn a_coarser_map_leads_to_the_same_places() {
@@ -107,10 +107,10 @@ fn a_coarser_map_leads_to_the_same_places() {
     assert!(six <= 24.0 * one_by_one, "{errors:?}: ideal 16");
 }
 
-/// A film of 128 cells an edge stirred for 1 s on the GPU, in steps of so many ticks.
-fn stirred(gpu: &Gpu, grid: CubedSphere, flow: &PrescribedFlow, ticks_a_step: u32, flow_cells: u32) -> Vec<f64> {
-    let length_s = f64::from(ticks_a_step) / 60.0;
-    let steps = (0..60 / ticks_a_step).map(f64::from);
+/// A film of 128 cells per edge stirred for 1 s on the GPU, in steps of `ticks_per_step` ticks.
+fn stirred(gpu: &Gpu, grid: CubedSphere, flow: &PrescribedFlow, ticks_per_step: u32, flow_cells: u32) -> Vec<f64> {
+    let length_s = f64::from(ticks_per_step) / 60.0;
+    let steps = (0..60 / ticks_per_step).map(f64::from);
     let steps = steps.map(|k| Step::prescribed(flow, length_s * k, length_s * (k + 1.0)));
     moved(gpu, grid, Rules { remap: remap(1000), flow_cells, ..RULES }, film().profile(), steps)
 }

@@ -6,7 +6,7 @@ use soapfilm::{
     input::LoadedScene,
     output::{Metadata, Picture},
     physics::colour::Gamut,
-    plan::Want,
+    plan::FrameRequest,
     scene::Backdrop,
 };
 
@@ -15,7 +15,7 @@ use crate::support::{display, load, mean_and_max, radiance, renderer, still};
 const SIZE: [u32; 2] = [240, 135];
 const TIME_S: f64 = 3.0;
 
-/// A stirred film of so many cells, seen at 16 times the usual size.
+/// A stirred film of a number of cells, seen at 16 times the default size.
 fn near(cells: u32) -> LoadedScene {
     let mut loaded = load("stirred");
     loaded.scene.bubbles[0].film.cells = cells;
@@ -25,16 +25,16 @@ fn near(cells: u32) -> LoadedScene {
     loaded
 }
 
-fn with_lookup_a_pixel(mut want: Want, is_on: bool) -> Want {
-    want.picture.draw.bubbles.iter_mut().for_each(|bubble| bubble.magnified = is_on);
-    want
+fn with_lookup_per_pixel(mut request: FrameRequest, is_on: bool) -> FrameRequest {
+    request.picture.draw.bubbles.iter_mut().for_each(|bubble| bubble.magnified = is_on);
+    request
 }
 
 /// Pixels, and a PNG of them in the folder of test output, to be looked at.
-fn picture(renderer: &mut Renderer, want: &Want, name: &str) -> Vec<DVec3> {
-    let pixels = radiance(renderer, want);
+fn picture(renderer: &mut Renderer, request: &FrameRequest, name: &str) -> Vec<DVec3> {
+    let pixels = radiance(renderer, request);
     let path = format!("{}/zoom_{name}.png", env!("CARGO_TARGET_TMPDIR"));
-    let seen = Picture::Display { size: SIZE, gamut: Gamut::Srgb, rgba: display(renderer, want) };
+    let seen = Picture::Display { size: SIZE, gamut: Gamut::Srgb, rgba: display(renderer, request) };
     seen.save(path.as_ref(), &Metadata::new()).unwrap();
     pixels
 }
@@ -45,11 +45,11 @@ fn picture(renderer: &mut Renderer, want: &Want, name: &str) -> Vec<DVec3> {
 #[test]
 fn a_lookup_at_each_pixel_is_nearly_as_good_as_a_finer_film() {
     let Some(mut renderer) = renderer() else { return };
-    let want = still(&near(64), SIZE, TIME_S);
-    assert!(want.picture.draw.bubbles[0].magnified, "at this size cells are larger than pixels");
+    let request = still(&near(64), SIZE, TIME_S);
+    assert!(request.picture.draw.bubbles[0].magnified, "at this size cells are larger than pixels");
     let [through_map, plain] = [(true, "map"), (false, "plain")]
-        .map(|(is_on, name)| picture(&mut renderer, &with_lookup_a_pixel(want.clone(), is_on), name));
-    let fine = with_lookup_a_pixel(still(&near(256), SIZE, TIME_S), true);
+        .map(|(is_on, name)| picture(&mut renderer, &with_lookup_per_pixel(request.clone(), is_on), name));
+    let fine = with_lookup_per_pixel(still(&near(256), SIZE, TIME_S), true);
     let fine = picture(&mut renderer, &fine, "fine");
     let scale = mean_and_max(fine.iter().map(|pixel| pixel.max_element())).0;
     let error =

@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_and_other_sizes_cannot_be_compared() {
+    fn pictures_without_pixels_or_of_other_sizes_cannot_be_compared() {
         assert!(Comparison::of([0, 0], &[], [0, 0], &[]).is_err());
         assert!(Comparison::of([4, 1], &GREY, [2, 2], &GREY).is_err());
         assert!(Comparison::of([2, 2], &GREY[..12], [2, 2], &GREY).is_err());

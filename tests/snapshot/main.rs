@@ -70,10 +70,10 @@ fn presets_look_as_recorded() {
 }
 
 fn draw(renderer: &mut Renderer, name: &str, time_s: f64) -> Vec<u8> {
-    let mut want = support::still(&support::load(name), SIZE, time_s);
+    let mut request = support::still(&support::load(name), SIZE, time_s);
     // As the window draws.
-    want.picture.draw.full_precision = false;
-    support::display(renderer, &want)
+    request.picture.draw.full_precision = false;
+    support::display(renderer, &request)
 }
 
 fn check(renderer: &mut Renderer, name: &str, time_s: f64, exact: bool) -> Result<(), String> {

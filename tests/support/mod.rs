@@ -14,7 +14,7 @@ use soapfilm::{
     gpu::{AdapterChoice, Gpu, Renderer},
     input::{LoadedScene, load_scene},
     physics::colour::Gamut,
-    plan::{Moment, Pace, Shot, Want, want},
+    plan::{FrameRequest, Moment, Pace, Shot, request},
     verify::{Check, Extent, Part, Run},
 };
 
@@ -50,7 +50,7 @@ pub fn has_tools(tools: &[&str], required_by: &str) -> bool {
     false
 }
 
-/// The device to test on, the same one for all tests of a binary: what one test compiled another need not. Nothing where no adapter is required
+/// The device to test on, the same one for all tests of a binary: what one test compiled another need not. `None` where no adapter is required
 /// and none is there. A test that loses a device, or leaves errors on it, opens its own.
 pub fn gpu() -> Option<Gpu> {
     static SHARED: OnceLock<Option<Gpu>> = OnceLock::new();
@@ -112,23 +112,23 @@ pub fn load(preset: &str) -> LoadedScene {
 }
 
 /// What a still picture of a scene needs, all at once and in f32.
-pub fn still(loaded: &LoadedScene, size: [u32; 2], time_s: f64) -> Want {
+pub fn still(loaded: &LoadedScene, size: [u32; 2], time_s: f64) -> FrameRequest {
     let moment = Moment::of_time(time_s, loaded.scene.motion.tick_s);
     let shot = Shot { size, moment, full_precision: true, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-    want(&loaded.scene, &loaded.resources, &shot).unwrap()
+    request(&loaded.scene, &loaded.resources, &shot).unwrap()
 }
 
 /// Radiance of each pixel, linear BT.2020.
-pub fn radiance(renderer: &mut Renderer, want: &Want) -> Vec<DVec3> {
-    assert!(renderer.bring(want).unwrap().complete);
+pub fn radiance(renderer: &mut Renderer, request: &FrameRequest) -> Vec<DVec3> {
+    assert!(renderer.render(request).unwrap().complete);
     let bytes = renderer.read_radiance().unwrap().wait(&renderer.gpu).unwrap();
     let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
     pixels.into_iter().map(|[r, g, b, _]| DVec3::new(r.into(), g.into(), b.into())).collect()
 }
 
 /// Bytes of each pixel, sRGB and alpha.
-pub fn display(renderer: &mut Renderer, want: &Want) -> Vec<u8> {
-    assert!(renderer.bring(want).unwrap().complete);
+pub fn display(renderer: &mut Renderer, request: &FrameRequest) -> Vec<u8> {
+    assert!(renderer.render(request).unwrap().complete);
     renderer.read_picture().unwrap().wait(&renderer.gpu).unwrap()
 }
 
@@ -145,7 +145,7 @@ impl Random {
     }
 }
 
-/// Mean and maximum of some numbers; fails if there are none, or if one is no number.
+/// Mean and maximum of some numbers; fails if there are none, or if one is NaN.
 pub fn mean_and_max(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let values: Vec<f64> = values.into_iter().collect();
     assert!(!values.is_empty(), "nothing was compared");

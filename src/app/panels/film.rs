@@ -49,9 +49,9 @@ fn boundary(ui: &mut Ui, bubble: &mut Bubble) {
         return;
     }
     number(ui, &Bubble::KEYS.regeneration, &mut bubble.regeneration, |slider| slider.max_decimals(1));
-    let most_mm = 0.25 * bubble.radius_mm.clamp(0.4, 400.0);
-    bubble.patch_mm = bubble.patch_mm.min(most_mm);
-    number_within(ui, &Bubble::KEYS.patch_mm, &mut bubble.patch_mm, 0.1..=most_mm, |slider| {
+    let max_mm = 0.25 * bubble.radius_mm.clamp(0.4, 400.0);
+    bubble.patch_mm = bubble.patch_mm.min(max_mm);
+    number_within(ui, &Bubble::KEYS.patch_mm, &mut bubble.patch_mm, 0.1..=max_mm, |slider| {
         slider.logarithmic(true).max_decimals(1)
     });
 }
@@ -75,7 +75,7 @@ fn film(ui: &mut Ui, film: &mut Film) {
     }
     if film.state != FilmStateName::Uniform {
         options_of(ui, keys.cells.label, &mut film.cells, &CELLS);
-        // A window has settled whether a film takes all of its cells or half of them.
+        // The window has settled whether a film takes all or half of its cells.
         choice_of(ui, keys.detail.label, &mut film.detail, &[Detail::Full, Detail::Half]);
     }
 }

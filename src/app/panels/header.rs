@@ -22,10 +22,10 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
             ask(&mut model.requests, Target::SaveScene);
         }
         ui.menu_button("Picture", |ui| {
-            if ui.button("PNG…").on_hover_text("What the window shows (Ctrl+P)").clicked() {
+            if ui.button("PNG…").on_hover_text("Save the picture as the window shows it (Ctrl+P)").clicked() {
                 ask(&mut model.requests, Target::SavePng);
             }
-            if ui.button("EXR…").on_hover_text("Scene radiance, linear BT.709 (Ctrl+Shift+P)").clicked() {
+            if ui.button("EXR…").on_hover_text("Save the scene radiance, linear BT.709 (Ctrl+Shift+P)").clicked() {
                 ask(&mut model.requests, Target::SaveExr);
             }
         });

@@ -15,7 +15,7 @@ pub fn show(ctx: &Context, shows_help: &mut bool) {
         egui::ScrollArea::vertical().show(ui, |ui| {
             Grid::new("keys").num_columns(2).spacing([28.0, 5.0]).show(ui, |ui| {
                 let mut bindings: Vec<_> = BINDINGS.iter().collect();
-                // Of two keys that do the same, one will do.
+                // Of two keys with the same action, one is listed.
                 bindings.dedup_by_key(|binding| binding.action);
                 let keys = bindings.iter().map(|binding| (ctx.format_shortcut(&binding.shortcut), binding.help));
                 let pointer = POINTER.iter().map(|(what, help)| ((*what).to_owned(), *help));

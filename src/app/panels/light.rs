@@ -43,7 +43,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
 fn environment(ui: &mut Ui, model: &mut Model) {
     let light = &model.scene.light;
     let is = |name: &Environment| light.constant.is_none() && light.environment == *name;
-    let mut wanted: Option<Light> = None;
+    let mut requested: Option<Light> = None;
     group(ui, "Environment", |ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         let built_in = [
@@ -52,12 +52,12 @@ fn environment(ui: &mut Ui, model: &mut Model) {
         ];
         for (name, label, help) in built_in {
             if ui.selectable_label(is(&name), label).on_hover_text(help).clicked() && !is(&name) {
-                wanted = Some(Light { environment: name, constant: None, ..light.clone() });
+                requested = Some(Light { environment: name, constant: None, ..light.clone() });
             }
         }
         let constant = ui.selectable_label(light.constant.is_some(), "constant");
         if constant.on_hover_text("The same radiance from everywhere").clicked() && light.constant.is_none() {
-            wanted = Some(Light { constant: Some(CONSTANT), ..light.clone() });
+            requested = Some(Light { constant: Some(CONSTANT), ..light.clone() });
         }
     });
     group(ui, "Panorama", |ui| {
@@ -70,13 +70,13 @@ fn environment(ui: &mut Ui, model: &mut Model) {
             ui.add(egui::Label::new(name).truncate()).on_hover_text(path);
         }
     });
-    model.requests.extend(wanted.map(Request::LoadLight));
+    model.requests.extend(requested.map(Request::LoadLight));
 }
 
 fn illuminant(ui: &mut Ui, model: &mut Model) {
     let light = &model.scene.light;
     let mut chosen: Option<&str> = None;
-    row(ui, "Illuminant", "The spectrum that white light has", |ui| {
+    row(ui, "Illuminant", "The spectrum of white light", |ui| {
         let list = egui::ComboBox::from_id_salt("illuminant").selected_text(light.illuminant.as_str());
         list.show_ui(ui, |ui| {
             for BuiltIn { name, help, .. } in BUILT_IN {

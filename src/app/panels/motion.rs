@@ -33,26 +33,26 @@ fn clock(ui: &mut Ui, model: &mut Model) {
         if ui.button(pause).on_hover_text("Play or pause the film (Space)").clicked() {
             model.clock.running = !model.clock.running;
         }
-        if ui.button("Step").on_hover_text("One tick further (.)").clicked() {
+        if ui.button("Step").on_hover_text("Advance by one tick (.)").clicked() {
             model.clock.step();
         }
-        if ui.button("Reset").on_hover_text("Back to the beginning (R)").clicked() {
+        if ui.button("Reset").on_hover_text("Return to the beginning (R)").clicked() {
             model.clock.reset();
         }
     });
     if model.behind_ticks > 0 {
-        ui.weak(format!("The film catches up: {} ticks", model.behind_ticks));
+        ui.weak(format!("The film is catching up: {} ticks behind", model.behind_ticks));
     }
 }
 
-/// The film's whole history on a line. Going back moves the film anew from a checkpoint: the same history gives the same film.
+/// The film's whole history on a line. Going back moves the film again from a checkpoint: the same history gives the same film.
 fn time_line(ui: &mut Ui, model: &mut Model) {
     model.furthest_tick = model.furthest_tick.max(model.clock.tick);
     let tick_s = model.scene.motion.tick_s;
     let mut time_s = model.clock.time_s(&model.scene.motion);
     let end_s = model.last_tick() as f64 * tick_s;
     let response =
-        slider(ui, "Time", &mut time_s, 0.0..=end_s, "Goes back and forth in the film's history", |slider| {
+        slider(ui, "Time", &mut time_s, 0.0..=end_s, "Moves back and forth in the history of the film", |slider| {
             slider.suffix(" s").max_decimals(2)
         });
     if response.changed() {
@@ -60,7 +60,7 @@ fn time_line(ui: &mut Ui, model: &mut Model) {
     }
 }
 
-/// What moves the film; tells whether a slider is being dragged, as the functions below do.
+/// The keys that move the film; returns whether a slider is being dragged, as the functions below do.
 fn flow(ui: &mut Ui, motion: &mut Motion) -> bool {
     let keys = Motion::KEYS;
     choice(ui, &keys.flow, &mut motion.flow);
@@ -79,7 +79,7 @@ fn gravity(ui: &mut Ui, gravity_m_s2: &mut [f64; 3]) -> bool {
     let mut tilt_deg = if strength > 0.0 { y.atan2(-z).to_degrees() } else { 0.0 };
     let key = Motion::KEYS.gravity_m_s2;
     let pull = number_within(ui, &key, &mut strength, 0.0..=100.0, |slider| slider.max_decimals(1));
-    let help = "From straight down towards +y. The arrow keys tilt gravity as the picture shows it.";
+    let help = "Angle from straight down towards +y. The arrow keys tilt gravity as seen in the picture.";
     let tilt = slider(ui, "Tilt", &mut tilt_deg, -180.0..=180.0, help, |s| s.suffix("°").max_decimals(1));
     if pull.changed() || tilt.changed() {
         let (sin, cos) = tilt_deg.to_radians().sin_cos();
@@ -134,7 +134,7 @@ fn method(ui: &mut Ui, motion: &mut Motion) -> bool {
     speed.dragged()
 }
 
-/// Rows that are folded away until somebody asks for them; tells whether one is being dragged.
+/// Rows that are collapsed at first; returns whether a slider in them is being dragged.
 fn more<const N: usize>(ui: &mut Ui, title: &str, rows: impl FnOnce(&mut Ui) -> [Response; N]) -> bool {
     let shown = egui::CollapsingHeader::new(title).default_open(false).show_unindented(ui, rows);
     shown.body_returned.is_some_and(|rows| rows.iter().any(Response::dragged))

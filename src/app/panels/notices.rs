@@ -42,7 +42,7 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
     }
 }
 
-/// One message; tells whether it was clicked away.
+/// One message; returns whether it was dismissed.
 fn line(ui: &mut Ui, message: &Message) -> bool {
     let frame = Frame::popup(ui.style());
     let frame = if message.kind == Kind::Problem { frame.stroke(Stroke::new(1.0, PROBLEM)) } else { frame };

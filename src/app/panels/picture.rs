@@ -9,7 +9,7 @@ use crate::app::{orbit::Gesture, tools::Press};
 /// Natural logarithm of the magnification for a point of scrolling: a notch of a wheel is 40 points.
 const ZOOM_PER_POINT: f64 = 0.004;
 
-/// Takes what is left of the window for the picture, and reads the pointer there.
+/// Shows the picture in the rest of the window, and reads the pointer there.
 pub fn show(ui: &mut Ui) -> Picture {
     CentralPanel::no_frame()
         .frame(Frame::NONE)

@@ -160,7 +160,7 @@ fn a_change_after_going_back_stands_before_what_came_later() {
 
 /// A slider that is held while an event passes changes its own key alone.
 #[test]
-fn what_happens_while_a_slider_is_dragged_stays() {
+fn edits_made_while_a_slider_is_dragged_stay() {
     let mut window = window();
     let stronger = MotionChange { strength: Some(3.0), ..MotionChange::default() };
     let event = Event { tick: 10, change: Change::Motion(stronger) };
@@ -236,7 +236,7 @@ fn backdrop_and_dither_are_switched() {
 }
 
 #[test]
-fn a_seed_can_be_drawn_anew() {
+fn a_seed_button_picks_a_new_seed() {
     let mut window = window();
     let before = window.state().model.scene.clone();
     click(&mut window, "New film seed");

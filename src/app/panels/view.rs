@@ -34,11 +34,11 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
 
 fn polariser(ui: &mut Ui, view: &mut View) {
     let mut is_there = view.polariser_deg.is_some();
-    row(ui, "Polariser", "A polarising filter before the camera", |ui| ui.checkbox(&mut is_there, ""));
+    row(ui, "Polariser", "A polarising filter in front of the camera", |ui| ui.checkbox(&mut is_there, ""));
     view.polariser_deg = is_there.then(|| view.polariser_deg.unwrap_or(0.0));
     if let Some(angle) = &mut view.polariser_deg {
         let help = tooltip(View::KEYS.polariser_deg.help);
-        slider(ui, "Its angle", angle, -90.0..=90.0, &help, |slider| slider.suffix("°").max_decimals(1));
+        slider(ui, "Polariser angle", angle, -90.0..=90.0, &help, |slider| slider.suffix("°").max_decimals(1));
     }
 }
 
@@ -48,8 +48,8 @@ fn backdrop(ui: &mut Ui, view: &mut View) {
         colour => colour,
     };
     let options = [
-        (Backdrop::Environment, "environment", "The light's own surroundings"),
-        (colour, "colour", "One radiance, like a photographer's card"),
+        (Backdrop::Environment, "environment", "The environment that lights the scene"),
+        (colour, "colour", "A constant radiance, like a photographer's card"),
     ];
     options_of(ui, View::KEYS.backdrop.label, &mut view.backdrop, &options);
     if let Backdrop::Radiance(radiance) = &mut view.backdrop {

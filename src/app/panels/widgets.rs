@@ -91,18 +91,18 @@ pub fn flag(ui: &mut Ui, key: &Key, value: &mut bool) -> Response {
 /// Room for a slider's number, points.
 const VALUE_WIDTH: f32 = 76.0;
 
-/// A row of the words of a key, of which one is chosen; tells whether another was chosen now.
+/// A row with the words of a key, one of them chosen; returns whether the choice has changed.
 pub fn choice<T: Words>(ui: &mut Ui, key: &Key, value: &mut T) -> bool {
     choice_of(ui, key.label, value, T::CHOICES)
 }
 
-/// A row of some of the words of a key, of which one is chosen.
+/// A row with some of the words of a key, one of them chosen.
 pub fn choice_of<T: Words>(ui: &mut Ui, name: &str, value: &mut T, choices: &[T]) -> bool {
     let options: Vec<_> = choices.iter().map(|choice| (*choice, choice.name(), choice.help())).collect();
     options_of(ui, name, value, &options)
 }
 
-/// A row of options of which one is chosen; tells whether another was chosen now.
+/// A row of options, one of them chosen; returns whether the choice has changed.
 pub fn options_of<T: Copy + PartialEq>(ui: &mut Ui, name: &str, value: &mut T, options: &[(T, &str, &str)]) -> bool {
     let before = *value;
     group(ui, name, |ui| {
@@ -122,7 +122,7 @@ pub fn seed(ui: &mut Ui, key: &Key, value: &mut u64) -> bool {
         let label = named(ui, key.label);
         let number = egui::DragValue::new(value).speed(0.1);
         let number = ui.add(number).labelled_by(label.id).on_hover_text(tooltip(key.help));
-        let button = ui.button(format!("New {}", key.label.to_lowercase())).on_hover_text("Draws another seed");
+        let button = ui.button(format!("New {}", key.label.to_lowercase())).on_hover_text("Picks another random seed");
         if button.clicked() {
             *value = crate::app::edit::new_seed();
         }

@@ -1,4 +1,4 @@
-//! A film's state kept aside, so that the film can go on from there again with the same bits.
+//! A saved state of a film, from which the film can go on again with the same bits.
 
 use super::{Field, rest::KeptRestWatch};
 use crate::gpu::{copies::Copies, flow::FlowCheckpoint, timing::Recorder};
@@ -10,7 +10,7 @@ pub(super) struct Checkpoint {
     pub(super) watch: KeptRestWatch,
 }
 
-/// The state of a field. What spreads, blackens or drains it is set anew by each step.
+/// The state of a field. Its diffusion, black film and drainage are set again by each step.
 pub(super) struct FieldCheckpoint {
     buffers: Copies,
     map_is_identity: bool,

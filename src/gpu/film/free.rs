@@ -32,12 +32,12 @@ pub struct Surroundings<'a> {
     pub part: &'a FreePart,
     /// The air's own motion.
     pub air: &'a PrescribedFlow,
-    /// Mean thickness, which says how well the air drags the film along, nm.
+    /// Mean thickness, on which the drag of the air depends, nm.
     pub mean_nm: f64,
 }
 
 impl Surroundings<'_> {
-    /// What the flow takes thicknesses relative to: the mean of what is left, so that logarithms are as exact as the tracer.
+    /// Reference thickness of the flow: the mean remaining thickness, so that logarithms are as exact as the tracer.
     fn reference_nm(&self) -> f64 {
         self.part.reference_nm(self.mean_nm)
     }
@@ -61,11 +61,11 @@ impl FreeMotion {
     pub(super) fn empty(gpu: &Gpu, field: &Field) -> Self {
         let mut solver = FlowSolver::new(gpu, field.flow_grid().cells);
         solver.end_at(gpu, field.rules.cap);
-        solver.hold(gpu, field.rules.drop_rad);
+        solver.pin(gpu, field.rules.drop_rad);
         Self { solver }
     }
 
-    /// Lets its steps take so many multigrid cycles.
+    /// Sets the number of multigrid cycles per step.
     pub fn solve_in(&mut self, cycles: Cycles) {
         self.solver.cycles = cycles;
     }
@@ -114,7 +114,7 @@ impl FreeMotion {
             map_cells: field.map_grid().cells,
             tracer_cells: field.tracer_grid().cells,
             reference_nm: reference_nm as f32,
-            offset_nm: (level_nm - around.part.thinned_nm - reference_nm) as f32,
+            offset_nm: (level_nm - around.part.evaporated_nm - reference_nm) as f32,
             level_nm: (level_nm - reference_nm) as f32,
             black_nm: (around.part.black_nm - reference_nm) as f32,
             rim_z,

@@ -3,8 +3,8 @@
 //! The tracer is the thickness's departure from the film's *level*, its mean: f32 then resolves what a well mixed film still varies by, where
 //! of the thickness itself it would round the last waves away before they have calmed, and their rounded pattern would drive a flow for ever.
 //!
-//! The film is moved as a flow map: `map(x)` says where the liquid at x was at the last remap, and the thickness is the tracer of that remap
-//! looked up there. Each step composes the map with one backtrace; a remap looks the tracer up once for good and makes the map the identity.
+//! The film is moved as a flow map: `map(x)` is the place of the liquid at x at the last remap, and the thickness is the tracer of that remap
+//! looked up there. Each step composes the map with one backtrace; a remap looks the tracer up, stores it, and resets the map to the identity.
 //! Remapping at every step is the classic semi-Lagrangian scheme; remapping rarely keeps filaments sharp, for the error then grows with the
 //! number of remaps and not of steps (Taylor & Nave, arXiv 2106.13170, 2302.01205). When the map has become too distorted is measured and
 //! decided on the device, so that no frame waits for it.
@@ -130,7 +130,7 @@ pub enum Planted {
     Map,
 }
 
-/// The grid of a film's map, a cell of which spans so many of the film's along each side.
+/// The grid of a film's map, given how many of the film's cells a cell of the map spans along each side.
 fn map_sphere(film: CubedSphere, coarsening: u32) -> Result<CubedSphere, GridError> {
     CubedSphere::new(film.n().div_ceil(coarsening.max(1) as usize))
 }
@@ -311,7 +311,7 @@ impl Field {
         self.settle(recorder, [[parts(grid), 1, 1].into(), [1; 3].into(), all])
     }
 
-    /// Looks the tracer up, in a pass over so many workgroups: of cells, or of two by two.
+    /// Looks the tracer up, in a pass over a number of workgroups: of single cells, or of two by two.
     fn sample(
         &self,
         recorder: &mut Recorder<'_>,
@@ -348,13 +348,13 @@ impl Field {
         gpu.queue.write_buffer(buffer, place * 4 * numbers, &value.to_ne_bytes());
     }
 
-    /// Starts to bring back what the device knows of the film: a [`ControlBlock`](super::control::ControlBlock).
+    /// Starts to read back what the device knows of the film: a [`ControlBlock`](super::control::ControlBlock).
     #[must_use]
     pub fn read_control(&self, gpu: &Gpu) -> Readback {
         Readback::of_buffer(gpu, &self.control.block, self.control.block.size())
     }
 
-    /// Copies as many bytes as a step and a lookup of every cell move, and leaves what is kept alone: what steps are measured against.
+    /// Copies as many bytes as a step and a lookup of every cell move, and changes no state: steps are measured against it.
     pub fn copy_state(&self, recorder: &mut Recorder<'_>) {
         for [from, to] in [&self.map.each_ref(), &[&self.tracer, &self.sampled]] {
             recorder.encoder().copy_buffer_to_buffer(from, 0, to, 0, from.size());

@@ -46,13 +46,13 @@ impl MovingFilm {
         self.watch.rest()
     }
 
-    /// Moves the film through some ticks of its history; what is recorded goes out in submissions of so many steps at most.
+    /// Moves the film through some ticks of its history; what is recorded goes out in submissions of at most `steps_per_submission` steps.
     pub fn play(
         &mut self,
         gpu: &Gpu,
         key: &FieldKey,
         from_tick: u64,
-        steps_a_submission: usize,
+        steps_per_submission: usize,
         mut submit: impl FnMut(Recorder<'_>) -> Result<(), GpuError>,
     ) -> Result<(), GpuError> {
         let mut law = LawInForce::default();
@@ -65,7 +65,7 @@ impl MovingFilm {
             }
             let mut recorder = Recorder::new(gpu);
             let mut asking = None;
-            for step in steps.by_ref().take(steps_a_submission) {
+            for step in steps.by_ref().take(steps_per_submission) {
                 self.advance(&mut recorder, key, &mut law, step.clone())?;
                 let undisturbed = key.undisturbed(&step);
                 if undisturbed.is_none() {
@@ -84,7 +84,7 @@ impl MovingFilm {
         }
     }
 
-    /// Whether the film rests through a step; if that moves it again, it is watched anew.
+    /// Whether the film rests through a step; if the step moves it again, it is watched again.
     fn stays_at_rest(&mut self, key: &FieldKey, step: &Range<u64>) -> bool {
         let Some(rest) = self.watch.rest() else { return false };
         let stays = key.undisturbed(step) == Some(rest.law);
@@ -137,7 +137,7 @@ impl MovingFilm {
         Ok(())
     }
 
-    /// Makes the state of a slot the film's again; nothing for an empty slot.
+    /// Restores the film's state from a slot; does nothing for an empty slot.
     pub fn restore(&mut self, recorder: &mut Recorder<'_>, slot: usize) {
         let Self { field, motion, watch, checkpoints } = self;
         let Some(checkpoint) = checkpoints.get(slot) else { return };
@@ -195,7 +195,7 @@ pub fn rules(key: &FieldKey) -> Rules {
 struct LawInForce(Option<(FlowLaw, PrescribedFlow)>);
 
 impl LawInForce {
-    /// A step of so many ticks.
+    /// A step of a number of ticks.
     fn step(&mut self, key: &FieldKey, tick: u64, ticks: f64) -> Step {
         let [from_s, to_s] = [tick as f64, tick as f64 + ticks].map(|tick| key.tick_s * tick);
         Step::prescribed(self.flow(key, tick), from_s, to_s)

@@ -1,4 +1,4 @@
-//! Remaps: what is done to a film for good when its map is looked through, and what may only be done then.
+//! Remaps: the tracer is looked up through the map and stored, with the operations that are only possible then.
 
 use super::Field;
 use crate::gpu::{
@@ -17,7 +17,7 @@ use crate::gpu::{
 use crate::physics::film::model::{BlackeningLaw, DrainLaw};
 
 impl Field {
-    /// From now on the thickness spreads by so many rad²/s, in ticks of a length in seconds. Schemes without a map do not spread it.
+    /// Sets the diffusivity of the thickness from now on, rad²/s, for ticks of a length in seconds. Schemes without a map do not spread it.
     pub fn diffuse(&mut self, gpu: &Gpu, rad2_s: f64, tick_s: f64) {
         if self.diffusion.as_ref().is_none_or(|diffusion| diffusion.law() != (rad2_s, tick_s)) {
             self.diffusion = Diffusion::new(gpu, self.tracer_grid(), rad2_s, tick_s);
@@ -33,7 +33,7 @@ impl Field {
         }
     }
 
-    /// From now on film leaves by a law, at remaps which are so many ticks apart at most; or not at all. Schemes without a map lose none.
+    /// Sets the law by which film leaves from now on, at remaps which are at most a number of ticks apart; or none. Schemes without a map lose none.
     pub fn drain(&mut self, law: Option<(DrainLaw, u32)>) {
         self.has_drained |= law.is_some();
         self.drain = law;
@@ -42,9 +42,9 @@ impl Field {
     /// When the map is remapped.
     pub(super) fn remap_rule(&self) -> RemapRule {
         let diffusing = self.diffusion.as_ref().map(Diffusion::latest_ticks);
-        let draining = self.drain.as_ref().map(|(_, most)| *most);
+        let draining = self.drain.as_ref().map(|(_, max_ticks)| *max_ticks);
         let rule = self.rules.remap.no_later_than([diffusing, draining]);
-        // Errors count in cells of the film, whatever those of the map.
+        // Errors count in cells of the film, whatever the cells of the map.
         RemapRule { error_limit_cells: rule.error_limit_cells / self.rules.map_coarsening.max(1) as f32, ..rule }
     }
 
@@ -93,7 +93,7 @@ impl Field {
     fn blacken(&self, recorder: &mut Recorder<'_>, black: &BlackFilm) -> Result<(), GpuError> {
         let (grid, due) = (self.tracer_grid(), &self.control);
         // Each account rounds: it is not taken where nothing can have changed.
-        if black.law.thinned_nm > 0.0 {
+        if black.law.evaporated_nm > 0.0 {
             black.stop_evaporation(recorder, grid, due, &self.tracer)?;
             self.account(recorder, &self.tracer, self.groups_due(), Excess::Spared)?;
         }
@@ -111,7 +111,7 @@ impl Field {
         kernel.settle_tracer(recorder, STEP_FIELD, groups[2])
     }
 
-    /// Sums what a field on the tracer's grid has too much, and does with it what is said.
+    /// Sums the excess of a field on the tracer's grid, and corrects it as told.
     fn account(
         &self,
         recorder: &mut Recorder<'_>,

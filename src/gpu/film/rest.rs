@@ -1,7 +1,7 @@
 //! Films that have come to rest: they take no steps until something moves them again.
 //!
 //! How fast a film flows only the device knows. It is asked every two seconds of the film's time, and the answer is taken two seconds later:
-//! it has long arrived then, so that nothing waits for it, and a film rests from the same tick on however its history is cut into frames.
+//! it has long arrived then, so that nothing waits for it, and a film rests from the same tick on, however its history is cut into frames.
 
 use crate::{
     gpu::{
@@ -30,7 +30,7 @@ enum Speed {
     Known(f64),
 }
 
-/// The same, kept aside.
+/// A saved copy of the watch.
 #[derive(Clone, Copy)]
 pub(super) struct KeptRestWatch {
     asked: Option<f64>,

@@ -30,7 +30,7 @@ impl Seeded {
     }
 }
 
-/// Mean of a function over a grid's cells, as what its values depart from; 0 where it is no number.
+/// Mean of a function over a grid's cells, which its values depart from; 0 if the mean is not finite.
 pub(super) fn level_of(grid: &Grid, value: &(impl Fn(DVec3) -> f64 + Sync)) -> f32 {
     let areas = grid.film_areas().into_par_iter().enumerate();
     let weighted: Vec<f64> = areas.map(|(cell, area)| area * value(grid.sphere.cell_direction(cell))).collect();

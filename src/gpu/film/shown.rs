@@ -57,7 +57,7 @@ impl Field {
         }
     }
 
-    /// Brings what was last shown into a buffer, in the grid's order of cells.
+    /// Copies what was last shown into a buffer, in the grid's order of cells.
     pub fn read(&self, recorder: &mut Recorder<'_>) -> Result<wgpu::Buffer, GpuError> {
         read_film(recorder, &self.film, &self.texture.view)
     }

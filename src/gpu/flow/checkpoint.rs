@@ -1,4 +1,4 @@
-//! A flow's state kept aside, so that it can go on from there again with the same bits.
+//! A saved state of a flow, from which it can go on again with the same bits.
 
 use super::FlowSolver;
 use crate::gpu::{copies::Copies, timing::Recorder};
@@ -21,7 +21,7 @@ impl FlowSolver {
         FlowCheckpoint { buffers: Copies::of(recorder, &self.state()), has_history: self.has_history }
     }
 
-    /// Makes a state that was kept of a flow on the same grid this one's.
+    /// Restores this flow from a saved state of a flow on the same grid.
     pub fn restore(&mut self, recorder: &mut Recorder<'_>, checkpoint: &FlowCheckpoint) {
         checkpoint.buffers.restore(recorder, &self.state());
         self.has_history = checkpoint.has_history;

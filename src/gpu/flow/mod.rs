@@ -2,15 +2,15 @@
 //! [`physics::flow`](crate::physics::flow), for the equations and the order of a step.
 
 mod checkpoint;
-mod hold;
-mod image;
+mod mirror;
 mod multigrid;
+mod pin;
 mod step;
 
 pub use checkpoint::FlowCheckpoint;
-use hold::HeldDrop;
-use image::RimImage;
+use mirror::RimMirror;
 use multigrid::{Multigrid, System};
+use pin::PinnedDrop;
 
 use super::{
     device::{Gpu, GpuError},
@@ -64,9 +64,9 @@ pub struct FlowSolver {
     grid: FlowGrid,
     multigrid: Multigrid,
     /// What stands for the film beyond a rim, if it has one.
-    image: Option<RimImage>,
+    mirror: Option<RimMirror>,
     /// What holds the film at its bottom, if anything does.
-    drop: Option<HeldDrop>,
+    drop: Option<PinnedDrop>,
     zeta: wgpu::Buffer,
     log_thickness: wgpu::Buffer,
     forcing: wgpu::Buffer,
@@ -93,18 +93,18 @@ pub struct FlowSolver {
 }
 
 impl FlowSolver {
-    /// Cells along a panel's edge at least.
+    /// Minimum cells along a panel's edge.
     pub const MIN_CELLS: u32 = 16;
     /// Cells along a panel's edge at most: beyond, the coarse grids are too much for one workgroup.
     pub const MAX_CELLS: u32 = 512;
     /// Cycles that find the first stream function, from nothing.
     const FIRST_CYCLES: usize = 12;
 
-    /// A film at rest, on the grid with so many cells along a panel's edge, within [`Self::MIN_CELLS`] and [`Self::MAX_CELLS`].
+    /// A film at rest, on a grid with a number of cells along a panel's edge within [`Self::MIN_CELLS`] and [`Self::MAX_CELLS`].
     #[must_use]
     pub fn new(gpu: &Gpu, cells: u32) -> Self {
         let cells = cells.clamp(Self::MIN_CELLS, Self::MAX_CELLS);
-        // The range lies within that of grids, for which the constructor cannot fail.
+        // The range lies within the range of grids, for which the constructor cannot fail.
         let sphere = CubedSphere::new(cells as usize).expect("a size in range");
         let field = |label| buffer(gpu, label, sphere.padded_len() as u64 * 4);
         let velocity = |label| buffer(gpu, label, sphere.padded_len() as u64 * 16);
@@ -115,7 +115,7 @@ impl FlowSolver {
                 halo: gpu.storage("flow halo", &halo_entries(sphere)),
             },
             multigrid: Multigrid::new(gpu, sphere),
-            image: None,
+            mirror: None,
             drop: None,
             zeta: field("vorticity"),
             log_thickness: field("ln h"),
@@ -139,19 +139,19 @@ impl FlowSolver {
 
     /// From the next seed on the film ends at the rim of a cap, across which nothing flows; or nowhere.
     pub fn end_at(&mut self, gpu: &Gpu, cap: Option<Cap>) {
-        if self.image.as_ref().map(|image| image.cap) != cap {
-            self.image = cap.map(|cap| RimImage::new(gpu, &self.grid, cap));
+        if self.mirror.as_ref().map(|mirror| mirror.cap) != cap {
+            self.mirror = cap.map(|cap| RimMirror::new(gpu, &self.grid, cap));
         }
     }
 
     /// From the next step on a drop of an angular radius in radians hangs at the bottom, through which nothing flows; or none.
-    pub fn hold(&mut self, gpu: &Gpu, radius: Option<f64>) {
-        self.drop = radius.map(|radius| HeldDrop::new(gpu, &self.grid, radius));
+    pub fn pin(&mut self, gpu: &Gpu, radius: Option<f64>) {
+        self.drop = radius.map(|radius| PinnedDrop::new(gpu, &self.grid, radius));
     }
 
     /// Makes vorticity beyond the rim, if there is one, the image of that within.
     fn reflect(&self, recorder: &mut Recorder<'_>, zeta: &wgpu::Buffer) -> Result<(), GpuError> {
-        self.image.as_ref().map_or(Ok(()), |image| image.reflect(recorder, &self.grid, zeta))
+        self.mirror.as_ref().map_or(Ok(()), |mirror| mirror.reflect(recorder, &self.grid, zeta))
     }
 
     /// The grid.
@@ -218,7 +218,7 @@ impl FlowSolver {
         self.take(recorder, dt_s, forces, 0)
     }
 
-    /// The same for flows whose eddies turn by more than [`FOLLOWED_TURN`](crate::physics::flow::FOLLOWED_TURN) in a step: it is tried
+    /// A step for flows whose eddies turn by more than [`FOLLOWED_TURN`](crate::physics::flow::FOLLOWED_TURN) in a step: it is tried
     /// first, which doubles its cost.
     pub fn step_corrected(
         &mut self,

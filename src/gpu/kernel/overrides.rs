@@ -75,7 +75,7 @@ macro_rules! choices {
     };
 }
 
-/// The values that stand for all that a constant can take: those of its type, or a list.
+/// The values that a test gives a constant: every value of its type, or a list.
 macro_rules! override_values {
     ($kind:ident) => {
         <$kind as $crate::gpu::kernel::Choice>::ALL

@@ -39,7 +39,7 @@ shader_struct! {
         pub polariser: [f32; 3],
         /// Sine of the environment's turn.
         pub turn_sin: f32,
-        /// From light to what is seen of it, exposed as the linear picture is.
+        /// Matrix from light to its colour, exposed like the linear picture.
         pub seen: Matrix,
     }
 }

@@ -2,9 +2,9 @@
 
 use crate::{
     gpu::{
-        bands::{BandSample, spectrum_samples},
         device::{Gpu, GpuError},
         kernel::{Read, Rgba16Float, Uniform, Written2dArray, WrittenFormat, kernels, overrides, shader_struct},
+        quadrature::{QuadratureSample, spectrum_samples},
         timing::Recorder,
         uniform_buffer::UniformBuffer,
     },
@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Rows of one dispatch, so that none runs long.
-const ROWS_A_DISPATCH: usize = 512;
+const ROWS_PER_DISPATCH: usize = 512;
 
 shader_struct! {
     /// What a table spans: see `shaders/optics/table.wgsl`.
@@ -67,7 +67,7 @@ kernels! {
     struct BakeTable {
         overrides table_kind: TableOverrides;
         @0 bake: Uniform<BakeUniform>;
-        @1 samples: Read<[BandSample]>;
+        @1 samples: Read<[QuadratureSample]>;
         // Filterable and storable on every adapter.
         @2 table: Written2dArray<Rgba16Float>;
     }
@@ -113,8 +113,8 @@ impl Table {
     pub fn baked(gpu: &Gpu, key: &TableKey) -> Result<Self, GpuError> {
         let table = Self::new(gpu, key);
         let mut recorder = Recorder::new(gpu);
-        for first in (0..key.rows).step_by(ROWS_A_DISPATCH) {
-            table.bake(&mut recorder, key, first..(first + ROWS_A_DISPATCH as u32).min(key.rows))?;
+        for first in (0..key.rows).step_by(ROWS_PER_DISPATCH) {
+            table.bake(&mut recorder, key, first..(first + ROWS_PER_DISPATCH as u32).min(key.rows))?;
         }
         recorder.submit(&Default::default());
         Ok(table)

@@ -18,8 +18,8 @@ shader_struct! {
         pub cells: u32,
         /// What the tracer departs from, nm.
         pub level_nm: f32,
-        /// The same less what has evaporated, nm.
-        pub thinned_level_nm: f32,
+        /// This level less what has evaporated, nm.
+        pub remaining_level_nm: f32,
         /// Thickness of black film, nm.
         pub black_nm: f32,
         /// Thickness below which film collapses, nm.
@@ -49,14 +49,14 @@ kernels! {
     compute mean_along_rows, mean_along_columns;
 
     /// What each cell gives to each of those around it.
-    struct Shed {
+    struct Redistribute {
         @0 blacken: Uniform<BlackenUniform>;
         @1 control: ReadWrite<ControlBlock>;
         @2 tracer: Read<[f32]>;
         @3 result: ReadWrite<[f32]>;
         @5 means: Read<[f32]>;
     }
-    compute shed;
+    compute redistribute;
 
     /// What each cell has after it has given and taken.
     struct Gather {
@@ -64,7 +64,7 @@ kernels! {
         @1 control: ReadWrite<ControlBlock>;
         @2 tracer: Read<[f32]>;
         @3 result: ReadWrite<[f32]>;
-        @4 shed_around: Read<[f32]>;
+        @4 shares_around: Read<[f32]>;
         @5 means: Read<[f32]>;
     }
     compute gather;
@@ -77,7 +77,7 @@ pub struct BlackFilm {
     /// What the tracer departs from, nm.
     level_nm: f32,
     /// What each cell gives to each of those around it, nm; before that, means along rows.
-    shed: wgpu::Buffer,
+    shares: wgpu::Buffer,
     /// The tracer's means around cells, nm.
     means: wgpu::Buffer,
 }
@@ -86,18 +86,18 @@ impl BlackFilm {
     /// On a film's tracer grid, for a tracer that departs from a level in nm.
     #[must_use]
     pub fn new(gpu: &Gpu, grid: &Grid, law: BlackeningLaw, level_nm: f32) -> Self {
-        let [shed, means] = ["shed", "means"].map(|label| grid.field(gpu, label, 4));
-        Self { law, level_nm, shed, means }
+        let [shares, means] = ["shares", "means"].map(|label| grid.field(gpu, label, 4));
+        Self { law, level_nm, shares, means }
     }
 
     fn uniform(&self, recorder: &Recorder<'_>, grid: &Grid) -> UniformBuffer<BlackenUniform> {
-        let BlackeningLaw { thinned_nm, black_nm, onset_nm, rate } = self.law;
+        let BlackeningLaw { evaporated_nm, black_nm, onset_nm, rate } = self.law;
         recorder.gpu.uniform(
             "blacken",
             &BlackenUniform {
                 cells: grid.cells,
                 level_nm: self.level_nm,
-                thinned_level_nm: (f64::from(self.level_nm) - thinned_nm) as f32,
+                remaining_level_nm: (f64::from(self.level_nm) - evaporated_nm) as f32,
                 black_nm: black_nm as f32,
                 onset_nm: onset_nm as f32,
                 rate: rate as f32,
@@ -128,14 +128,15 @@ impl BlackFilm {
         to: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
         let (blacken, block) = (&self.uniform(recorder, grid), &control.block);
-        let Self { shed, means, .. } = self;
+        let Self { shares, means, .. } = self;
         let (all, one) = (control.tracer_groups(), control.one_group());
-        MeanAlong { blacken, tracer, result: shed }.mean_along_rows(recorder, STEP_FIELD, all)?;
-        MeanAlong { blacken, tracer: shed, result: means }.mean_along_columns(recorder, STEP_FIELD, all)?;
+        MeanAlong { blacken, tracer, result: shares }.mean_along_rows(recorder, STEP_FIELD, all)?;
+        MeanAlong { blacken, tracer: shares, result: means }.mean_along_columns(recorder, STEP_FIELD, all)?;
         halo_of_thickness(recorder, grid, means, one)?;
-        Shed { blacken, control: block, tracer, result: shed, means }.shed(recorder, STEP_FIELD, all)?;
-        halo_of_thickness(recorder, grid, shed, one)?;
-        Gather { blacken, control: block, tracer, result: to, shed_around: shed, means }
+        Redistribute { blacken, control: block, tracer, result: shares, means }
+            .redistribute(recorder, STEP_FIELD, all)?;
+        halo_of_thickness(recorder, grid, shares, one)?;
+        Gather { blacken, control: block, tracer, result: to, shares_around: shares, means }
             .gather(recorder, STEP_FIELD, all)?;
         halo_of_thickness(recorder, grid, to, one)
     }

@@ -7,9 +7,9 @@ use super::{
 };
 use crate::{
     gpu::{
-        bands::{BandOverrides, BandSample, MOST_BANDS},
         control::BalanceBlock,
         kernel::{Matrix, Read, Sampler, Texture2dArray, TextureCube, Uniform, kernels, overrides, shader_struct},
+        quadrature::{MAX_WAVELENGTHS, QuadratureOverrides, QuadratureSample},
         rings::SIDES,
     },
     physics::{film::HOLE_MERIDIANS, transport::Scheme},
@@ -18,11 +18,11 @@ use crate::{
 shader_struct! {
     /// One ring of a bubble: see `shaders/pass/bubble.wgsl`.
     pub struct BubbleUniform {
-        /// From the eye to the centre: the difference of two places in f64, so that a scene looks the same wherever it stands.
-        pub to_centre_m: [f32; 3],
+        /// From the eye to the center: the difference of two places in f64, so that a scene looks the same wherever it stands.
+        pub to_center_m: [f32; 3],
         /// Radius.
         pub radius_m: f32,
-        /// Inner edge of the ring: cos and sin of the angle to the direction of the centre.
+        /// Inner edge of the ring: cos and sin of the angle to the direction of the center.
         pub inner: [f32; 2],
         /// Outer edge.
         pub outer: [f32; 2],
@@ -33,7 +33,7 @@ shader_struct! {
         /// Cells along a panel's edge of its tracer.
         pub tracer_cells: u32,
         /// What has evaporated, in nm.
-        pub thinned_nm: f32,
+        pub evaporated_nm: f32,
         /// Takes directions of the world to the film.
         pub to_film: Matrix,
         /// Takes the unit sphere to the bubble's wall, over the radius.
@@ -56,7 +56,7 @@ shader_struct! {
 }
 
 overrides! {
-    /// What tells one ring from another. A film in a scene is moved as a flow map where it is looked up through one, and always limited.
+    /// The constants that distinguish rings. A film in a scene is moved as a flow map where it is looked up through one, and always limited.
     pub struct RingOverrides {
         const SIDES: u32 = SIDES;
         const HOLE_MERIDIANS: u32 = HOLE_MERIDIANS as u32;
@@ -94,7 +94,7 @@ kernels! {
     struct Shade {
         overrides shape: RingOverrides;
         overrides table_kind: TableOverrides;
-        overrides summed: BandOverrides;
+        overrides summed: QuadratureOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
@@ -104,7 +104,7 @@ kernels! {
         @6 table: Texture2dArray;
         @7 table_sampler: Sampler;
         @8 film: Texture2dArray;
-        @9 bands: Uniform<[BandSample; MOST_BANDS]>;
+        @9 quadrature: Uniform<[QuadratureSample; MAX_WAVELENGTHS]>;
         @10 film_balance: Uniform<BalanceBlock>;
         @11 film_map: Read<[[f32; 4]]>;
         @12 film_tracer: Read<[f32]>;
@@ -117,7 +117,7 @@ kernels! {
     struct ShadeMirror {
         overrides shape: RingOverrides;
         overrides table_kind: TableOverrides;
-        overrides summed: BandOverrides;
+        overrides summed: QuadratureOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;

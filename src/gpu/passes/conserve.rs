@@ -101,7 +101,7 @@ pub struct Sum<'a> {
 pub enum Excess {
     /// It is corrected.
     Balanced,
-    /// The field is taken as it is from now on: evaporation spared it.
+    /// The present amount is conserved from now on: evaporation has spared some film.
     Spared,
     /// What the field lacks has drained.
     Drained,

@@ -5,7 +5,7 @@ use crate::gpu::kernel::{Read, ReadWrite, kernels};
 kernels! {
     pass correct_error;
 
-    /// Takes half of what a tracer lost on the way forth and back off before the step is made for good.
+    /// Subtracts half of what a tracer lost on the way there and back, before the final step.
     struct CorrectError {
         @0 tracer: Read<[f32]>;
         @1 returned: Read<[f32]>;

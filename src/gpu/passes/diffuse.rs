@@ -20,7 +20,7 @@ shader_struct! {
         /// Squared cell angles a tick and part, times the stage's weight.
         pub rate: f32,
         /// Largest rate that one part of the diffusion can take.
-        pub most: f32,
+        pub max_spread: f32,
         /// Factor of the stage before.
         pub before: f32,
         /// Factor of the stage before that.
@@ -105,7 +105,7 @@ impl Diffusion {
             cells: grid.cells,
             stage,
             rate: (weight * self.plan.per_tick / f64::from(self.plan.parts)) as f32,
-            most: (weight * MAX_SPREAD_PER_PART) as f32,
+            max_spread: (weight * MAX_SPREAD_PER_PART) as f32,
             before: before as f32,
             earlier: earlier as f32,
             pad: [0; 2],

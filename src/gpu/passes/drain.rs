@@ -18,7 +18,7 @@ shader_struct! {
     pub struct PatchValue {
         /// Middle.
         pub middle: [f32; 3],
-        /// Thickness over that of the film around.
+        /// Thickness over the thickness of the film around.
         pub thickness: f32,
         /// Ticks since it left.
         pub age: u32,
@@ -36,7 +36,7 @@ shader_struct! {
         /// Cells along a panel's edge.
         pub cells: u32,
         /// What the tracer departs from less what has evaporated, nm.
-        pub thinned_level_nm: f32,
+        pub remaining_level_nm: f32,
         /// Thickness of black film, which does not drain, nm.
         pub black_nm: f32,
         /// Cosine of the angle from the lowest point within which what drains is in the drop.
@@ -77,7 +77,7 @@ impl DrainLaw {
             gravity: self.gravity.as_vec3().to_array(),
             flux: self.flux as f32,
             cells: grid.cells,
-            thinned_level_nm: (f64::from(level_nm) - self.thinned_nm) as f32,
+            remaining_level_nm: (f64::from(level_nm) - self.evaporated_nm) as f32,
             black_nm: self.black_nm as f32,
             drop_cos: if self.drop_rad > 0.0 { self.drop_rad.cos() as f32 } else { 2.0 },
             rim_z,

@@ -8,7 +8,7 @@ use crate::{
     },
 };
 
-/// Grids that there is room for: enough for 8 · 2¹¹ cells an edge.
+/// Grids that there is room for: enough for 8 · 2¹¹ cells per edge.
 pub const MAX_LEVELS: usize = 12;
 
 shader_struct! {
@@ -35,7 +35,7 @@ shader_struct! {
     pub struct CoarseUniform {
         /// How many.
         pub levels: u32,
-        /// Values of all of them.
+        /// Values of all coarse grids.
         pub values: u32,
         /// k.
         pub shift: f32,

@@ -36,7 +36,7 @@ shader_struct! {
         pub max_speed: f32,
         /// Values of vorticity, stream function and ln h that could not be used since the film was seeded: not finite, or beyond 1e6.
         /// Zeros stood in for them.
-        pub unusable: u32,
+        pub invalid: u32,
     }
 }
 

@@ -8,7 +8,7 @@ use crate::{
 /// Pushes that one dispatch takes.
 pub const MAX_PUSHES: usize = 32;
 
-shader_view! { FrozenPush { centre, sharpness, velocity, rate } }
+shader_view! { FrozenPush { center, sharpness, velocity, rate } }
 
 shader_struct! {
     /// Some pushes: see `shaders/pass/flow_push.wgsl`.

@@ -6,7 +6,7 @@ use crate::gpu::kernel::{Read, ReadWrite, Uniform, kernels};
 kernels! {
     pass flow_velocity;
 
-    /// The velocity now, and half a step ahead by that of one step ago.
+    /// The velocity now, and half a step ahead, extrapolated from the velocity one step ago.
     struct FlowVelocity {
         @0 flow: Uniform<FlowUniform>;
         @1 tangents: Read<[f32]>;

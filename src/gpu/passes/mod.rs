@@ -19,9 +19,9 @@ pub mod flow_correct;
 pub mod flow_force;
 pub mod flow_gusts;
 pub mod flow_halo;
-pub mod flow_hold;
-pub mod flow_image;
 pub mod flow_measure;
+pub mod flow_mirror;
+pub mod flow_pin;
 pub mod flow_push;
 pub mod flow_residual;
 pub mod flow_sweep;
@@ -63,8 +63,8 @@ pub fn kernels() -> Vec<Kernel> {
         flow_force::kernels(),
         flow_gusts::kernels(),
         flow_halo::kernels(),
-        flow_hold::kernels(),
-        flow_image::kernels(),
+        flow_pin::kernels(),
+        flow_mirror::kernels(),
         flow_measure::kernels(),
         flow_push::kernels(),
         flow_residual::kernels(),

@@ -29,7 +29,7 @@ shader_struct! {
         /// Thickness of a uniform film, nm.
         pub thickness_nm: f32,
         /// What has evaporated, nm.
-        pub thinned_nm: f32,
+        pub evaporated_nm: f32,
         /// Thickness at which evaporation ends, nm.
         pub black_nm: f32,
         /// Whether the middle is where the film is thinnest.
@@ -44,7 +44,7 @@ shader_struct! {
     pub struct RimValue {
         /// Angle from the middle to the film that is still at rest.
         pub outer_rad: f32,
-        /// The same to where the rim begins.
+        /// Angle to where the hole ends and the rim begins.
         pub inner_rad: f32,
         /// Mean thickness of the rim, nm.
         pub thickness_nm: f32,
@@ -123,7 +123,7 @@ fn uniform(key: &OpenHoleKey) -> OpenHoleUniform {
         radius_nm: (1e9 * key.radius_m) as f32,
         cells,
         thickness_nm,
-        thinned_nm: key.thinned_nm as f32,
+        evaporated_nm: key.evaporated_nm as f32,
         black_nm: BLACK_FILM_NM as f32,
         seeks: u32::from(key.hole.at.is_none() && cells > 0),
         pad: 0,

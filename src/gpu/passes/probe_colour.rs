@@ -5,14 +5,14 @@ use glam::{DVec3, Vec3};
 use super::bake_table::{Table, TableAxes, TableOverrides, table_sampler};
 use crate::{
     gpu::{
-        bands::{BandOverrides, BandSample, Bands, MOST_BANDS},
         device::{Gpu, GpuError},
         kernel::{Read, ReadWrite, Sampler, Texture2dArray, Uniform, kernels, shader_struct},
+        quadrature::{MAX_WAVELENGTHS, Quadrature, QuadratureOverrides, QuadratureSample},
         readback::Readback,
         timing::Recorder,
     },
     physics::colour::Walls,
-    plan::{BandsKey, OpticsKey, TableKey, range_nm},
+    plan::{OpticsKey, QuadratureKey, TableKey, range_nm},
     scene::Quality,
 };
 
@@ -40,11 +40,11 @@ kernels! {
         const INNER: u32 = 3;
         const FILTERED: bool = false;
         overrides table_kind: TableOverrides;
-        overrides summed: BandOverrides;
+        overrides summed: QuadratureOverrides;
         @0 axes: Uniform<TableAxes>;
         @1 table: Texture2dArray;
         @2 table_sampler: Sampler;
-        @3 bands: Uniform<[BandSample; MOST_BANDS]>;
+        @3 quadrature: Uniform<[QuadratureSample; MAX_WAVELENGTHS]>;
         @4 points: Read<[ProbePoint]>;
         @5 colours: ReadWrite<[[f32; 4]]>;
     }
@@ -76,25 +76,25 @@ const CHUNK: usize = 1 << 20;
 /// All that gives the colour of films on the device, as pictures of one quality have it.
 pub struct ColourProbe {
     table: Table,
-    bands: Bands,
+    quadrature: Quadrature,
 }
 
 impl ColourProbe {
     /// Bakes and fits for films up to a thickness, in white light.
     pub fn new(gpu: &Gpu, optics: &OpticsKey, quality: Quality, thickest_nm: f64) -> Result<Self, GpuError> {
         let range_nm = range_nm(thickest_nm);
-        let bands = BandsKey { optics: optics.clone(), range_nm, quality };
-        let table = match bands.needs_table() {
+        let quadrature = QuadratureKey { optics: optics.clone(), range_nm, quality };
+        let table = match quadrature.needs_table() {
             true => Table::baked(gpu, &TableKey::full(optics.clone(), range_nm))?,
             false => Table::unread(gpu, optics),
         };
-        Ok(Self::with_table(table, Bands::fit(gpu, &bands)))
+        Ok(Self::with_table(table, Quadrature::fit(gpu, &quadrature)))
     }
 
-    /// With another table or other bands than pictures use.
+    /// With another table or another quadrature than pictures use.
     #[must_use]
-    pub fn with_table(table: Table, bands: Bands) -> Self {
-        Self { table, bands }
+    pub fn with_table(table: Table, quadrature: Quadrature) -> Self {
+        Self { table, quadrature }
     }
 
     /// Unpolarised colours of some points, linear BT.2020, where a perfect mirror has the illuminant's white.
@@ -113,11 +113,11 @@ impl ColourProbe {
         let colours = gpu.buffer("colours", size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
         let kernel = ProbeColours {
             table_kind: TableOverrides { COLOURED: false, POLARISED: false },
-            summed: self.bands.overrides(),
+            summed: self.quadrature.overrides(),
             axes: &self.table.axes,
             table: &self.table.view,
             table_sampler: &table_sampler(gpu),
-            bands: &self.bands.buffer,
+            quadrature: &self.quadrature.buffer,
             points: &gpu.storage("points", points),
             colours: &colours,
         };

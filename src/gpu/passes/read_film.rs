@@ -1,4 +1,4 @@
-//! Brings what a film shows into a buffer.
+//! Copies what a film shows into a buffer.
 
 use crate::gpu::{
     device::GpuError,

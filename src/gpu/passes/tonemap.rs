@@ -21,7 +21,7 @@ shader_struct! {
         pub to_xyz: Matrix,
         /// And back.
         pub from_xyz: Matrix,
-        /// Factor on radiance beside that of the linear picture.
+        /// Factor on radiance beside the exposure of the linear picture.
         pub exposure: f32,
         /// Seed of the dither.
         pub dither_seed: u32,

@@ -103,7 +103,7 @@ kernels! {
 pub enum Step {
     /// In a flow in closed form.
     Closed(FlowKind, Box<StepUniform>),
-    /// In a solver's velocity on the grid that steps are traced on, which stands still for so many seconds.
+    /// In a solver's velocity on the grid that steps are traced on, held constant for a number of seconds.
     Solved(wgpu::Buffer, f64),
 }
 

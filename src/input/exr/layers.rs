@@ -49,7 +49,7 @@ pub(super) struct Layer {
     name: String,
 }
 
-/// Chooses among the flat layers with colours, and tells which it was where there could be doubt.
+/// Chooses among the flat layers with colours, and notes which it was where there could be doubt.
 pub(super) fn choose(path: &Path, headers: &[Header]) -> Result<(Layer, Option<String>), InputError> {
     let flat = || headers.iter().enumerate().filter(|(_, header)| !header.deep);
     let several = headers.len() > 1;

@@ -22,7 +22,7 @@ pub(super) struct Placement {
 }
 
 impl Placement {
-    /// Refuses pictures that are no environments, and those of which nothing is stored.
+    /// Refuses pictures that are no environments, and pictures whose data window is outside of the display window.
     pub fn of(path: &Path, header: &Header) -> Result<Self, InputError> {
         let (data, display) = (header.data_window(), header.shared_attributes.display_window);
         let (Vec2(width, height), Vec2(stored_width, stored_height)) = (display.size, data.size);

@@ -8,7 +8,7 @@ fn desk(text: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-/// What is said of a scene below its version that can be read but not used, after its folder.
+/// The message about a scene that can be read but not used, given its text below the version, without its folder.
 fn refusal(text: &str) -> String {
     let (folder, path) = desk(text);
     for (name, content) in [("short.csv", "400,1\n500,1\n"), ("words.csv", "360,a\n"), ("text.hdr", "no picture")] {
@@ -20,18 +20,18 @@ fn refusal(text: &str) -> String {
 
 /// The errors that are found after the text has been read name their line and key like all others.
 #[test]
-fn what_a_scene_names_is_refused_by_line_and_key() {
+fn a_bad_file_of_a_scene_is_refused_by_line_and_key() {
     for (text, told) in [
         ("[light]\nilluminant = \"D66\"", "s.toml:3: `illuminant` in [light] cannot be used: unknown illuminant `D66`"),
         ("[light]\nilluminant = \"5 K\"", "s.toml:3: `illuminant` in [light] cannot be used: a black body of 5 K"),
         (
             "[light]\n\nilluminant = \"no.csv\"",
-            "s.toml:4: `illuminant` in [light] cannot be used: there is no file no.csv",
+            "s.toml:4: `illuminant` in [light] cannot be used: file no.csv does not exist",
         ),
         ("[light]\nilluminant = \"words.csv\"", "s.toml:3: `illuminant` in [light] cannot be used: words.csv"),
         (
             "[light]\nenvironment = \"no.exr\"",
-            "s.toml:3: `environment` in [light] cannot be used: there is no file no.exr",
+            "s.toml:3: `environment` in [light] cannot be used: file no.exr does not exist",
         ),
         (
             "[light]\nenvironment = \"text.hdr\"",
@@ -56,7 +56,7 @@ fn what_a_scene_names_is_refused_by_line_and_key() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused_by_line_and_key() {
+fn a_scene_that_cannot_be_drawn_is_refused_by_line_and_key() {
     let shot = Shot {
         size: [64, 36],
         moment: Default::default(),
@@ -68,11 +68,11 @@ fn what_cannot_be_drawn_is_refused_by_line_and_key() {
     for (text, told) in [
         (
             "[[bubble]]\n[[bubble]]\ncenter_m = [0, 0.01, 0]\nfilm.index = 1.5",
-            "s.toml:5: `index` in [bubble.film] number 2 is another than that of [[bubble]] number 1; films in one picture must have the same",
+            "s.toml:5: `index` in [bubble.film] number 2 differs from [[bubble]] number 1; all films in one picture must agree",
         ),
         (
             "[[bubble]]\nfilm.skin_nm = 2\n[[bubble]]\ncenter_m = [0, 0.01, 0]",
-            "s.toml:4: `skin_nm` in [bubble.film] number 2 is another than that of [[bubble]] number 1; films in one picture must have the same",
+            "s.toml:4: `skin_nm` in [bubble.film] number 2 differs from [[bubble]] number 1; all films in one picture must agree",
         ),
         (
             "[camera]\nelevation_deg = -9\n[[bubble]]\nboundary = \"bath\"",
@@ -80,7 +80,7 @@ fn what_cannot_be_drawn_is_refused_by_line_and_key() {
         ),
     ] {
         let (folder, path) = desk(text);
-        let error = load_scene(&path).unwrap().want(&shot).unwrap_err().to_string();
+        let error = load_scene(&path).unwrap().request(&shot).unwrap_err().to_string();
         assert_eq!(error.replace(&format!("{}/", folder.path().display()), ""), told, "{text}");
     }
 }
@@ -105,7 +105,7 @@ fn a_preset_that_is_mistyped_has_a_neighbour() {
             .starts_with("no scene file or preset is named `windws`; did you mean `windows`? presets: default, ")
     );
     assert!(told("qqqq").starts_with("no scene file or preset is named `qqqq`; presets: default, "));
-    assert!(told("no/such").starts_with("there is no file no/such"));
+    assert!(told("no/such").starts_with("file no/such does not exist"));
 }
 
 #[cfg(unix)]

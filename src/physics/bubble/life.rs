@@ -1,4 +1,4 @@
-//! Lives of a bubble: it is blown, it bursts where it is pricked or when its film has been black for long enough, and a new one is blown.
+//! The life cycle of a bubble: it is blown, it bursts where it is pricked or when its film has been black for long enough, and a new one is blown.
 //!
 //! When it bursts follows from what happens to it alone, so that any moment of any life can be shown without those before it.
 
@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::{DMat3, DVec3};
 
 use super::{
-    centre::CentrePath,
+    center::CenterPath,
     shape::{DraggedShape, Oscillator, Shape},
 };
 use crate::physics::{
@@ -49,9 +49,9 @@ pub struct Course {
     pub jets: Spans<DMat3>,
     /// Ticks at which it is pricked, in order, and the directions in its film, unit vectors.
     pub pricks: Vec<(u64, DVec3)>,
-    /// Where the centre is at first, m.
+    /// Where the center is at first, m.
     pub rest_m: DVec3,
-    /// Ticks from which on the centre goes elsewhere, in order, and where to, m.
+    /// Ticks from which on the center goes elsewhere, in order, and where to, m.
     pub drags: Vec<(u64, DVec3)>,
 }
 
@@ -107,8 +107,8 @@ pub struct Life {
     pub evaporation: Evaporation,
     /// What pushes the film.
     pub pushes: Pushes,
-    /// Where the centre goes, in radii, from where it was at the very first.
-    pub path: CentrePath,
+    /// Where the center goes, in radii, from where it was at the very first.
+    pub path: CenterPath,
     end: Option<End>,
     tick_s: f64,
     oscillator: Oscillator,
@@ -121,7 +121,7 @@ pub struct Life {
 pub struct Age {
     /// The life that the moment falls into.
     pub life: Arc<Life>,
-    /// The moment of its film since it was blown; while it bursts, that of the burst.
+    /// The moment of its film since it was blown; while it bursts, the moment of the burst.
     pub moment: Moment,
     /// The hole in it, while it bursts.
     pub hole: Option<Opening>,
@@ -129,13 +129,13 @@ pub struct Age {
 
 /// The lives of a bubble, each found once: with thousands of events there may be thousands of lives.
 #[derive(Debug)]
-pub struct Lives {
+pub struct LifeCycle {
     course: Course,
-    path: CentrePath,
+    path: CenterPath,
     found: Mutex<Found>,
 }
 
-/// Lives as far as they have been asked for.
+/// The lives that have been asked for so far.
 #[derive(Debug, Default)]
 struct Found {
     /// When each begins and how it ends, in order.
@@ -144,21 +144,21 @@ struct Found {
     latest: Option<Arc<Life>>,
 }
 
-impl Lives {
-    /// The lives of a bubble.
+impl LifeCycle {
+    /// The life cycle of a bubble.
     #[must_use]
     pub fn new(course: Course) -> Self {
         let path = course.path(0, u64::MAX, course.rest_m, DVec3::ZERO, 1.0);
         Self { course, path, found: Mutex::default() }
     }
 
-    /// Where the centre goes in all lives, m.
+    /// Where the center goes in all lives, m.
     #[must_use]
-    pub fn path(&self) -> &CentrePath {
+    pub fn path(&self) -> &CenterPath {
         &self.path
     }
 
-    /// The bubble at a moment; nothing between two lives.
+    /// The bubble at a moment; `None` between two lives.
     #[must_use]
     pub fn at(&self, moment: Moment) -> Option<Age> {
         let life = self.life(moment.tick);
@@ -171,7 +171,7 @@ impl Lives {
         (seconds < end.lasts_s).then(|| Age { moment: Moment::tick(end.tick - life.born), hole, life })
     }
 
-    /// When a bubble ends that is blown at a tick after so many others, and where the hole opens if something pricks it.
+    /// When a bubble blown at a tick as number `generation` ends, and where the hole opens if something pricks it.
     #[must_use]
     pub fn end_of(&self, born: u64, generation: u32) -> Option<(u64, Option<DVec3>)> {
         self.course.end(born, generation).map(|end| (end.tick, end.at))
@@ -179,7 +179,7 @@ impl Lives {
 
     /// The life that a tick falls into, with the time until the next one.
     fn life(&self, tick: u64) -> Arc<Life> {
-        // What is found is whole even where somebody else panicked.
+        // What is found is whole even where another thread panicked.
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         while let Some(born) = found.next_born().filter(|born| *born <= tick) {
             let generation = found.spans.len() as u32;
@@ -221,8 +221,8 @@ impl Life {
 }
 
 impl Course {
-    /// A life that begins at a tick after so many others and has an end, of a bubble whose centre goes along a path.
-    fn life(&self, path: &CentrePath, born: u64, generation: u32, end: Option<End>) -> Life {
+    /// Life number `generation`, which begins at a tick and has an end, of a bubble whose center goes along a path.
+    fn life(&self, path: &CenterPath, born: u64, generation: u32, end: Option<End>) -> Life {
         let gone = end.map_or(u64::MAX, |end| end.tick);
         let start_m = path.at(born as f64 * self.tick_s).place_m;
         let oscillator = self.oscillator();
@@ -245,14 +245,14 @@ impl Course {
         }
     }
 
-    /// Where the centre goes from a tick on, at which it rests at a place, until another: seen from an origin, in a unit of length in metres.
-    fn path(&self, born: u64, gone: u64, start_m: DVec3, origin_m: DVec3, unit_m: f64) -> CentrePath {
+    /// Where the center goes from a tick on, at which it rests at a place, until another: seen from an origin, in a unit of length in metres.
+    fn path(&self, born: u64, gone: u64, start_m: DVec3, origin_m: DVec3, unit_m: f64) -> CenterPath {
         let in_units = |place_m: DVec3| (place_m - origin_m) / unit_m;
         let time_s = |tick: u64| tick as f64 * self.tick_s;
         let first = self.drags.partition_point(|(tick, _)| *tick < born);
         let drags = self.drags[first..].iter().take_while(|(tick, _)| *tick < gone);
         let jumps = drags.map(|(tick, place_m)| (time_s(*tick) - time_s(born), in_units(*place_m)));
-        CentrePath::new(in_units(start_m), jumps)
+        CenterPath::new(in_units(start_m), jumps)
     }
 
     /// What evaporates from a bubble between two ticks.
@@ -264,7 +264,7 @@ impl Course {
         Oscillator::new(self.radius_m, 1e-9 * self.film.mean_nm())
     }
 
-    /// The film as it is blown after so many others.
+    /// The film of the bubble number `generation` as it is blown.
     fn film(&self, generation: u32) -> InitialFilm {
         match self.film {
             InitialFilm::Blown { thickness_nm, stratification, .. } => {
@@ -275,7 +275,7 @@ impl Course {
         }
     }
 
-    /// How a life ends that begins at a tick after so many others, if it does.
+    /// How life number `generation`, which begins at a tick, ends, if it does.
     fn end(&self, born: u64, generation: u32) -> Option<End> {
         let next = self.pricks.partition_point(|(tick, _)| *tick < born);
         let pricked = self.pricks.get(next).map(|(tick, at)| (*tick, Some(*at)));

@@ -1,9 +1,9 @@
-//! The bubble as a whole: where its centre is, its shape, and its lives.
+//! The bubble as a whole: where its center is, its shape, and its lives.
 
-mod centre;
+mod center;
 mod life;
 mod shape;
 
-pub use centre::{CentrePath, SETTLING_S};
-pub use life::{Age, Bursting, Course, Life, Lives, Opening};
+pub use center::{CenterPath, SETTLING_S};
+pub use life::{Age, Bursting, Course, Life, LifeCycle, Opening};
 pub use shape::{DraggedShape, Oscillator, Shape, reach};

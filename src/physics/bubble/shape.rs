@@ -20,7 +20,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::centre::{CentrePath, LegMotion};
+use super::center::{CenterPath, LegMotion};
 use crate::physics::film::properties::{AIR_DENSITY, AIR_VISCOSITY, DENSITY, SURFACE_TENSION};
 
 /// The degree of the mode.
@@ -94,9 +94,9 @@ impl Oscillator {
     /// What a jet of air of a speed in m/s does that goes along a unit vector and meets the bubble around another: its stagnation pressure,
     /// `½ ρₐ u²` of what goes inwards, as wide as `exp(κ (c·n − 1))`. 1/s².
     #[must_use]
-    pub fn jet_push(&self, centre: DVec3, sharpness: f64, toward: DVec3, speed_m_s: f64) -> DMat3 {
-        let inwards = (-toward.dot(centre)).max(0.0) * speed_m_s;
-        self.push(0.5 * AIR_DENSITY * inwards.powi(2) * second_degree(sharpness), centre)
+    pub fn jet_push(&self, center: DVec3, sharpness: f64, toward: DVec3, speed_m_s: f64) -> DMat3 {
+        let inwards = (-toward.dot(center)).max(0.0) * speed_m_s;
+        self.push(0.5 * AIR_DENSITY * inwards.powi(2) * second_degree(sharpness), center)
     }
 
     /// The S″ of a pressure `p₂ P₂(n·axis)` from outside.
@@ -110,7 +110,7 @@ impl Oscillator {
     /// Air that streams past with u has the pressure `ρₐ u²/2 (1 − 9/4 sin² ϑ)` on a sphere (Lamb § 95), whose second degree is
     /// `3/4 ρₐ u² P₂`: a bubble is flattened along its way. The path's u is `(b + c s) e^(−s)` on each leg, and so the shape is in closed form.
     #[must_use]
-    pub fn along(&self, path: &CentrePath) -> DraggedShape {
+    pub fn along(&self, path: &CenterPath) -> DraggedShape {
         let mut last = ShapeLeg { from_s: 0.0, start: Shape::ROUND, motion: None };
         let legs = path.motions().map(|motion| {
             let start = last.at(self, motion.from_s);
@@ -288,16 +288,16 @@ mod tests {
     #[test]
     fn a_dragged_bubble_obeys_its_law() {
         let bubble = bubble();
-        let path = CentrePath::new(DVec3::ZERO, [(0.2, DVec3::new(0.2, 0.1, 0.0)), (0.33, DVec3::Z * 0.1)]);
+        let path = CenterPath::new(DVec3::ZERO, [(0.2, DVec3::new(0.2, 0.1, 0.0)), (0.33, DVec3::Z * 0.1)]);
         for time in [0.1, 0.25, 0.32, 0.34, 0.5, 1.0] {
             let found = law(&bubble, |time| bubble.along(&path).at(time), time);
             let wind = path.at(time).velocity_m_s;
             let expected = bubble.push(0.75 * AIR_DENSITY * wind.length_squared(), wind.normalize_or(DVec3::X));
             assert!(norm(found - expected) < 1e-3 * norm(expected).max(0.1), "{time}: {found} {expected}");
         }
-        let most = (0..100).map(|k| norm(bubble.along(&path).at(0.01 * f64::from(k)).shape)).fold(0.0, f64::max);
-        assert!((0.01..0.5).contains(&most), "seen, and not torn: {most}");
-        assert!(norm(bubble.along(&path).at(20.0).shape) < 1e-4 * most);
+        let max = (0..100).map(|k| norm(bubble.along(&path).at(0.01 * f64::from(k)).shape)).fold(0.0, f64::max);
+        assert!((0.01..0.5).contains(&max), "seen, and not torn: {max}");
+        assert!(norm(bubble.along(&path).at(20.0).shape) < 1e-4 * max);
     }
 
     #[test]

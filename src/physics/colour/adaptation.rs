@@ -1,10 +1,10 @@
-//! From the light of a scene to what is seen of it, and to what a camera that is balanced to it shows.
+//! From the light of a scene to its colour, and to the colour in a camera that is balanced to it.
 
 use std::sync::LazyLock;
 
 use glam::{DMat3, DVec3};
 
-use super::{BT2020, ColourWeights, FilmOptics, Illuminant, RgbSpace, bands::responses};
+use super::{BT2020, ColourWeights, FilmOptics, Illuminant, RgbSpace, quadrature::responses};
 use crate::physics::optics::FilmIndex;
 
 /// Cone responses of the Bradford adaptation (ICC.1:2022, annex E.2).
@@ -23,7 +23,7 @@ pub fn daylight_scale() -> DVec3 {
     1.0 / *DAYLIGHT
 }
 
-/// The matrix from RGB light (linear BT.2020, see [`super::Uplift`]) to what is seen of it under an illuminant, linear BT.2020 where
+/// The matrix from RGB light (linear BT.2020, see [`super::Uplift`]) to its colour under an illuminant, linear BT.2020 where
 /// D65's white is (1, 1, 1). For D65 it is the identity within the uplift's residual, 1e-4.
 pub fn seen_light(illuminant: &Illuminant) -> DMat3 {
     // What a film is made of does not matter where nothing meets it.
@@ -39,7 +39,7 @@ pub fn white_balance(illuminant: &Illuminant) -> DMat3 {
     to_cones.inverse() * DMat3::from_diagonal(gains) * to_cones
 }
 
-/// The matrix from an RGB space to XYZ adapted to D50, as ICC profiles want it, and the adaptation itself (Bradford).
+/// The matrix from an RGB space to XYZ adapted to D50, as ICC profiles need it, and the adaptation itself (Bradford).
 pub fn adapted_to_d50(space: &RgbSpace) -> (DMat3, DMat3) {
     let d50 = DVec3::new(0.9642, 1.0, 0.8249);
     let gains = (BRADFORD * d50) / (BRADFORD * (space.to_xyz() * DVec3::ONE));

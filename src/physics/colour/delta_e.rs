@@ -15,7 +15,7 @@ pub struct Lab {
     pub b: f64,
 }
 
-/// CIELAB of `xyz`, relative to `white`. Nothing is clamped: the linear piece near black goes on below 0.
+/// CIELAB of `xyz`, relative to `white`. Nothing is clamped: the linear piece near black continues below 0.
 pub fn xyz_to_lab(xyz: DVec3, white: DVec3) -> Lab {
     let [fx, fy, fz] = (xyz / white).to_array().map(lab_curve);
     Lab { l: 116.0 * fy - 16.0, a: 500.0 * (fx - fy), b: 200.0 * (fy - fz) }

@@ -102,7 +102,7 @@ fn smoothstep(t: f64) -> f64 {
 const HALVINGS: u32 = 12;
 
 /// Bleaches a colour towards its grey, and brings it back into [0, 1] by lowering its chroma just as far as needed: both in CIELAB, whose
-/// hue stays. Clipping turns the hue of film colours by up to 16°, mixing with grey in linear light that of bright sodium light by 20°.
+/// hue stays. Clipping turns the hue of film colours by up to 16°, and mixing with grey in linear light turns the hue of bright sodium light by 20°.
 fn into_gamut(gamut: Gamut, linear: DVec3, bleach: Bleach) -> DVec3 {
     let inside = |linear: DVec3| linear.min_element() >= 0.0 && linear.max_element() <= 1.0;
     if bleach.part == 0.0 && inside(linear) {
@@ -205,8 +205,8 @@ mod tests {
         assert_eq!(into_gamut(Gamut::Srgb, DVec3::splat(-1.0), Bleach::default()), DVec3::ZERO);
     }
 
-    /// By how much the hue of a colour of BT.2020 turns on its way to the display, degrees; 0 of what is shown nearly grey, whose hue is nobody's
-    /// business, and nothing of what is shown as it is.
+    /// By how much the hue of a colour of BT.2020 turns on its way to the display, degrees; 0 for colours that are shown nearly grey, whose hue is
+    /// irrelevant, and for colours that are shown unchanged.
     fn turn_of_hue(gamut: Gamut, radiance: DVec3) -> Option<f64> {
         let (toned, bleach) = tone_curve(radiance);
         let linear = gamut.from_bt2020() * toned;

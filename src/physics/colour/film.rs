@@ -29,7 +29,7 @@ impl FilmOptics {
     /// water, or of another liquid with as many fringes.
     ///
     /// Light that grazes a film is resonant in it, and fringes are then much narrower than their distance. With fewer samples some fall between
-    /// two: at cos θ from 0.02 to 0.26, CIEDE2000 0.7 for films to 10 µm and 1.6 for films to 30 µm with a sample a nanometre, below 0.03 with
+    /// two: at cos θ from 0.02 to 0.26, CIEDE2000 0.7 for films to 10 µm and 1.6 for films to 30 µm with one sample per nanometre, below 0.03 with
     /// these.
     pub fn resolving(film: impl Into<FilmMaterial>, illuminant: &Illuminant, thickest_nm: f64) -> Self {
         let film = film.into();
@@ -61,7 +61,7 @@ impl FilmOptics {
         self.film.wall(self.indices[i], cos_theta, self.weights.wavelengths_nm()[i])
     }
 
-    /// XYZ of white light after reflection, unpolarised; a perfect mirror has Y = 1. `cos_theta` is that of the angle in air, 0 to 1.
+    /// XYZ of white light after reflection, unpolarised; a perfect mirror has Y = 1. `cos_theta` is the cosine of the angle in air, 0 to 1.
     pub fn xyz(&self, cos_theta: f64, walls: Walls) -> DVec3 {
         self.weights.integrate(|i| walls.reflectance(&self.wall(i, cos_theta)))
     }
@@ -101,7 +101,7 @@ pub struct SpectrumPoint {
     pub transmittance: f64,
 }
 
-/// The exposure "M2" at which colour errors are measured: 1 / (walls · Rmax), with Rmax the most that one wall reflects at this angle
+/// The exposure "M2" at which colour errors are measured: 1 / (walls · Rmax), with Rmax the maximum reflectance of one wall at this angle
 /// (n at 589 nm). It brings L* near 100 at most at every angle. 0 for a film of index 1, which shows no colour to expose.
 pub fn m2_exposure(film: &FilmMaterial, cos_theta: f64, walls: u32) -> f64 {
     let brightest = f64::from(walls) * film.max_reflectance(cos_theta);
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_reflected_passes() {
+    fn reflectance_and_transmittance_are_consistent() {
         let optics = water();
         for point in optics.spectrum(0.5, one(333.0)) {
             assert!((point.reflectance + point.transmittance - 1.0).abs() < 1e-15, "{point:?}");

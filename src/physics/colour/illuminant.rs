@@ -13,18 +13,18 @@ const SECOND_RADIATION_NM_K: f64 = 1.438_776_877e7;
 /// Temperatures of black bodies whose light has a shape in f64 and a use: embers to the bluest stars, K.
 const TEMPERATURES_K: std::ops::RangeInclusive<f64> = 800.0..=100_000.0;
 
-/// The least luminous efficiency, of 1 at 555 nm, that a light may have: that of 372 nm and of 775 nm. A mirror shows every light at Y = 1,
+/// The smallest luminous efficiency, 1 at 555 nm, that a light may have, as at 372 nm and 775 nm. A mirror shows every light at Y = 1,
 /// and fainter ones would be nothing but XYZ far from any colour.
-const LEAST_SEEN: f64 = 2e-5;
+const MIN_SEEN: f64 = 2e-5;
 
-/// A name that is no built-in illuminant's.
+/// A name of no built-in illuminant.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum UnknownIlluminant {
     /// No light of that name.
     #[error("unknown illuminant `{0}`; known are {known}, a black body like `3000 K`, or a file like `lamp.csv`", known = BuiltIn::names())]
     Name(String),
     /// A black body too cold or too hot.
-    #[error("a black body of {0} K is no lamp here; name one from 800 K to 100000 K")]
+    #[error("a black body of {0} K is out of range; use 800 K to 100000 K")]
     Temperature(f64),
 }
 
@@ -44,7 +44,7 @@ impl Illuminant {
         spectrum.check_power(&name)?;
         let observer = Observer::cie_1931_2deg();
         let seen: f64 = spectrum.iter().enumerate().map(|(i, power)| power * observer.at_nm(wavelength_nm(i)).y).sum();
-        if seen < LEAST_SEEN * spectrum.iter().sum::<f64>() {
+        if seen < MIN_SEEN * spectrum.iter().sum::<f64>() {
             return Err(SpectrumError::Unseen { file: name });
         }
         Ok(Self { name, spectrum, lines: Vec::new() })
@@ -89,7 +89,7 @@ impl Illuminant {
         self.spectrum.iter().all(|power| power == 0.0) && ends[1] - ends[0] < 10.0
     }
 
-    /// The same light with the continuous part as lines, so many to a nanometre: integrals then resolve fringes finer than the grid, which
+    /// This light with its continuous part as lines, `per_nm` per nanometre: integrals then resolve fringes finer than the grid, which
     /// films of more than some 10 µm have.
     #[must_use]
     pub fn as_lines(&self, lines_per_nm: usize) -> Self {

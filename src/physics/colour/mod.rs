@@ -5,13 +5,13 @@
 //! until a picture is written.
 
 mod adaptation;
-mod bands;
 mod built_in;
 mod cie;
 mod delta_e;
 mod display;
 mod film;
 mod illuminant;
+mod quadrature;
 mod spaces;
 mod table;
 mod uplift;
@@ -22,13 +22,13 @@ mod weights;
 mod reference_tests;
 
 pub use adaptation::{adapted_to_d50, daylight_scale, seen_light, white_balance};
-pub use bands::{Band, BandTask, fit_bands, responses};
 pub use built_in::{BUILT_IN, BuiltIn, Line};
 pub use cie::Observer;
 pub use delta_e::{Lab, ciede2000, xyz_to_lab};
 pub use display::{Display, Gamut};
 pub use film::{FilmOptics, SpectrumPoint, m2_delta_e, m2_exposure};
 pub use illuminant::{Illuminant, UnknownIlluminant};
+pub use quadrature::{QuadratureTask, QuadratureWavelength, fit_quadrature, responses};
 pub use spaces::{BT709, BT2020, DISPLAY_P3, RgbSpace, bt709_to_bt2020, bt2020_to_bt709, srgb_decode, srgb_encode};
 pub use table::{FilmTable, FilmTexel};
 pub use uplift::Uplift;

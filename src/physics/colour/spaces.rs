@@ -45,7 +45,7 @@ impl RgbSpace {
         self.from_xyz
     }
 
-    /// The matrix from this space's RGB to that of `other`.
+    /// The matrix from this space's RGB to the RGB of `other`.
     pub fn matrix_to(&self, other: &Self) -> DMat3 {
         other.from_xyz * self.to_xyz
     }
@@ -71,7 +71,7 @@ pub fn bt2020_to_bt709() -> DMat3 {
     BT2020.matrix_to(&BT709)
 }
 
-/// sRGB value of a linear component (IEC 61966-2-1). 0..1 maps to 0..1; the curve goes on above 1, and is odd below 0.
+/// sRGB value of a linear component (IEC 61966-2-1). 0..1 maps to 0..1; the curve continues above 1, and is odd below 0.
 pub fn srgb_encode(linear: f64) -> f64 {
     let size = linear.abs();
     let encoded = if size <= 0.0031308 { 12.92 * size } else { 1.055 * size.powf(1.0 / 2.4) - 0.055 };

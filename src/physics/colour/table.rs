@@ -23,7 +23,7 @@ pub struct FilmTable {
 }
 
 impl FilmTable {
-    /// The film that a texel's centre stands for: cos θ and thickness in nm.
+    /// The film that a texel's center stands for: cos θ and thickness in nm.
     #[must_use]
     pub fn film_of_texel(&self, column: usize, row: usize) -> (f64, f64) {
         let t = row as f64 / (self.rows - 1) as f64;
@@ -33,7 +33,7 @@ impl FilmTable {
         (cos_theta, path_nm / cos_refracted(self.index, cos_theta).max(1e-6))
     }
 
-    /// Where a film lies: columns and rows from the centre of the first texel.
+    /// Where a film lies: columns and rows from the center of the first texel.
     #[must_use]
     pub fn texel_of_film(&self, cos_theta: f64, thickness_nm: f64) -> [f64; 2] {
         let scaled = (1.0 + EVEN) * thickness_nm * cos_refracted(self.index, cos_theta) / self.max_thickness_nm;
@@ -41,7 +41,7 @@ impl FilmTable {
         [cos_theta.sqrt() * (self.columns - 1) as f64, t * (self.rows - 1) as f64]
     }
 
-    /// All texels, row by row: the film's colour in white light, linear BT.2020, over the most that a film reflects of unpolarised light at
+    /// All texels, row by row: the film's colour in white light, linear BT.2020, over the maximum reflectance of a film for unpolarised light at
     /// the texel's angle. For s light, for p light, and for both together, which is their mean.
     #[must_use]
     pub fn texels(&self, optics: &FilmOptics) -> Vec<FilmTexel> {

@@ -2,7 +2,7 @@
 //!
 //! Environments are RGB and the film is spectral, so a light (r, g, b), linear BT.709, stands for the spectrum
 //! L(λ) = S(λ) (r ρ_r(λ) + g ρ_g(λ) + b ρ_b(λ)), with S the scene's illuminant. It is linear in (r, g, b), so that what a film does to
-//! RGB light is exactly a 3×3 matrix. The idea is that of I. Mallett and C. Yuksel, "Spectral Primary Decomposition for Rendering with
+//! RGB light is exactly a 3×3 matrix. The idea is from I. Mallett and C. Yuksel, "Spectral Primary Decomposition for Rendering with
 //! sRGB Reflectance" (EGSR 2019).
 
 use std::sync::LazyLock;
@@ -39,7 +39,7 @@ impl Uplift {
         DVec3::from_array(self.rho.each_ref().map(|rho| rho.at_nm(wavelength_nm)))
     }
 
-    /// The matrix from linear BT.709 light to the XYZ of what is left of it after reflection with `reflectance[i]` at wavelength `i` of
+    /// The matrix from linear BT.709 light to the XYZ of the light that remains after reflection with `reflectance[i]` at wavelength `i` of
     /// the weights. Under an illuminant other than D65 nothing is adapted: white light has that illuminant's white.
     pub fn light_matrix(&self, weights: &ColourWeights, reflectance: &[f64]) -> DMat3 {
         let column = |rho: &Spectrum| weights.integrate(|i| rho.at_nm(weights.wavelengths_nm()[i]) * reflectance[i]);

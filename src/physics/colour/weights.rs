@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn a_perfect_mirror_shows_the_illuminants_white() {
         // The usual five digits (CIE 015, ASTM E308), for E the equal areas of the matching functions. Sums at 1 nm over 360..780 nm
-        // differ from those of other steps and ranges by up to 4e-4.
+        // differ from sums over other steps and ranges by up to 4e-4.
         let published = [
             ("D65", DVec3::new(0.95047, 1.0, 1.08883)),
             ("D50", DVec3::new(0.96422, 1.0, 0.82521)),

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 /// One face of a cube map, in the order of its array layers on the GPU.
 ///
-/// The orientation is that of the Vulkan specification, "Cube Map Face Selection" (WebGPU, Metal and Direct3D agree): with
+/// The orientation follows the Vulkan specification, "Cube Map Face Selection" (WebGPU, Metal and Direct3D agree): with
 /// `s` to the right and `t` down, both in [−1, 1], the face and its coordinates follow from the direction's components alone.
 /// The picture on a face is therefore mirrored in a right-handed world, but a shader that samples the cube passes world
 /// directions unchanged.
@@ -79,7 +79,7 @@ mod tests {
         }
     }
 
-    /// The table of the Vulkan specification, "Cube Map Face Selection", typed anew: major axis, then the axes of s and t.
+    /// The table of the Vulkan specification, "Cube Map Face Selection", typed independently: major axis, then the axes of s and t.
     #[test]
     fn orientation_is_that_of_the_vulkan_table() {
         let table = [

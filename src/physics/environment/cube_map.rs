@@ -102,9 +102,9 @@ impl CubeMap {
     /// outside.
     fn texel(&self, face: CubeFace, index: DVec2) -> DVec3 {
         let last = self.size() as f64 - 1.0;
-        let centre = (index + 0.5) * (2.0 / self.size() as f64) - 1.0;
-        let inside = centre.abs().max_element() < 1.0;
-        let (face, st) = if inside { (face, centre) } else { CubeFace::of_direction(face.direction(centre)) };
+        let center = (index + 0.5) * (2.0 / self.size() as f64) - 1.0;
+        let inside = center.abs().max_element() < 1.0;
+        let (face, st) = if inside { (face, center) } else { CubeFace::of_direction(face.direction(center)) };
         let nearest = ((st + 1.0) * (self.size() as f64 / 2.0)).floor().clamp(DVec2::ZERO, DVec2::splat(last));
         self.mips[0].radiance(face.layer(), nearest.y as usize * self.size() + nearest.x as usize)
     }
@@ -125,7 +125,7 @@ impl CubeLevel {
     }
 }
 
-/// Texels for a panorama: at a face's centre a texel of size s spans 2/s radians, a pixel of width w spans 2π/w.
+/// Texels for a panorama: at a face's center a texel of size s spans 2/s radians, a pixel of width w spans 2π/w.
 fn size_for_panorama(width: usize) -> usize {
     let matching = (width as f64 / std::f64::consts::PI).ceil() as usize;
     matching.next_multiple_of(16).clamp(16, 2048)
@@ -188,7 +188,7 @@ fn weighted_row(level: &CubeLevel, row: usize) -> (DVec3, f64) {
     let (layer, row) = (row / level.size, row % level.size);
     let coordinate = |index: usize| (2 * index + 1) as f64 / level.size as f64 - 1.0;
     (0..level.size).fold((DVec3::ZERO, 0.0), |(radiance, weight), column| {
-        // A texel's solid angle falls with the cube of its distance from the cube's centre.
+        // A texel's solid angle falls with the cube of its distance from the cube's center.
         let solid_angle = (1.0 + coordinate(row).powi(2) + coordinate(column).powi(2)).powf(-1.5);
         (radiance + solid_angle * level.radiance(layer, row * level.size + column), weight + solid_angle)
     })

@@ -10,7 +10,7 @@ use super::Repairs;
 
 /// The direction that a point of an equirectangular picture shows, a unit vector.
 ///
-/// `uv` runs over [0, 1) from the picture's top left. The centre looks along +x, up is +z, and moving right turns clockwise
+/// `uv` runs over [0, 1) from the picture's top left. The center looks along +x, up is +z, and moving right turns clockwise
 /// seen from above: azimuth = (1/2 − u) 2π, elevation = (1/2 − v) π.
 pub fn direction_of_uv(uv: DVec2) -> DVec3 {
     let (sin_azimuth, cos_azimuth) = ((0.5 - uv.x) * TAU).sin_cos();
@@ -57,8 +57,8 @@ impl Equirect {
     /// The count of pixels is not `width * height`, is zero, or `width` is odd (a row then has no pixel straight across the
     /// pole).
     pub fn new(width: usize, height: usize, mut pixels: Vec<[f32; 3]>) -> Result<Self, WrongPixelCount> {
-        let wanted = width.checked_mul(height);
-        if pixels.is_empty() || wanted != Some(pixels.len()) || !width.is_multiple_of(2) {
+        let expected = width.checked_mul(height);
+        if pixels.is_empty() || expected != Some(pixels.len()) || !width.is_multiple_of(2) {
             return Err(WrongPixelCount { width, height, pixels: pixels.len() });
         }
         let repairs = pixels.par_iter_mut().map(Repairs::repair).sum();
@@ -85,7 +85,7 @@ impl Equirect {
         self.repairs
     }
 
-    /// Radiance from `direction` (of any length but zero), interpolated between the four nearest pixel centres.
+    /// Radiance from `direction` (of any length but zero), interpolated between the four nearest pixel centers.
     pub fn radiance(&self, direction: DVec3) -> DVec3 {
         let uv = uv_of_direction(direction);
         let position = DVec2::new(uv.x * self.width as f64, uv.y * self.height as f64) - 0.5;
@@ -96,7 +96,7 @@ impl Equirect {
         across(row).lerp(across(row + 1), weight.y)
     }
 
-    /// The pixel at a column and row that may lie outside: columns wrap, and past a pole the picture goes on half a turn away.
+    /// The pixel at a column and row that may lie outside: columns wrap, and past a pole the picture continues half a turn away.
     fn pixel(&self, column: i64, row: i64) -> DVec3 {
         let (width, last_row) = (self.width as i64, self.height as i64 - 1);
         let across_pole = row < 0 || row > last_row;
@@ -124,7 +124,7 @@ mod tests {
     fn the_picture_looks_where_the_convention_says() {
         let cases = [
             ((0.5, 0.5), DVec3::X),
-            ((0.25, 0.5), DVec3::Y), // left of the centre is anticlockwise from +x
+            ((0.25, 0.5), DVec3::Y), // left of the center is anticlockwise from +x
             ((0.75, 0.5), DVec3::NEG_Y),
             ((0.0, 0.5), DVec3::NEG_X),
             ((0.3, 0.0), DVec3::Z),
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn interpolates_between_pixel_centres() {
+    fn interpolates_between_pixel_centers() {
         let panorama = ruler(16, 8);
         let radiance = panorama.radiance(direction_of_uv(DVec2::new(5.75 / 16.0, 3.25 / 8.0)));
         assert!(radiance.distance(DVec3::new(5.25, 2.75, 1.0)) < 1e-12, "{radiance}");

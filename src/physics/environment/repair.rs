@@ -25,7 +25,7 @@ impl Repairs {
         self.not_a_number + self.negative + self.too_bright
     }
 
-    /// Puts one radiance right, in place, and tells what had been wrong with it.
+    /// Repairs one radiance in place, and returns what was wrong with it.
     pub fn repair(radiance: &mut [f32; 3]) -> Self {
         let mut repairs = Self::default();
         if radiance.iter().any(|component| component.is_nan()) {

@@ -24,7 +24,7 @@ impl Boundary {
         }
     }
 
-    /// Colatitudes in degrees that a rim may be asked for; none where nobody is asked.
+    /// Colatitudes in degrees that a rim may have; `None` where it cannot be chosen.
     #[must_use]
     pub fn rims_deg(self) -> Option<[f64; 2]> {
         match self {

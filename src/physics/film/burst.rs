@@ -27,7 +27,7 @@ pub struct Hole {
 pub struct Rim {
     /// Angle from the middle of the hole to the film that is still at rest, radians.
     pub outer_rad: f64,
-    /// The same to where the hole ends and the rim begins.
+    /// Angle to where the hole ends and the rim begins.
     pub inner_rad: f64,
     /// Mean thickness of the rim, which is a round thread of the liquid that was swept, nm.
     pub thickness_nm: f64,
@@ -39,14 +39,14 @@ pub fn rim_delay(radius_m: f64) -> f64 {
     radius_m * (1e-9 * DENSITY / (2.0 * SURFACE_TENSION)).sqrt()
 }
 
-/// Seconds from the first hole until a film nowhere thicker than so many nm is gone.
+/// Seconds from the first hole until a film nowhere thicker than `thickest_nm` is gone.
 #[must_use]
 pub fn burst_s(thickest_nm: f64, radius_m: f64) -> f64 {
     PI * rim_delay(radius_m) * thickest_nm.max(0.0).sqrt()
 }
 
 impl Hole {
-    /// The hole that has opened for so many seconds, in film of a thickness in nm on a sphere of a radius in m.
+    /// The hole a number of seconds after it opened, in film of a thickness in nm on a sphere of a radius in m.
     #[must_use]
     pub fn open(thickness_nm: impl Fn(DVec3) -> f64, middle: DVec3, seconds: f64, radius_m: f64) -> Self {
         let axes = meridian_axes(middle);
@@ -131,9 +131,9 @@ mod tests {
     fn thin_film_goes_first() {
         let hole = Hole::open(|x| if x.y > 0.0 { 100.0 } else { 900.0 }, DVec3::X, 3e-3, RADIUS_M);
         let angles: Vec<f64> = hole.rim.iter().map(|rim| rim.outer_rad).collect();
-        let (least, most) =
+        let (min, max) =
             angles.iter().fold((f64::MAX, 0.0_f64), |(low, high), angle| (low.min(*angle), high.max(*angle)));
-        assert!((most / least - 3.0).abs() < 1e-6, "{least} {most}");
+        assert!((max / min - 3.0).abs() < 1e-6, "{min} {max}");
     }
 
     #[test]
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn no_film_leaves_no_rim() {
+    fn a_hole_without_film_has_no_rim() {
         let hole = Hole::open(|_| 0.0, DVec3::X, 1e-3, RADIUS_M);
         assert!(hole.rim.iter().all(|rim| rim.thickness_nm == 0.0 && rim.outer_rad.is_finite()));
     }

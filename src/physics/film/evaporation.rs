@@ -17,7 +17,7 @@ struct Rate {
 }
 
 impl Evaporation {
-    /// Evaporation at rates in nm a second, for ticks of a length in seconds.
+    /// Evaporation at rates in nm per second, for ticks of a length in seconds.
     #[must_use]
     pub fn new(rates_nm_s: &Timeline<f64>, tick_s: f64) -> Self {
         let mut last = (0, Rate { nm_s: 0.0, before_nm: 0.0 });
@@ -34,7 +34,7 @@ impl Evaporation {
         self.rates.in_force(ticks).map_or(0.0, |(from, rate)| rate.until(from, ticks, self.tick_s))
     }
 
-    /// The same without rates that come into force at a tick or later.
+    /// This evaporation without rates that come into force at a tick or later.
     #[must_use]
     pub fn until(&self, end: u64) -> Self {
         Self { rates: self.rates.until(end), tick_s: self.tick_s }
@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_evaporates_adds_up() {
+    fn evaporation_adds_up() {
         let film = Evaporation::new(&[(0, 30.0), (60, 60.0), (120, 0.0)].into_iter().collect(), 0.1);
         assert_eq!([0.0, 10.0, 60.0, 70.0, 500.0].map(|ticks| film.nm(ticks)), [0.0, 30.0, 180.0, 240.0, 540.0]);
         assert_eq!(film.until(60).nm(70.0), 210.0);

@@ -1,4 +1,4 @@
-//! Prescribed flow (model T1): a divergence-free velocity in closed form, the same whenever and wherever it is asked for.
+//! Prescribed flow (model T1): a divergence-free velocity in closed form, with the same value at every evaluation.
 
 use std::f64::consts::TAU;
 
@@ -32,7 +32,7 @@ pub struct Wave {
     pub amplitude: f64,
     /// Rate σ at which the pattern runs along k, rad/s.
     pub drift_rad_s: f64,
-    /// Rate ω at which it swings to and fro, rad/s; 0 for a steady one.
+    /// Angular frequency ω of its oscillation, rad/s; 0 for a steady one.
     pub swing_rad_s: f64,
     /// Phase φ of the swing, radians.
     pub swing_phase: f64,
@@ -41,17 +41,17 @@ pub struct Wave {
 /// A vortex of the stream function, `G cos(ωt + φ) exp(κ (c(t)·x − 1))`; its fastest ring has an angular radius near 1/√κ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vortex {
-    /// Its centre c at time 0, a unit vector.
+    /// Its center c at time 0, a unit vector.
     pub center: DVec3,
-    /// The unit vector about which the centre turns.
+    /// The unit vector about which the center turns.
     pub turn_axis: DVec3,
     /// How fast it turns, rad/s.
     pub turn_rad_s: f64,
-    /// Strength G: the value of the stream function at the centre, rad/s.
+    /// Strength G: the value of the stream function at the center, rad/s.
     pub strength: f64,
     /// Sharpness κ.
     pub sharpness: f64,
-    /// Rate ω at which it swings to and fro, rad/s; 0 for a steady one.
+    /// Angular frequency ω of its oscillation, rad/s; 0 for a steady one.
     pub swing_rad_s: f64,
     /// Phase φ of the swing, radians.
     pub swing_phase: f64,
@@ -75,7 +75,7 @@ pub struct FrozenWave {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct FrozenVortex {
-    /// Centre, a unit vector.
+    /// Center, a unit vector.
     pub center: [f32; 3],
     /// Sharpness κ.
     pub sharpness: f32,

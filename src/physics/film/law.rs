@@ -65,13 +65,13 @@ impl FreeFlow {
 
     /// Ticks in a step of the film.
     #[must_use]
-    pub fn ticks_a_step(&self, tick_s: f64) -> u64 {
+    pub fn ticks_per_step(&self, tick_s: f64) -> u64 {
         (self.longest_step_s() / tick_s).max(1.0) as u64
     }
 }
 
 impl FlowLaw {
-    /// The law as a velocity field; for a free film that of the air.
+    /// The law as a velocity field; for a free film, the velocity of the air.
     #[must_use]
     pub fn prescribed(self) -> PrescribedFlow {
         match self {
@@ -90,11 +90,11 @@ impl FlowLaw {
     /// Ticks in a step of the film, for a tick's length and the angle between cells: as many as keep the step accurate, and more where
     /// even those would move nothing by a thousandth of a cell.
     #[must_use]
-    pub fn ticks_a_step(self, tick_s: f64, cell_angle: f64) -> u64 {
+    pub fn ticks_per_step(self, tick_s: f64, cell_angle: f64) -> u64 {
         let strength = match self {
             Self::Rest => 0.0,
             Self::Prescribed { strength, .. } => strength,
-            Self::Free(free) => return free.ticks_a_step(tick_s),
+            Self::Free(free) => return free.ticks_per_step(tick_s),
         };
         // At strength 1 the fastest vortices turn by a quarter of a radian in 0.1 s, where a Runge-Kutta step errs by 1e-5 of that; the
         // swings of 2 s and more are followed by its three moments.
@@ -125,13 +125,13 @@ pub struct Split {
     pub parts: u32,
     /// Ticks that each lasts.
     pub part_ticks: f64,
-    /// Part of gravity that the film feels, at most 1. Beyond the most parts there are, gravity is felt as far as they can follow it: such films are
-    /// sorted within a tick anyway.
+    /// Part of gravity that the film feels, at most 1. Beyond the maximum number of parts, gravity is felt as far as they can follow it: such films
+    /// are sorted within a tick anyway.
     pub gravity: f64,
 }
 
 impl Split {
-    /// The division of a step of so many ticks of a length in seconds, under what a film feels, which was pushed so hard that it may shear and turn at
+    /// The parts of a step of a number of ticks, under the forces on a film that was pushed so hard that it may shear and turn at
     /// a rate in 1/s: see [`CORRECTED_TURN`].
     #[must_use]
     pub fn new(ticks: u32, tick_s: f64, felt: &FreeFlow, strain: f64) -> Self {

@@ -1,7 +1,7 @@
 //! The pattern of a freshly blown film: random patches, marbled.
 //!
 //! Patches are gradient noise (Perlin 2002, "Improving Noise") at scales of tens of degrees down to a few. Blowing has stirred
-//! them: a sequence of twists about random centres, each an area-preserving map of the sphere (after Lu et al. 2012, "Mathematical
+//! them: a sequence of twists about random centers, each an area-preserving map of the sphere (after Lu et al. 2012, "Mathematical
 //! Marbling", IEEE CG&A 32(6)), draws them out into swirls and filaments without changing how much film has which thickness.
 //! All of it is a function of direction and seed in plain IEEE arithmetic, so that it has the same bits everywhere.
 
@@ -52,13 +52,13 @@ const LATTICE_TURN: DMat3 = DMat3::from_cols(
     DVec3::new(2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0),
 );
 
-/// A turn about a centre that fades to nothing at a distance.
+/// A turn about a center that fades to nothing at a distance.
 #[derive(Clone, Copy, Debug)]
 struct Twist {
     center: DVec3,
     /// Squared reach, as a chord.
     reach_squared: f64,
-    /// Tangent of half the angle at the centre.
+    /// Tangent of half the angle at the center.
     half_turn: f64,
 }
 
@@ -80,7 +80,7 @@ impl Twist {
         if near <= 0.0 {
             return x;
         }
-        // Rodrigues' rotation by 2 atan(r) about the centre, without trigonometry.
+        // Rodrigues' rotation by 2 atan(r) about the center, without trigonometry.
         let r = -self.half_turn * near * near;
         let swept = self.center.cross(x) * r;
         x + 2.0 / (1.0 + r * r) * (swept + self.center.cross(swept) * r)

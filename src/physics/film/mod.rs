@@ -10,7 +10,7 @@
 //! | x, n | place on the unit sphere, which is also its outward normal | – | `x`, `direction` |
 //! | t, dt | time, length of a step | s | `time_s`, `dt_s` |
 //! | h | total thickness, along the normal | nm | `thickness_nm` |
-//! | e | what has evaporated since the beginning | nm | `thinned_nm` |
+//! | e | what has evaporated since the beginning | nm | `evaporated_nm` |
 //! | φ | thickness as if nothing had evaporated | nm | tracer + `level_nm` |
 //! | M | where the liquid at x was at the last remap | – | `map` |
 //! | u | velocity of the film, over R | rad/s | `velocity` |

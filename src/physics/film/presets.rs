@@ -12,12 +12,12 @@ use crate::words::words;
 words! {
     /// What moves a film.
     pub enum Flow: "flow" {
-        Free = "free", "Gravity and the air, as in a real film: what is thin rises, what is thick sinks";
+        Free = "free", "Gravity and the air, as in a real film: thin film rises, thick film sinks";
         Rest = "rest", "Nothing moves the film";
         Sloshing = "sloshing", "The film swings as a whole about its rest state";
         Draught = "draught", "Slow, large gusts of the air around the bubble";
         Stirred = "stirred", "Many turning vortices, as after a stir";
-        Jets = "jets", "Bands that turn about the vertical against one another, as the clouds of Jupiter";
+        Jets = "jets", "Bands that turn about the vertical in opposite directions, like the clouds of Jupiter";
     }
 }
 
@@ -52,7 +52,7 @@ const JETS_STREAM: u32 = 4;
 
 impl PrescribedFlow {
     /// The draught that air never stops to make: slow and large-scale, swinging with many periods of 2 to 9 s, so that the film goes
-    /// to and fro and is not mixed away. About 0.12 rad/s at strength 1, in proportion to it.
+    /// back and forth and is not mixed away. About 0.12 rad/s at strength 1, in proportion to it.
     pub fn draught(seed: u32, strength: f64) -> Self {
         let mut random = Random::new(seed, DRAUGHT_STREAM);
         let mut waves: Vec<Wave> = (0..DRAUGHT_WAVES).map(|_| draught_wave(&mut random)).collect();
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn speeds_are_those_of_a_film_at_all_times() {
+    fn prescribed_flows_have_the_speeds_of_a_film_at_all_times() {
         for seed in 0..4 {
             for flow in flows() {
                 for t in 0..40 {

@@ -30,7 +30,7 @@ pub const BLACK_FILM_ONSET: f64 = 50e-9;
 /// second to seconds; this is a choice, for the collapse itself is faster than pictures and finer than cells.
 pub const BLACK_FILM_COLLAPSE: f64 = 10.0;
 
-/// Kinematic viscosity of a film as a two-dimensional fluid, m²/s: `μ/ρ + 2 μ_s/(ρ h)`, the liquid's and that of two surfaces
+/// Kinematic viscosity of a film as a two-dimensional fluid, m²/s: `μ/ρ + 2 μ_s/(ρ h)`, of the liquid and of the two surfaces
 /// (Trapeznikov 1957; Couder, Chomaz & Rabaud 1989, Physica D 37). `viscosity` in Pa s, `surface_viscosity` in Pa s m.
 #[must_use]
 pub fn kinematic_viscosity(viscosity: f64, surface_viscosity: f64, thickness_m: f64) -> f64 {

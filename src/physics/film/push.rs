@@ -11,10 +11,10 @@ use crate::physics::flow::FlowForces;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
     /// The point c, a unit vector.
-    pub centre: DVec3,
+    pub center: DVec3,
     /// Sharpness κ; see [`Push::sharpness_of`].
     pub sharpness: f64,
-    /// The velocity V, rad/s. Its part along the centre pushes nothing.
+    /// The velocity V, rad/s. Its part along the center pushes nothing.
     pub velocity: DVec3,
     /// Rate in the middle, 1/s.
     pub rate: f64,
@@ -24,8 +24,8 @@ pub struct Push {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct FrozenPush {
-    /// Centre.
-    pub centre: [f32; 3],
+    /// Center.
+    pub center: [f32; 3],
     /// Sharpness.
     pub sharpness: f32,
     /// Velocity, rad/s.
@@ -35,7 +35,7 @@ pub struct FrozenPush {
 }
 
 impl Push {
-    /// The κ of a push that is half as strong at an angle in radians from its centre.
+    /// The κ of a push that is half as strong at an angle in radians from its center.
     #[must_use]
     pub fn sharpness_of(half_angle: f64) -> f64 {
         std::f64::consts::LN_2 / (1.0 - half_angle.cos())
@@ -45,29 +45,29 @@ impl Push {
     /// `n·curl` of the force, `rate g (κ x·(c × (V − u)) − ζ)`.
     #[must_use]
     pub fn source(&self, x: DVec3, u: DVec3, zeta: f64) -> f64 {
-        let strength = self.rate * (self.sharpness * (self.centre.dot(x) - 1.0)).exp();
-        strength * (self.sharpness * x.dot(self.centre.cross(self.velocity - u)) - zeta)
+        let strength = self.rate * (self.sharpness * (self.center.dot(x) - 1.0)).exp();
+        strength * (self.sharpness * x.dot(self.center.cross(self.velocity - u)) - zeta)
     }
 
-    /// The same push for a step of `dt_s` seconds in which it acts for `acting_s`: the rate that an explicit step must have for a push alone
+    /// This push for a step of `dt_s` seconds in which it acts for `acting_s`: the rate that an explicit step must have for a push alone
     /// to do exactly what it does. It never exceeds 1/`dt_s`, so that no push is too strong for any step.
     #[must_use]
     pub fn in_step(&self, acting_s: f64, dt_s: f64) -> Self {
         Self { rate: -(-self.rate * acting_s).exp_m1() / dt_s, ..*self }
     }
 
-    /// How fast a film that it has acted on for so many seconds shears and turns, 1/s: V over the length 1/√κ, as far as it has
+    /// How fast a film shears and turns after the push has acted for a number of seconds, 1/s: V over the length 1/√κ, as far as it has
     /// come. The largest vorticity of a film that was pushed from rest is 0.4 to 1 times this.
     #[must_use]
     pub fn strain(&self, acting_s: f64) -> f64 {
-        let along = self.velocity.reject_from(self.centre).length();
+        let along = self.velocity.reject_from(self.center).length();
         along * self.sharpness.sqrt() * -(-self.rate * acting_s).exp_m1()
     }
 
-    /// Part of that which drag and viscosity leave after so many seconds: a vortex pair keeps its impulse in the plane but for drag, and
+    /// Fraction of the strain that drag and viscosity leave after a number of seconds: a vortex pair keeps its impulse in the plane but for drag, and
     /// spreads as heat does, from a width of 1/√κ to √(1/κ + 2νt).
     #[must_use]
-    pub fn left_of_strain(&self, seconds: f64, forces: &FlowForces) -> f64 {
+    pub fn remaining_strain(&self, seconds: f64, forces: &FlowForces) -> f64 {
         (-forces.drag * seconds).exp() * (1.0 + 2.0 * forces.viscosity * self.sharpness * seconds).powf(-1.5)
     }
 
@@ -75,7 +75,7 @@ impl Push {
     #[must_use]
     pub fn frozen(&self) -> FrozenPush {
         FrozenPush {
-            centre: self.centre.as_vec3().to_array(),
+            center: self.center.as_vec3().to_array(),
             sharpness: self.sharpness as f32,
             velocity: self.velocity.as_vec3().to_array(),
             rate: self.rate as f32,
@@ -102,9 +102,9 @@ mod tests {
     };
 
     fn push(half_angle_deg: f64, rate: f64) -> Push {
-        let centre = DVec3::new(0.2, 0.7, 0.5).normalize();
-        let velocity = centre.cross(DVec3::X).normalize();
-        Push { centre, sharpness: Push::sharpness_of(half_angle_deg.to_radians()), velocity, rate }
+        let center = DVec3::new(0.2, 0.7, 0.5).normalize();
+        let velocity = center.cross(DVec3::X).normalize();
+        Push { center, sharpness: Push::sharpness_of(half_angle_deg.to_radians()), velocity, rate }
     }
 
     #[test]
@@ -119,11 +119,11 @@ mod tests {
         // A solid rotation about an axis: its vorticity is twice its part along n.
         let turn = DVec3::new(0.4, -0.3, 0.8);
         let force = |x: DVec3| {
-            let strength = push.rate * (push.sharpness * (push.centre.dot(x) - 1.0)).exp();
+            let strength = push.rate * (push.sharpness * (push.center.dot(x) - 1.0)).exp();
             strength * (push.velocity - turn.cross(x))
         };
         let d = 1e-5;
-        for x in [push.centre, DVec3::X, DVec3::new(0.1, 0.8, 0.3).normalize(), -push.centre] {
+        for x in [push.center, DVec3::X, DVec3::new(0.1, 0.8, 0.3).normalize(), -push.center] {
             let (e1, e2) = x.any_orthonormal_pair();
             let across = |e: DVec3, along: DVec3| {
                 let at = |s: f64| force((x + s * e).normalize()).dot(along);
@@ -149,10 +149,10 @@ mod tests {
             solver.stir(forcing);
             solver.step(dt, &FlowForces { viscosity, ..FlowForces::default() }, &still);
         }
-        solver.velocity().bicubic(push.centre)
+        solver.velocity().bicubic(push.center)
     }
 
-    /// The largest vorticity of a film that was pushed from rest for so many steps of 1/60 s, and went on for so many more.
+    /// The largest vorticity of a film that was pushed from rest for `pushed` steps of 1/60 s, and went on for `left_alone` more.
     fn vorticity_after(push: &Push, pushed: usize, left_alone: usize, forces: &FlowForces) -> f64 {
         let grid = CubedSphere::new(24).unwrap();
         let mut solver = FlowSolver::new(grid, |_| 0.0);
@@ -165,7 +165,7 @@ mod tests {
             solver.stir(PaddedField::from_cells(grid, solver.halo(), source));
             solver.step(dt, forces, &still);
         }
-        solver.zeta().cells().into_iter().fold(0.0, |most: f64, zeta| most.max(zeta.abs()))
+        solver.zeta().cells().into_iter().fold(0.0, |max: f64, zeta| max.max(zeta.abs()))
     }
 
     #[test]
@@ -174,7 +174,8 @@ mod tests {
         for (half_angle, rate) in [(20.0, 1.0), (20.0, 30.0), (45.0, 30.0)] {
             let push = push(half_angle, rate);
             for (pushed, left_alone) in [(6, 0), (12, 0), (12, 30)] {
-                let strain = push.strain(pushed as f64 / 60.0) * push.left_of_strain(left_alone as f64 / 60.0, &forces);
+                let strain =
+                    push.strain(pushed as f64 / 60.0) * push.remaining_strain(left_alone as f64 / 60.0, &forces);
                 let part = vorticity_after(&push, pushed, left_alone, &forces) / strain;
                 assert!((0.4..1.1).contains(&part), "{half_angle}° at {rate}/s, {pushed} + {left_alone} steps: {part}");
             }
@@ -194,10 +195,10 @@ mod tests {
 
     #[test]
     fn a_strong_push_brings_the_film_to_its_velocity_and_no_further() {
-        for (rate, least, most) in [(60.0, 0.75, 0.85), (1e4, 0.8, 1.0)] {
+        for (rate, min, max) in [(60.0, 0.75, 0.85), (1e4, 0.8, 1.0)] {
             let push = push(15.0, rate);
             let part = speed_after(&push, 0.0).dot(push.velocity);
-            assert!((least..most).contains(&part), "rate {rate}: {part}");
+            assert!((min..max).contains(&part), "rate {rate}: {part}");
         }
     }
 }

@@ -42,22 +42,22 @@ impl Pushes {
         acting.collect()
     }
 
-    /// How fast what has pushed the film until a time in ticks may make it shear and turn then, 1/s: the most that any push did, less what drag
+    /// How fast what has pushed the film until a time in ticks may make it shear and turn then, 1/s: the maximum over all pushes, less what drag
     /// and viscosity have left of it.
     #[must_use]
     pub fn strain_1_s(&self, ticks: f64, tick_s: f64, forces: &FlowForces) -> f64 {
-        let mut most: f64 = 0.0;
+        let mut max: f64 = 0.0;
         for (during, push) in self.spans.until(ticks.ceil() as u64).iter().rev() {
             // Neither this one nor those before have pushed since, and drag alone has left no more of them.
             let since_s = (ticks - during.start.saturating_add(self.spans.longest()) as f64).max(0.0) * tick_s;
-            if self.strongest_1_s * (-forces.drag * since_s).exp() <= 0.999 * most {
+            if self.strongest_1_s * (-forces.drag * since_s).exp() <= 0.999 * max {
                 break;
             }
             let acting_s = (ticks.min(during.end as f64) - during.start as f64).max(0.0) * tick_s;
             let since_s = (ticks - during.end as f64).max(0.0) * tick_s;
-            most = most.max(push.strain(acting_s) * push.left_of_strain(since_s, forces));
+            max = max.max(push.strain(acting_s) * push.remaining_strain(since_s, forces));
         }
-        most
+        max
     }
 }
 
@@ -89,7 +89,7 @@ mod tests {
         let mut random = Random::new(7, 0);
         let push = |k: u64| {
             let [sharpness, speed, rate] = [2.0, 0.01, 0.1].map(|low| random.between_log(low, 100.0 * low));
-            let push = Push { centre: DVec3::X, sharpness, velocity: speed * DVec3::Y, rate };
+            let push = Push { center: DVec3::X, sharpness, velocity: speed * DVec3::Y, rate };
             (10 * k..10 * k + 1 + (k * k) % 40, push)
         };
         (0..count).map(push).collect()
@@ -104,7 +104,7 @@ mod tests {
                 let of_push = |(during, push): &(Range<u64>, Push)| {
                     let acting_s = (ticks.min(during.end as f64) - during.start as f64).max(0.0) * TICK_S;
                     let since_s = (ticks - during.end as f64).max(0.0) * TICK_S;
-                    push.strain(acting_s) * push.left_of_strain(since_s, &forces)
+                    push.strain(acting_s) * push.remaining_strain(since_s, &forces)
                 };
                 let expected = all.iter().map(of_push).fold(0.0, f64::max);
                 let found = all.iter().cloned().collect::<Pushes>().strain_1_s(ticks, TICK_S, &forces);
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn what_pushes_later_makes_no_difference() {
+    fn later_pushes_make_no_difference() {
         let [few, many] = [5, 9].map(|count| pushes(count).into_iter().collect::<Pushes>());
         assert!(few != many && few == many.until(41) && few.since(12) == many.until(41).since(12));
     }

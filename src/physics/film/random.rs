@@ -1,4 +1,4 @@
-//! Random numbers that are the same on every platform: integer hashing and nothing else.
+//! Random numbers that are the same on every platform, by integer hashing alone.
 
 use glam::DVec3;
 

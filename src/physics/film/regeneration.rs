@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::random::Random;
 
-/// Thickness of patches over that of the film around.
+/// Thickness of patches over the thickness of the film around.
 pub const PATCH_THICKNESS: [f64; 2] = [0.8, 0.9];
 
 /// Where and of what size a film regenerates.
@@ -30,14 +30,14 @@ pub struct Regeneration {
 pub struct Patch {
     /// Its middle, a unit vector.
     pub middle: DVec3,
-    /// Its thickness over that of the film around.
+    /// Its thickness over the thickness of the film around.
     pub thickness: f64,
     /// When, seconds.
     pub time_s: f64,
 }
 
 impl Regeneration {
-    /// How many patches leave the rim a second when they rise at so many rad/s: a patch every two diameters, each with its next behind it at
+    /// Patches that leave the rim per second when they rise at a speed in rad/s: a patch every two diameters, each with its next behind it at
     /// the same distance.
     #[must_use]
     pub fn rate_1_s(&self, speed: f64) -> f64 {
@@ -45,7 +45,7 @@ impl Regeneration {
         self.amount * TAU * self.rim.sin() / spacing * speed.abs() / spacing
     }
 
-    /// Patches that leave within a span of seconds, of so many a second.
+    /// Patches that leave within a span of seconds, at a rate per second.
     pub fn patches(&self, rate_1_s: f64, from_s: f64, to_s: f64) -> impl Iterator<Item = Patch> {
         let slots = (from_s * rate_1_s).floor().max(0.0) as u64..(to_s * rate_1_s).ceil().max(0.0) as u64;
         let patches = slots.map(move |slot| self.patch(slot, rate_1_s));

@@ -24,7 +24,7 @@ pub enum InitialFilm {
     },
     /// A freshly blown film: random marbled patches of 0.43 to 1.7 times the mean (300 to 1200 nm for 700 nm).
     Blown {
-        /// The mean thickness in nm; that of one seed differs from it by some percent.
+        /// The mean thickness in nm; the mean for a single seed differs from it by some percent.
         thickness_nm: f64,
         /// Multiplies the pattern by the rest state's profile; 0 for none.
         stratification: f64,

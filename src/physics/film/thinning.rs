@@ -32,7 +32,7 @@ impl Thinning {
     }
 
     /// The thickness in nm that is left of film after some seconds, if it does not thin to a lower one before.
-    fn left_nm(&self, from_nm: f64, to_nm: f64, seconds: f64) -> f64 {
+    fn remaining_nm(&self, from_nm: f64, to_nm: f64, seconds: f64) -> f64 {
         let [mut low, mut high] = [to_nm, from_nm];
         for _ in 0..48 {
             let middle = 0.5 * (low + high);
@@ -55,12 +55,12 @@ pub fn thins_at_tick(
     while let Some((from, law)) = laws.next() {
         let end = laws.peek().map_or(f64::INFINITY, |(tick, _)| *tick as f64);
         let lasts_s = tick_s * (end - from as f64);
-        // Where nothing thins, the time is no number if nothing must.
+        // Where nothing thins, the time is NaN if the thickness need not change.
         let needs_s = if nm <= to_nm { 0.0 } else { law.seconds(nm, to_nm) };
         if needs_s.is_finite() && needs_s <= lasts_s {
             return Some(from as f64 + needs_s / tick_s);
         }
-        nm = if needs_s.is_finite() { law.left_nm(nm, to_nm, lasts_s) } else { nm };
+        nm = if needs_s.is_finite() { law.remaining_nm(nm, to_nm, lasts_s) } else { nm };
     }
     None
 }

@@ -12,7 +12,9 @@ use crate::words::words;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FlowCaseError {
     /// A degree and order that no harmonic has, or none that moves.
-    #[error("no such mode as degree {degree}, order {order}: use degrees 1 to 32 and orders {lowest} to the degree")]
+    #[error(
+        "there is no mode of degree {degree} and order {order}: use degrees 1 to 32 and orders {lowest} to the degree"
+    )]
     Mode {
         /// The degree asked for.
         degree: u32,
@@ -201,7 +203,7 @@ impl FlowCase {
         SLOSH_AMPLITUDE * self.mode.values(p)[0] - self.stratification * p.z
     }
 
-    /// The mode that swings, decays or is solved for, at unit vector `x`: for sloshing that of vorticity.
+    /// The mode that swings, decays or is solved for, at unit vector `x`: for sloshing, the mode of vorticity.
     #[must_use]
     pub fn mode_at(&self, x: DVec3) -> f64 {
         self.mode.values(self.from_world * x)[usize::from(self.kind == FlowCaseKind::Sloshing)]

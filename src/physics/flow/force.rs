@@ -31,14 +31,14 @@ pub struct FlowForces {
     /// Drag that is the same everywhere, 1/s.
     pub drag: f64,
     /// Drag of air over the root of the speed, times the thickness: nm/√s. See [`AIR_DRAG`]; 0 for none. If it is not 0, ln h must be
-    /// that of the thickness in nm.
+    /// the logarithm of the thickness in nm.
     pub air_drag: f64,
     /// Kinematic viscosity over R², 1/s.
     pub viscosity: f64,
 }
 
 impl FlowForces {
-    /// ν dt γ of one viscous stage, or nothing if viscosity does nothing.
+    /// ν dt γ of one viscous stage; `None` without viscosity.
     #[must_use]
     pub fn viscous_stage(&self, dt: f64) -> Option<f64> {
         let step = (self.viscosity * dt).min(MAX_VISCOUS_STEP);

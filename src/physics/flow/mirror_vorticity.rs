@@ -1,4 +1,4 @@
-//! A rim as a wall of the flow, by the method of images: the twin of `shaders/pass/flow_image.wgsl`.
+//! A rim as a wall of the flow, by the method of images: the twin of `shaders/pass/flow_mirror.wgsl`.
 //!
 //! On a sphere as on a plane a circle is a wall to a flow whose every vortex has an image behind it, which turns the other way round and
 //! sits where the inversion x ↦ x* in the circle takes the vortex, because the inversion is conformal (Newton 2001, "The N-Vortex Problem").

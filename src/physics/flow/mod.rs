@@ -1,6 +1,6 @@
 //! The film's own motion: vorticity and stream function on the cubed sphere, driven by weight, held back by air and viscosity.
 //!
-//! On the unit sphere, with lengths in radii and h the thickness (the symbols are those of [`film`](crate::physics::film)),
+//! On the unit sphere, with lengths in radii and h the thickness (with the symbols of [`film`](crate::physics::film)),
 //!
 //! ```text
 //! Dζ/Dt = n·(∇ ln h × G) + ν (Δ + 2) ζ − n·curl(α u) + F,     Δψ = ζ,     u = n × ∇ψ                 (F1)

@@ -2,7 +2,7 @@
 //!
 //! A cycle is a sawtooth: the residual of the finest grid is averaged down to the coarsest, solved there, and on the way back up each grid
 //! interpolates the correction and smooths it by a few damped Jacobi sweeps with Chebyshev weights. The finest grid differences to fourth
-//! order and the coarse ones to second. Grids need not nest: of N cells an edge the next has ⌈N/2⌉, so any N will do. The larger k is, the
+//! order and the coarse ones to second. Grids need not nest: of N cells per edge the next has ⌈N/2⌉, so any N will do. The larger k is, the
 //! fewer grids there is work for.
 
 use std::f64::consts::PI;
@@ -20,7 +20,7 @@ const FEW_SWEEPS: usize = 8;
 /// k of `(Δ − k) ψ = f`, in 1/rad²: 0 for Poisson's equation; −0.3 or more otherwise, for at −2 first-degree harmonics have no answer.
 pub type Shift = f64;
 
-/// Cells along an edge of the next coarser grid, or nothing if this one is the coarsest.
+/// Cells along an edge of the next coarser grid; `None` if this grid is the coarsest.
 pub fn coarser(n: usize) -> Option<usize> {
     let coarse = n.div_ceil(2);
     (coarse >= CubedSphere::MIN_N).then_some(coarse)
@@ -28,7 +28,7 @@ pub fn coarser(n: usize) -> Option<usize> {
 
 /// Weights of the sweeps that smooth a grid: Chebyshev over the part of the spectrum that coarser grids cannot see.
 pub fn sweep_weights(n: usize, order: Order, shift: Shift) -> [f64; SWEEPS] {
-    // Of the operator over its diagonal: the shortest waves, and those of four cells in the direction in which the metric is weakest.
+    // Of the operator over its diagonal: the shortest waves, and waves of four cells in the direction in which the metric is weakest.
     let (low, high) = match order {
         Order::Second => (0.3, 2.0),
         Order::Fourth => (0.3, 2.14),
@@ -47,11 +47,11 @@ pub fn is_coarsest(n: usize, shift: Shift) -> bool {
 /// Sweeps that solve the coarsest grid, a power of two.
 fn coarsest_sweeps(n: usize, shift: Shift) -> usize {
     // Of Poisson's equation, enough to divide an error by five: the condition number goes as n², the sweeps that it takes as n.
-    let most = if n <= 9 { MAX_COARSEST_SWEEPS / 2 } else { MAX_COARSEST_SWEEPS };
+    let max_sweeps = if n <= 9 { MAX_COARSEST_SWEEPS / 2 } else { MAX_COARSEST_SWEEPS };
     let root = ((2.0 * largest_diagonal(n, Order::Second) + shift) / (2.0 + shift)).sqrt();
     // Where a hundred times less is cheap, that.
-    let wanted = (200.0_f64).ln() / ((root + 1.0) / (root - 1.0)).ln();
-    (wanted.ceil().max(2.0) as usize).next_power_of_two().min(most)
+    let needed = (200.0_f64).ln() / ((root + 1.0) / (root - 1.0)).ln();
+    (needed.ceil().max(2.0) as usize).next_power_of_two().min(max_sweeps)
 }
 
 /// Weights of the sweeps that solve the coarsest grid: Chebyshev over the whole spectrum but constants, in the order of Lebedev &
@@ -65,7 +65,7 @@ pub fn coarsest_weights(n: usize, shift: Shift) -> Vec<f64> {
         let last = 2 * order.len() - 1;
         order = order.into_iter().flat_map(|k| [k, last - k]).collect();
     }
-    // The smallest eigenvalue is that of first-degree harmonics.
+    // First-degree harmonics have the smallest eigenvalue.
     chebyshev(scaled(2.0), scaled(2.0 * diagonal), count, order)
 }
 
@@ -118,7 +118,7 @@ impl Multigrid {
         self.levels[0].residual(psi, f, shift)
     }
 
-    /// One cycle from a first guess. Grids of fewer than 16 cells an edge have none below them and are only smoothed.
+    /// One cycle from a first guess. Grids of fewer than 16 cells per edge have none below them and are only smoothed.
     pub fn cycle(&self, psi: &PaddedField<f64>, f: &[f64], shift: Shift) -> PaddedField<f64> {
         let Some(correction) = self.correction(1, &self.residual(psi, f, shift), shift) else {
             return self.levels[0].smoothed(psi.clone(), f, shift);
@@ -128,7 +128,7 @@ impl Multigrid {
         self.levels[0].smoothed(better, f, shift)
     }
 
-    /// The correction that level `l` makes to a residual of the level above; nothing if there is no such level.
+    /// The correction that level `l` makes to a residual of the level above; `None` if there is no such level.
     fn correction(&self, l: usize, residual: &[f64], shift: Shift) -> Option<PaddedField<f64>> {
         let level = self.levels.get(l)?;
         let f = level.averaged(self.levels[l - 1].grid.n(), residual);
@@ -150,7 +150,7 @@ impl Level {
         (0..f.len()).map(|cell| f[cell] - laplacian(psi, cell, self.order).0 + shift * at[cell]).collect()
     }
 
-    /// Bilinear samples of a finer grid's cells at this one's centres, within each panel: where grids nest, means of four.
+    /// Bilinear samples of a finer grid's cells at this one's centers, within each panel: where grids nest, means of four.
     fn averaged(&self, fine: usize, values: &[f64]) -> Vec<f64> {
         let ratio = fine as f64 / self.grid.n() as f64;
         let pair = |k: usize| {

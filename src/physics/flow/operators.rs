@@ -1,4 +1,4 @@
-//! Differential operators at cell centres of the equiangular cubed sphere.
+//! Differential operators at cell centers of the equiangular cubed sphere.
 //!
 //! The panel coordinates α and β are longitudes about two axes, and so are harmonic: in them the Laplacian has no first derivatives,
 //! `Δψ = δ² [ψ_αα / A + 2 X Y ψ_αβ / (A B) + ψ_ββ / B]` with `X = tan α`, `Y = tan β`, `A = 1 + X²`, `B = 1 + Y²`, `δ² = 1 + X² + Y²`
@@ -41,7 +41,7 @@ impl CellMetric {
         Self { panel: place / (width * width), x: tangent(place % width), y: tangent(place / width % width) }
     }
 
-    /// Solid angle of the cell over the square of the cell angle, by the metric at its centre: `A B / δ³`.
+    /// Solid angle of the cell over the square of the cell angle, by the metric at its center: `A B / δ³`.
     pub fn area_density(self) -> f64 {
         let [a, b] = [1.0 + self.x * self.x, 1.0 + self.y * self.y];
         let delta2 = a + self.y * self.y;
@@ -70,13 +70,13 @@ fn place_of(grid: CubedSphere, cell: usize) -> usize {
     grid.padded_index(panel, i as isize, j as isize)
 }
 
-/// The values around a place of padded storage: `at(di, dj)` is that of the cell so many steps along i and j away.
+/// The values around a place of padded storage: `at(di, dj)` is the value of the cell di and dj steps away along i and j.
 fn around(field: &PaddedField<f64>, place: usize) -> impl Fn(isize, isize) -> f64 + '_ {
     let width = field.grid().padded_width() as isize;
     move |di, dj| field.padded()[place.wrapping_add_signed(dj * width + di)]
 }
 
-/// `n × ∇ψ` at the centre of a cell, fourth order: the velocity, in rad/s, if ψ is the stream function.
+/// `n × ∇ψ` at the center of a cell, fourth order: the velocity, in rad/s, if ψ is the stream function.
 pub fn turned_gradient(psi: &PaddedField<f64>, cell: usize) -> DVec3 {
     let at = around(psi, place_of(psi.grid(), cell));
     let slope =
@@ -84,7 +84,7 @@ pub fn turned_gradient(psi: &PaddedField<f64>, cell: usize) -> DVec3 {
     CellMetric::new(psi.grid(), cell).turned_gradient(slope(&|k| at(k, 0)), slope(&|k| at(0, k)))
 }
 
-/// The Laplacian at the centre of a cell, and the factor of the cell's own value in it, which is negative.
+/// The Laplacian at the center of a cell, and the factor of the cell's own value in it, which is negative.
 pub fn laplacian(psi: &PaddedField<f64>, cell: usize, order: Order) -> (f64, f64) {
     laplacian_at(psi, place_of(psi.grid(), cell), order)
 }

@@ -10,7 +10,7 @@ pub struct Oscillation {
 }
 
 /// The oscillation in samples `dt` apart, by the least-squares recurrence `c(k+1) = p c(k) − q c(k−1)` that all of them obey (Prony
-/// 1795). Nothing for fewer than four samples, or if they hold still.
+/// 1795). `None` for fewer than four samples, or if they are constant.
 #[must_use]
 pub fn fit_oscillation(samples: &[f64], dt: f64) -> Option<Oscillation> {
     if samples.len() < 4 {
@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_found_in_nothing() {
+    fn an_oscillation_needs_samples_that_swing() {
         assert_eq!(fit_oscillation(&[1.0, 2.0, 3.0], 1.0), None);
         assert_eq!(fit_oscillation(&[0.0; 9], 1.0), None);
     }

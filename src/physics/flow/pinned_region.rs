@@ -1,4 +1,4 @@
-//! The drop that may hang at the bottom of a film, as a region that is held fast: the twin of `shaders/pass/flow_hold.wgsl`.
+//! The drop that may hang at the bottom of a film, as a region that is held fast: the twin of `shaders/pass/flow_pin.wgsl`.
 //!
 //! With s(ϑ) = 1 in the inner part of the drop, 0 outside of it and a smooth step between, ψ̄ the mean of ψ over that step weighted by s(1 − s),
 //!
@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::operators::CellMetric;
 use crate::physics::sphere::{CubedSphere, HaloTable, PaddedField};
 
-/// Cells from the edge of the region to where nothing flows, at least: what differences of the flow need.
+/// Minimum cells from the edge of the region to where nothing flows, as the differences of the flow need.
 const MIN_WIDTH_CELLS: f64 = 3.0;
 
 /// A round region about the lowest point of a film in which nothing flows.

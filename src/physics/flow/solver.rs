@@ -50,7 +50,7 @@ pub struct FlowSolver {
     multigrid: Multigrid,
     zeta: PaddedField<f64>,
     psi: PaddedField<f64>,
-    /// ψ one step before; nothing before the first step.
+    /// ψ one step before; `None` before the first step.
     psi_before: Option<PaddedField<f64>>,
     /// What stirs the film besides, 1/s².
     forcing: PaddedField<f64>,
@@ -66,8 +66,8 @@ impl FlowSolver {
         Self::bounded(grid, None, None, zeta)
     }
 
-    /// The same of a film that may end at the rim of a cap, across which nothing flows, and that a drop at its lowest point may hold fast, by its
-    /// angular radius in radians.
+    /// Like [`Self::new`], for a film that may end at the rim of a cap, across which nothing flows, and that a drop at its lowest point may hold
+    /// fast, by its angular radius in radians.
     pub fn bounded(
         grid: CubedSphere,
         cap: Option<Cap>,
@@ -122,7 +122,7 @@ impl FlowSolver {
         self.take(dt, forces, log_thickness, 0);
     }
 
-    /// The same for flows whose eddies turn by more than [`FOLLOWED_TURN`] in a step: it is tried first.
+    /// A step for flows whose eddies turn by more than [`FOLLOWED_TURN`] in a step: it is tried first.
     pub fn step_corrected(&mut self, dt: f64, forces: &FlowForces, log_thickness: &PaddedField<f64>) {
         self.take(dt, forces, log_thickness, 1);
     }
@@ -299,41 +299,41 @@ mod tests {
                 solver.step(dt, &case.forces(), &film);
                 film = advected(solver.halo(), &film, &solver.velocity(), dt);
             }
-            solver.zeta().cells().iter().fold(0.0, |most: f64, zeta| most.max(zeta.abs()))
+            solver.zeta().cells().iter().fold(0.0, |max: f64, zeta| max.max(zeta.abs()))
         };
         let limit = stable_step_s(1.0, 1.0);
         assert!(largest_after(0.9 * limit) < 0.1, "{}", largest_after(0.9 * limit));
         assert!(largest_after(1.3 * limit) > 1.0, "{}", largest_after(1.3 * limit));
     }
 
-    /// Energy of a weightless vortex pair, which no force drives, over that at the start: the most in steps in which it turns by so much.
-    fn most_energy(turn: f64, is_corrected: bool) -> f64 {
+    /// Energy of a weightless vortex pair, which no force drives, over its energy at the start: the maximum over steps in which it turns by `turn`.
+    fn max_energy(turn: f64, is_corrected: bool) -> f64 {
         let grid = CubedSphere::new(24).unwrap();
-        let centre = DVec3::new(0.2, 0.7, 0.5).normalize();
+        let center = DVec3::new(0.2, 0.7, 0.5).normalize();
         let sharpness = Push::sharpness_of(0.3);
-        let velocity = centre.cross(DVec3::X).normalize() / gained(sharpness);
-        let pair = Push { centre, sharpness, velocity, rate: 1.0 };
+        let velocity = center.cross(DVec3::X).normalize() / gained(sharpness);
+        let pair = Push { center, sharpness, velocity, rate: 1.0 };
         let mut solver = FlowSolver::new(grid, |x| pair.source(x, DVec3::ZERO, 0.0));
         let still = PaddedField::from_cells(grid, solver.halo(), |_| 0.0);
         let energy = |solver: &FlowSolver| invariants(grid, &solver.zeta().cells(), &solver.psi().cells()).energy;
         let (start, dt) = (energy(&solver), turn / sharpness.sqrt());
-        let mut most: f64 = 0.0;
+        let mut max: f64 = 0.0;
         for _ in 0..16 {
             if is_corrected {
                 solver.step_corrected(dt, &FlowForces::default(), &still);
             } else {
                 solver.step(dt, &FlowForces::default(), &still);
             }
-            most = most.max(energy(&solver) / start);
+            max = max.max(energy(&solver) / start);
         }
-        most
+        max
     }
 
     #[test]
     fn nothing_gains_energy_out_of_nothing() {
-        let corrected = [0.5, 1.0, 2.0, CORRECTED_TURN].map(|turn| most_energy(turn, true));
-        assert!(corrected.iter().all(|most| *most < 1.0), "{corrected:?}");
-        let [within, beyond] = [FOLLOWED_TURN, 2.0].map(|turn| most_energy(turn, false));
+        let corrected = [0.5, 1.0, 2.0, CORRECTED_TURN].map(|turn| max_energy(turn, true));
+        assert!(corrected.iter().all(|max| *max < 1.0), "{corrected:?}");
+        let [within, beyond] = [FOLLOWED_TURN, 2.0].map(|turn| max_energy(turn, false));
         assert!(within < 1.001 && beyond > 1.02, "{within} {beyond}");
     }
 
@@ -351,7 +351,7 @@ mod tests {
             solver.step(1.0, &forces, &film);
             let velocity = solver.velocity();
             film = advected(solver.halo(), &film, &velocity, 1.0);
-            fastest.push(velocity.cells().iter().fold(0.0, |most: f64, u| most.max(u.length())));
+            fastest.push(velocity.cells().iter().fold(0.0, |max: f64, u| max.max(u.length())));
         }
         let [early, late] = [&fastest[..5], &fastest[50..]].map(|part| part.iter().copied().fold(0.0, f64::max));
         assert!(late < 0.1 * early, "{early} {late}");
@@ -381,7 +381,7 @@ mod tests {
     fn a_stratified_film_sloshes_and_an_inverted_one_overturns() {
         for drag in [0.0, 0.4] {
             let (case, found) = slosh(1.0, drag);
-            // A leapfrog of 60 steps a period is fast by (2π/60)²/24 = 4.6e-4.
+            // A leapfrog of 60 steps per period is fast by (2π/60)²/24 = 4.6e-4.
             assert!((found.frequency / case.frequency() - 1.0).abs() < 1e-3, "{found:?}");
             assert!((found.growth + 0.5 * drag).abs() < 1e-3, "{found:?}");
         }

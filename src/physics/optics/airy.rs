@@ -152,12 +152,12 @@ mod tests {
         });
         // By quadrature: phases δ + γ tan(π (u − ½)), u uniform, with γ = −ln coherence.
         let (incidence, nm, coherence) = (Incidence::new(1.33, 0.4), 550.0, 0.6_f64);
-        let nm_a_radian = nm / (2.0 * TAU * incidence.n_cos_refracted);
+        let nm_per_radian = nm / (2.0 * TAU * incidence.n_cos_refracted);
         let count = 400_000;
         let sample = |k: u32| {
             let u = (f64::from(k) + 0.5) / f64::from(count);
             let phase = -coherence.ln() * (std::f64::consts::PI * (u - 0.5)).tan();
-            incidence.reflectance(300.0 + nm_a_radian * phase, nm).s
+            incidence.reflectance(300.0 + nm_per_radian * phase, nm).s
         };
         let mean = (0..count).map(sample).sum::<f64>() / f64::from(count);
         let closed = incidence.damped_reflectance(300.0, nm, coherence).s;

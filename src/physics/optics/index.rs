@@ -17,17 +17,17 @@ pub const REFERENCE_NM: f64 = 589.0;
 pub enum FilmIndexError {
     /// Neither a known liquid nor a number.
     #[error(
-        "`{0}` is no film; write `water`, `water 25C`, `glycerol 30%`, a refractive index from 1 to 4, or a file like `n.csv`"
+        "`{0}` is not a film; write `water`, `water 25C`, `glycerol 30%`, a refractive index from 1 to 4, or a file like `n.csv`"
     )]
     Unknown(String),
     /// A number that no clear film has.
-    #[error("refractive index {0} is out of range; write one from 1 to 4")]
+    #[error("refractive index {0} is out of range; use 1 to 4")]
     OutOfRange(f64),
     /// Ice or steam.
-    #[error("water of {0} °C is no film here; name a temperature from 0 to 40")]
+    #[error("water of {0} °C is out of range; use 0 to 40 °C")]
     Temperature(f64),
     /// More than all.
-    #[error("{0} % is no share of glycerol; name one from 0 to 100")]
+    #[error("{0} % of glycerol is out of range; use 0 to 100 %")]
     Share(f64),
 }
 

@@ -48,7 +48,7 @@ const AIR: f64 = 1.00027;
 
 /// n of a solution of glycerol in water at 20 °C, `share` by mass from 0 to 1.
 ///
-/// At the sodium line the measured index (linear between its lines, within 1e-4); the dispersion is that of its parts, water after Daimon
+/// At the sodium line the measured index (linear between its lines, within 1e-4); the dispersion is composed of its parts, water after Daimon
 /// and Masumura, glycerol after J. Rheims, J. Köser and T. Wriedt, Measurement Science and Technology 8, 601 (1997), in proportion to the
 /// share.
 pub fn glycerol_solution_index(share: f64, wavelength_nm: f64) -> f64 {

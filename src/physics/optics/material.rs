@@ -26,7 +26,7 @@ impl FilmMaterial {
         self.index.n(REFERENCE_NM)
     }
 
-    /// How many times as many fringes the film has as one of water with the same thickness: fringes go with the optical path. At least 1.
+    /// Ratio of the film's fringes to the fringes of water of the same thickness: fringes are proportional to the optical path. At least 1.
     pub fn fringes_over_water(&self) -> f64 {
         (self.reference_index() / WATER_INDEX).max(1.0)
     }

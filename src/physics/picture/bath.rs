@@ -1,4 +1,4 @@
-//! A bath of water that bubbles stand on: a level mirror at the height of their centres.
+//! A bath of water that bubbles stand on: a level mirror at the height of their centers.
 //!
 //! What a level mirror shows is the world mirrored in it, dimmed. A ray that meets the bath goes on straight into the mirrored world, where the
 //! other half of the bubble is, and each time that it crosses the level, `r(cos θ)` is left of its light. Directions down are then those up.

@@ -8,7 +8,7 @@ use crate::physics::{
     optics::{Polarised, amplitudes},
 };
 
-/// Inner reflections followed at most; only rays within a hair of the rim have more to give.
+/// Inner reflections followed at most; only rays within a hair of the limb have more to give.
 const MAX_INNER: usize = 64;
 /// What may be left to the last direction before following it further is pointless.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -16,13 +16,13 @@ const NEGLIGIBLE: f64 = 1e-6;
 /// A film under an illuminant, ready to have rays traced through bubbles of it.
 pub(super) struct LightPath<'a> {
     optics: &'a FilmOptics,
-    /// For each wavelength, from light to what is seen of it; together they show white daylight as (1, 1, 1).
+    /// For each wavelength, the matrix from light to its colour; together they show white daylight as (1, 1, 1).
     responses: Vec<DMat3>,
     /// Direction that a polariser lets pass.
     polariser: Option<DVec3>,
 }
 
-/// What comes along a ray: for each direction, the matrix from the light there to what is seen of it.
+/// The light along a ray: for each direction, the matrix from the light there to its colour.
 pub(super) struct Arrivals {
     /// On what stands straight behind the bubble.
     pub straight: DMat3,
@@ -42,8 +42,8 @@ impl<'a> LightPath<'a> {
         self.responses.iter().fold(DMat3::ZERO, |sum, response| sum + *response)
     }
 
-    /// Follows a ray (a unit vector) from an eye in units of the radius, the bubble's centre at the origin and stretched by a symmetric
-    /// matrix, or of a radius in m and standing on a bath; nothing if it misses.
+    /// Follows a ray (a unit vector) from an eye in units of the radius, the bubble's center at the origin and stretched by a symmetric
+    /// matrix, or of a radius in m and standing on a bath; `None` if it misses.
     pub fn trace(
         &self,
         eye: DVec3,
@@ -78,12 +78,12 @@ impl<'a> LightPath<'a> {
         Some(Arrivals { straight: factors.straight, reflected })
     }
 
-    /// How many inner reflections to follow, by the most that any film reflects at this angle.
+    /// How many inner reflections to follow, by the maximum reflectance of any film at this angle.
     fn inner_reflections(&self, cos_theta: f64) -> usize {
         let r2 = amplitudes(self.optics.film().reference_index(), cos_theta).s.powi(2);
-        let most = 4.0 * r2 / (1.0 + r2).powi(2);
-        let needed = NEGLIGIBLE.ln() / most.ln();
-        // `most` is 1 at the very rim, where no number of reflections is enough.
+        let max = 4.0 * r2 / (1.0 + r2).powi(2);
+        let needed = NEGLIGIBLE.ln() / max.ln();
+        // `max` is 1 exactly at the limb, where no number of reflections is enough.
         if needed.is_finite() && needed > 0.0 { (needed.ceil() as usize).clamp(1, MAX_INNER) } else { MAX_INNER }
     }
 
@@ -176,7 +176,7 @@ struct Hits {
 }
 
 impl Hits {
-    /// With the foot of the perpendicular from the centre on the ray; every chord has the length 2 cos θ.
+    /// With the foot of the perpendicular from the center on the ray; every chord has the length 2 cos θ.
     fn on_sphere(foot: DVec3, ray: DVec3, cos_theta: f64, inner: usize) -> Self {
         let chord = 2.0 * cos_theta;
         let front = foot - cos_theta * ray;

@@ -29,13 +29,13 @@ pub use view::PictureCamera;
 
 /// A bubble.
 pub struct FilmSphere<'a> {
-    /// Centre in metres.
-    pub centre_m: DVec3,
+    /// Center in metres.
+    pub center_m: DVec3,
     /// Radius in metres.
     pub radius_m: f64,
-    /// Takes directions from the centre to places on the wall, over the radius: symmetric; the identity for a sphere.
+    /// Takes directions from the center to places on the wall, over the radius: symmetric; the identity for a sphere.
     pub stretch: DMat3,
-    /// Film thickness in nm in the direction of a unit vector from the centre.
+    /// Film thickness in nm in the direction of a unit vector from the center.
     pub thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a>,
 }
 
@@ -51,12 +51,12 @@ pub struct PictureScene<'a> {
     pub spheres: Vec<FilmSphere<'a>>,
     /// Light that arrives from a direction.
     pub surroundings: &'a (dyn Fn(DVec3) -> DVec3 + Sync),
-    /// Light straight behind the bubbles, or nothing where that is the surroundings.
+    /// Radiance behind the bubbles; `None` where the environment is seen.
     pub backdrop: Option<DVec3>,
     /// Direction along which the electric field passes a polariser before the camera. The light that it takes from unpolarised light is
     /// given back.
     pub polariser: Option<DVec3>,
-    /// Whether the bubbles stand on a bath at the height of their centres, above which is the eye; see `bath.rs`.
+    /// Whether the bubbles stand on a bath at the height of their centers, above which is the eye; see `bath.rs`.
     pub on_bath: bool,
     /// Samples along each side of a pixel, 1 or more. Pixels near an outline take more.
     pub samples: u32,
@@ -101,7 +101,7 @@ impl PictureScene<'_> {
         let pixels = |sphere: &FilmSphere| {
             // Where the bubble is round, and pixels are about as large.
             let to_round = sphere.stretch.inverse();
-            let offset = to_round * (sphere.centre_m - self.camera.eye_m);
+            let offset = to_round * (sphere.center_m - self.camera.eye_m);
             let limb = (sphere.radius_m / offset.length()).asin();
             ((to_round * ray).angle_between(offset) - limb).abs() / self.camera.pixel_height_m
         };
@@ -115,7 +115,7 @@ impl PictureScene<'_> {
 
     fn sample(&self, paths: &LightPath, seen: DMat3, ray: DVec3) -> DVec3 {
         let hit = self.spheres.iter().rev().find_map(|sphere| {
-            let eye = (self.camera.eye_m - sphere.centre_m) / sphere.radius_m;
+            let eye = (self.camera.eye_m - sphere.center_m) / sphere.radius_m;
             paths.trace(eye, ray, sphere.stretch, self.on_bath.then_some(sphere.radius_m), &*sphere.thickness_nm)
         });
         let surroundings =

@@ -17,7 +17,7 @@ fn camera(eye_x: f64, fov: f64) -> PictureCamera {
 
 fn sphere<'a>(thickness_nm: f64) -> FilmSphere<'a> {
     FilmSphere {
-        centre_m: DVec3::ZERO,
+        center_m: DVec3::ZERO,
         radius_m: 1.0,
         stretch: DMat3::IDENTITY,
         thickness_nm: Box::new(move |_| thickness_nm),
@@ -139,7 +139,7 @@ fn the_nearer_bubble_hides_the_farther() {
         };
         middle(&scene.radiance(&|| ()))
     };
-    let far = || FilmSphere { centre_m: DVec3::new(-3.0, 0.0, 0.0), ..sphere(500.0) };
+    let far = || FilmSphere { center_m: DVec3::new(-3.0, 0.0, 0.0), ..sphere(500.0) };
     assert_eq!(picture(vec![far(), sphere(300.0)]), picture(vec![sphere(300.0)]));
     assert_ne!(picture(vec![far(), sphere(300.0)]), picture(vec![far()]));
 }

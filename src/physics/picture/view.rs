@@ -26,7 +26,7 @@ impl PictureCamera {
         (self.forward + offset.x * self.right - offset.y * self.up).normalize()
     }
 
-    /// The position in a picture of that size at which a direction is seen, or nothing for one behind the eye: the inverse of
+    /// The position in a picture of that size at which a direction is seen; `None` for a direction behind the eye: the inverse of
     /// [`Self::ray`].
     #[must_use]
     pub fn position(&self, [width, height]: [u32; 2], direction: DVec3) -> Option<DVec2> {

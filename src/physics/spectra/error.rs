@@ -18,7 +18,7 @@ pub enum SpectrumError {
         line: usize,
         /// Columns found.
         found: usize,
-        /// Columns wanted, the wavelength included.
+        /// Columns needed, including the wavelength.
         expected: usize,
         /// The likeliest reason.
         hint: &'static str,
@@ -46,7 +46,7 @@ pub enum SpectrumError {
         value: f64,
     },
     /// A refractive index that no film has.
-    #[error("{file}, line {line}: a refractive index of {value} is no film's; write one from 1 to 4")]
+    #[error("{file}, line {line}: refractive index {value} is out of range; use 1 to 4")]
     Index {
         /// File it stands in.
         file: String,
@@ -70,13 +70,13 @@ pub enum SpectrumError {
         previous_nm: f64,
     },
     /// The table has no lines of data.
-    #[error("{file}: holds no data; write lines of `wavelength_nm,value` from {FIRST_NEEDED_NM} to {LAST_NM} nm")]
+    #[error("{file}: has no data; write lines of `wavelength_nm,value` from {FIRST_NEEDED_NM} to {LAST_NM} nm")]
     Empty {
         /// The file.
         file: String,
     },
     /// The table does not cover the grid.
-    #[error("{file}: covers {first_nm} to {last_nm} nm, needed are {FIRST_NEEDED_NM} to {LAST_NM} nm; {hint}")]
+    #[error("{file}: covers {first_nm} to {last_nm} nm, but must cover {FIRST_NEEDED_NM} to {LAST_NM} nm; {hint}")]
     TooShort {
         /// The file.
         file: String,
@@ -98,7 +98,7 @@ pub enum SpectrumError {
         heading: String,
     },
     /// A material that is not clear.
-    #[error("{file}, line {line}: an extinction coefficient k of {k} is no clear film's; {hint}")]
+    #[error("{file}, line {line}: an extinction coefficient k of {k} is too large for a clear film; {hint}")]
     Absorbing {
         /// The file.
         file: String,
@@ -111,7 +111,7 @@ pub enum SpectrumError {
     },
     /// No usable power in the visible range.
     #[error(
-        "{file}: has no usable power between {FIRST_NM} and {LAST_NM} nm (the sum is {total:e}, needed is 1e-30 to 1e30)"
+        "{file}: has no usable power between {FIRST_NM} and {LAST_NM} nm (the sum is {total:e}, and must be 1e-30 to 1e30)"
     )]
     Power {
         /// The file.
@@ -121,7 +121,7 @@ pub enum SpectrumError {
     },
     /// Power where nobody sees it.
     #[error(
-        "{file}: cannot be seen: next to all of its power between {FIRST_NM} and {LAST_NM} nm is ultraviolet or infrared"
+        "{file}: cannot be seen: almost all of its power between {FIRST_NM} and {LAST_NM} nm is ultraviolet or infrared"
     )]
     Unseen {
         /// The file.

@@ -22,7 +22,7 @@ pub(super) fn points(rows: &[Row], column: usize) -> Vec<(f64, f64)> {
     rows.iter().map(|row| (row.wavelength_nm, row.values[column])).collect()
 }
 
-/// Rows of so many values, none negative, that cover what is needed.
+/// Rows with a number of values each, none negative, that cover the needed range.
 pub(super) fn values(
     file: &str,
     text: &str,
@@ -76,14 +76,14 @@ fn is_extinction(block: &Block) -> bool {
     block.heading.get(1).is_some_and(|name| name.eq_ignore_ascii_case("k"))
 }
 
-/// Checks that extinction coefficients, with their lines, are those of a clear film, and says that they are left out.
+/// Checks that extinction coefficients, with their lines, belong to a clear film, and notes that they are left out.
 fn leave_out(file: &str, table: &Table, k: &[(usize, f64)], notes: &mut Vec<String>) -> Result<(), SpectrumError> {
     let Some(&(line, k)) = k.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else { return Ok(()) };
     if k > MAX_EXTINCTION {
         let hint = table.separator.hint();
         return Err(SpectrumError::Absorbing { file: file.into(), line, k, hint });
     }
-    notes.push(format!("{file}: extinction coefficients k, {k} at most, are left out, as films are clear here"));
+    notes.push(format!("{file}: extinction coefficients k, at most {k}, are ignored, as films are clear here"));
     Ok(())
 }
 
@@ -123,19 +123,19 @@ fn parse_field(file: &str, line: usize, text: &str) -> Result<f64, SpectrumError
     finite.ok_or_else(|| SpectrumError::NotFinite { file: file.into(), line, text: text.into(), hint: hint(text) })
 }
 
-/// The likeliest reason why a field is no number.
+/// The likeliest reason why a field is not a number.
 fn hint(text: &str) -> &'static str {
     let has_digit = text.contains(|c: char| c.is_ascii_digit());
     if text.is_empty() {
         "a field is empty: fill it in, or leave the line out"
     } else if has_digit && text.contains(',') {
-        "decimal marks are either all commas or all points, and nothing parts thousands"
+        "decimal marks are either all commas or all points, without thousands separators"
     } else if has_digit && text.contains([';', ' ', '\t']) {
         "separate the columns of all lines in the same way"
     } else if has_digit {
         "write the number alone, without a unit"
     } else {
-        "words belong into a heading, or into lines that start with #"
+        "words belong in a heading, or in lines that start with #"
     }
 }
 
@@ -162,7 +162,7 @@ fn covering(file: &str, rows: Vec<Row>, block: &Block, notes: &mut Vec<String>) 
         notes.push(format!("{file}: wavelengths are taken as {unit}: {first_nm} to {last_nm} nm"));
     }
     if first_nm > FIRST_NM {
-        notes.push(format!("{file}: the value at {first_nm} nm is taken down to {FIRST_NM} nm too"));
+        notes.push(format!("{file}: the value at {first_nm} nm is also used down to {FIRST_NM} nm"));
     }
     Ok(visible(rows))
 }
@@ -279,12 +279,12 @@ mod tests {
     fn the_first_value_goes_on_below_380_nm() {
         let (spectrum, notes) = read("380,2\n390,3\n780,1\n");
         assert_eq!((spectrum.at(0), spectrum.at(20), spectrum.at(30)), (2.0, 2.0, 3.0));
-        assert_eq!(notes, ["lamp.csv: the value at 380 nm is taken down to 360 nm too"]);
+        assert_eq!(notes, ["lamp.csv: the value at 380 nm is also used down to 360 nm"]);
         assert_eq!(read("360,2\n780,1\n").1.len(), 0);
     }
 
     #[test]
-    fn what_nobody_sees_is_not_checked() {
+    fn values_at_invisible_wavelengths_are_not_checked() {
         let (n, _) = index("10,0.98\n300,1.5\n800,1.25\n100000,0.1\n").expect("valid");
         assert_eq!(n, index("300,1.5\n800,1.25\n").expect("valid").0);
         assert_eq!(read("200,-0.1\n300,1\n800,1\n900,-0.1\n").0, Spectrum::constant(1.0));
@@ -294,7 +294,7 @@ mod tests {
     fn extinction_of_clear_films_is_left_out() {
         let (plain, notes) = index("wl,n\n0.3,1.35\n0.8,1.25\n").expect("valid");
         assert_eq!(notes.len(), 1);
-        let k = "n.csv: extinction coefficients k, 0.000003 at most, are left out, as films are clear here";
+        let k = "n.csv: extinction coefficients k, at most 0.000003, are ignored, as films are clear here";
         for text in [
             "wl,n,k\n0.3,1.35,1e-6\n0.8,1.25,3e-6\n",
             "0.3;1,35;0,000001\n0.8;1,25;0,000003\n".replace("0.", "0,").as_str(),
@@ -312,7 +312,7 @@ mod tests {
         for (text, told) in [
             ("300,1,3533\n800,1,3247\n", "line 1: an extinction coefficient k of 3533"),
             ("300,1,3533\n800,1,3247\n", "if those are the decimal marks, use semicolons"),
-            ("300,1.35,0.2\n800,1.3,0.2\n", "an extinction coefficient k of 0.2 is no clear film's"),
+            ("300,1.35,0.2\n800,1.3,0.2\n", "an extinction coefficient k of 0.2 is too large for a clear film"),
             (
                 "wl,n\n0.3,1.35\n0.8,1.25\n\nwl,n\n0.3,1.3\n0.8,1.2\n",
                 "line 5: a second block begins here, under `wl,n`",
@@ -322,7 +322,7 @@ mod tests {
             ("300,1.353\n400 nm,1.3\n800,1.35\n", "line 2: `400 nm` is not a finite number"),
             ("300,1.353\nend,1.3\n800,1.35\n", "line 2: `end` is not a finite number; words belong"),
             ("300,1.353\n400,\n800,1.35\n", "line 2: 1 column(s) instead of 2"),
-            ("0.4,1.35\n0.7,1.35\n", "covers 400 to 700 nm, needed are 380 to 780 nm; add the missing end"),
+            ("0.4,1.35\n0.7,1.35\n", "covers 400 to 700 nm, but must cover 380 to 780 nm; add the missing end"),
             ("1.6,1.35\n3.2,1.35\n", "write wavelengths in nanometres or micrometres"),
         ] {
             let message = index(text).expect_err(text);

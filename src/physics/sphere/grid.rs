@@ -27,7 +27,7 @@ pub const PANELS: [[DVec3; 3]; 6] = [
 )]
 pub struct GridError(pub usize);
 
-/// A place on the grid in fractional cell coordinates: the centre of cell (i, j) is at `x = i`, `y = j`.
+/// A place on the grid in fractional cell coordinates: the center of cell (i, j) is at `x = i`, `y = j`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PanelPoint {
     /// Panel, 0 to 5.
@@ -65,7 +65,7 @@ impl CubedSphere {
         6 * self.n * self.n
     }
 
-    /// The angle D = π/(2N) between neighbouring cell centres along a panel's axes, in radians.
+    /// The angle D = π/(2N) between neighbouring cell centers along a panel's axes, in radians.
     pub fn cell_angle(self) -> f64 {
         FRAC_PI_2 / self.n as f64
     }
@@ -82,7 +82,7 @@ impl CubedSphere {
         (f + self.tangent(point.x) * r + self.tangent(point.y) * u).normalize()
     }
 
-    /// The unit vector at the centre of a cell, given its place in the order panel, j, i.
+    /// The unit vector at the center of a cell, given its place in the order panel, j, i.
     pub fn cell_direction(self, index: usize) -> DVec3 {
         let (panel, i, j) = self.cell(index);
         self.direction(PanelPoint { panel, x: i as f64, y: j as f64 })
@@ -152,7 +152,7 @@ impl CubedSphere {
     }
 }
 
-/// The panel that a vector points through: that of its largest component.
+/// The panel that a vector points through, by its largest component.
 fn panel_of(v: DVec3) -> usize {
     let size = v.abs();
     let (pair, component) = if size.x >= size.y && size.x >= size.z {

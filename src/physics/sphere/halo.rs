@@ -59,7 +59,7 @@ impl HaloTable {
 fn entry(grid: CubedSphere, panel: usize, i: isize, j: isize, reach: isize) -> HaloEntry {
     let place = grid.locate(grid.direction(PanelPoint { panel, x: i as f64, y: j as f64 }));
     // One coordinate is a whole number but for rounding; should both be, then either way is exact.
-    let along_x = off_centre(place.x) > off_centre(place.y);
+    let along_x = off_center(place.x) > off_center(place.y);
     let (along, across) = if along_x { (place.x, place.y) } else { (place.y, place.x) };
     let row = across.round() as isize;
     let first = (along.floor() as isize - 1).clamp(-reach, grid.n() as isize + reach - 4);
@@ -74,8 +74,8 @@ fn entry(grid: CubedSphere, panel: usize, i: isize, j: isize, reach: isize) -> H
     }
 }
 
-/// Distance from the nearest cell centre.
-fn off_centre(coordinate: f64) -> f64 {
+/// Distance from the nearest cell center.
+fn off_center(coordinate: f64) -> f64 {
     (coordinate - coordinate.round()).abs()
 }
 

@@ -5,7 +5,7 @@
 //!   0   +x  +y  +z      a = (i + 1/2) D - pi/4,  b = (j + 1/2) D - pi/4,  D = pi / (2N)
 //!   1   +y  -x  +z
 //!   2   -x  -y  +z      cells are ordered panel, then j, then i
-//!   3   -y  +x  +z      values live at cell centres: they are point values, not cell means
+//!   3   -y  +x  +z      values live at cell centers: they are point values, not cell means
 //!   4   +z  +y  -x
 //!   5   -z  +y  +x
 //! ```

@@ -33,7 +33,7 @@ impl<T: FieldValue> PaddedField<T> {
         field
     }
 
-    /// The field that samples a function of direction at the cell centres, those of the halo included: they are places on the sphere like
+    /// The field that samples a function of direction at the cell centers, halo included: they are places on the sphere like
     /// any other.
     pub fn sample(grid: CubedSphere, value: impl Fn(DVec3) -> T + Sync) -> Self {
         let values = (0..grid.padded_len()).into_par_iter().map(|index| value(grid.padded_direction(index))).collect();
@@ -53,7 +53,7 @@ impl<T: FieldValue> PaddedField<T> {
     }
 
     /// The field whose value at each place of padded storage that is at least `margin` cells from a panel's outer edge is `value(place)`;
-    /// elsewhere it is zero. A function that reads so many cells around a place stays within storage.
+    /// elsewhere it is zero. A function that reads this many cells around a place stays within storage.
     pub fn from_places(grid: CubedSphere, margin: usize, value: impl Fn(usize) -> T + Sync) -> Self {
         let width = grid.padded_width();
         let inside = |k: usize| (margin..width - margin).contains(&k);
@@ -83,17 +83,17 @@ impl<T: FieldValue> PaddedField<T> {
         (0..self.grid.cells()).map(cell).collect()
     }
 
-    /// Cubic interpolation in both coordinates, 4×4 Lagrange: exact at cell centres, error O(D⁴).
+    /// Cubic interpolation in both coordinates, 4×4 Lagrange: exact at cell centers, error O(D⁴).
     pub fn bicubic(&self, direction: DVec3) -> T {
         self.interpolate(direction, -1, cubic_weights)
     }
 
-    /// Quintic interpolation in both coordinates, 6×6 Lagrange: exact at cell centres, error O(D⁶).
+    /// Quintic interpolation in both coordinates, 6×6 Lagrange: exact at cell centers, error O(D⁶).
     pub fn biquintic(&self, direction: DVec3) -> T {
         self.interpolate(direction, -2, quintic_weights)
     }
 
-    /// Linear interpolation in both coordinates: exact at cell centres, error O(D²), never leaves the range of the values.
+    /// Linear interpolation in both coordinates: exact at cell centers, error O(D²), never leaves the range of the values.
     pub fn bilinear(&self, direction: DVec3) -> T {
         self.interpolate(direction, 0, |t| [1.0 - t, t])
     }
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_come_back_in_order_and_lookup_is_exact_at_centres() {
+    fn cells_come_back_in_order_and_lookup_is_exact_at_centers() {
         for n in [8, 11] {
             let field = field(n);
             for (index, value) in field.cells().into_iter().enumerate() {

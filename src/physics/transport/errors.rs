@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn a_field_that_is_not_finite_is_not_a_good_one() {
+    fn a_field_that_is_not_finite_has_nan_errors() {
         let grid = CubedSphere::new(8).unwrap();
         let exact = vec![1.0; grid.cells()];
         let mut broken = exact.clone();

@@ -38,7 +38,7 @@ impl Tracer {
     }
 
     /// The field with a single feature about `center`, whatever the wind's axis; a slot keeps its direction under the shortest
-    /// rotation of the first feature to there. Fails for a centre without direction.
+    /// rotation of the first feature to there. Fails for a center without direction.
     pub fn at(kind: TracerKind, center: DVec3) -> Result<Self, CaseError> {
         let center = unit(center, "tracer's place")?;
         let mut tracer = Self::new(kind, DMat3::IDENTITY);
@@ -48,7 +48,7 @@ impl Tracer {
         Ok(tracer)
     }
 
-    /// The centres of the features, unit vectors.
+    /// The centers of the features, unit vectors.
     pub fn centers(&self) -> impl Iterator<Item = DVec3> {
         self.features.iter().map(Feature::center)
     }
@@ -68,7 +68,7 @@ impl Tracer {
     }
 }
 
-/// A feature in its own frame, in which its centre is at +x and longitudes and latitudes count from there.
+/// A feature in its own frame, in which its center is at +x and longitudes and latitudes count from there.
 #[derive(Clone, Debug, PartialEq)]
 struct Feature {
     from_world: DMat3,
@@ -81,7 +81,7 @@ impl Feature {
         self.from_world.transpose() * DVec3::X
     }
 
-    /// exp(−5 |x − centre|²).
+    /// exp(−5 |x − center|²).
     fn gaussian(&self, x: DVec3) -> f64 {
         (-5.0 * x.distance_squared(self.center())).exp()
     }
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn values_at_the_centres_and_far_away() {
+    fn values_at_the_centers_and_far_away() {
         let center = 5.0 / 6.0 * PI;
         for (kind, top, floor) in [
             (TracerKind::CosineBells, 1.0, 0.1),

@@ -31,8 +31,8 @@ impl Wind {
     /// by the shortest rotation that takes +z to the axis; for −z, where there is no single one, by half a turn about +x or
     /// another horizontal axis. Fails for an axis without direction.
     pub fn new(kind: WindKind, axis: Option<DVec3>) -> Result<Self, CaseError> {
-        let usual = if kind == WindKind::SolidBody { DVec3::X } else { DVec3::Z };
-        let axis = unit(axis.unwrap_or(usual), "axis")?;
+        let default = if kind == WindKind::SolidBody { DVec3::X } else { DVec3::Z };
+        let axis = unit(axis.unwrap_or(default), "axis")?;
         Ok(Self { kind, frame: DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Z, axis)) })
     }
 

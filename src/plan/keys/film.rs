@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::physics::{
-    bubble::{CentrePath, Opening},
+    bubble::{CenterPath, Opening},
     film::{
         Cap, Evaporation, FlowLaw, FreeFlow, InitialFilm, Patch, Push, Pushes, Regeneration, model::MAX_RIM_PATCHES,
         properties::BLACK_FILM_ONSET,
@@ -13,10 +13,10 @@ use crate::physics::{
     transport::Scheme,
 };
 
-/// What a film ends at.
+/// The boundary of a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilmEnd {
-    /// The cap that it is, if there is nothing below a rim.
+pub struct FilmBoundary {
+    /// The cap of film above a rim, if the film has a rim and ends there.
     pub cap: Option<Cap>,
     /// Angular radius of the drop at its bottom, if there is one, radians.
     pub drop_rad: Option<f64>,
@@ -29,50 +29,50 @@ pub struct FilmEnd {
 pub struct FieldKey {
     /// Cells along a panel's edge.
     pub cells: u32,
-    /// The same of its flow; as many as the film has where that is fewer.
+    /// Cells along a panel's edge of its flow; at most as many as the film has.
     pub flow_cells: u32,
     /// Thickness at tick 0.
     pub initial: InitialFilm,
-    /// What it ends at, unless it is free.
-    pub end: Option<Box<FilmEnd>>,
+    /// Its boundary, unless it is free.
+    pub boundary: Option<Box<FilmBoundary>>,
     /// Length of a tick in seconds.
     pub tick_s: f64,
     /// How the liquid is moved.
     pub scheme: Scheme,
-    /// The most ticks from one remap of the flow map to the next.
+    /// Maximum ticks between two remaps of the flow map.
     pub remap_ticks: u32,
-    /// What evaporates; empty for films whose motion does not depend on it.
+    /// Evaporation; empty for films whose motion does not depend on it.
     pub evaporation: Evaporation,
     /// Laws, as far as the moment has seen them; the first holds from tick 0.
     pub flows: Timeline<FlowLaw>,
-    /// What pushes it; empty for films that nothing can push.
+    /// Pushes; empty for films that cannot be pushed.
     pub pushes: Pushes,
     /// Where the bubble goes, in radii, which a film that moves by itself feels.
-    pub path: CentrePath,
+    pub path: CenterPath,
     /// The moment.
     pub moment: Moment,
 }
 
 impl FieldKey {
-    /// The cap that the film is, if there is nothing below a rim.
+    /// The cap of film above a rim, if the film has a rim and ends there.
     #[must_use]
     pub fn cap(&self) -> Option<Cap> {
-        self.end.as_ref().and_then(|end| end.cap)
+        self.boundary.as_ref().and_then(|boundary| boundary.cap)
     }
 
     /// Angular radius of the drop at its bottom, if there is one, radians.
     #[must_use]
     pub fn drop_rad(&self) -> Option<f64> {
-        self.end.as_ref().and_then(|end| end.drop_rad)
+        self.boundary.as_ref().and_then(|boundary| boundary.drop_rad)
     }
 
     /// How it regenerates at its rim, if it does.
     #[must_use]
     pub fn regeneration(&self) -> Option<Regeneration> {
-        self.end.as_ref().and_then(|end| end.regeneration)
+        self.boundary.as_ref().and_then(|boundary| boundary.regeneration)
     }
 
-    /// The same film at another moment.
+    /// This film at another moment.
     #[must_use]
     pub fn at(&self, moment: Moment) -> Self {
         Self { moment, ..self.clone() }
@@ -92,7 +92,7 @@ impl FieldKey {
 
     /// What has evaporated since the beginning, in nm, at a time in ticks.
     #[must_use]
-    pub fn thinned_nm(&self, ticks: f64) -> f64 {
+    pub fn evaporated_nm(&self, ticks: f64) -> f64 {
         self.evaporation.nm(ticks)
     }
 
@@ -102,7 +102,7 @@ impl FieldKey {
         let drains = matches!(self.law(ticks as u64), FlowLaw::Free(free) if free.drainage > 0.0);
         drains
             || self.regeneration().is_some()
-            || self.initial.range_nm().0 - self.thinned_nm(ticks) < 1e9 * BLACK_FILM_ONSET
+            || self.initial.range_nm().0 - self.evaporated_nm(ticks) < 1e9 * BLACK_FILM_ONSET
     }
 
     /// Patches that leave the film's rim between two times in ticks, under the law at the later one: the first [`MAX_RIM_PATCHES`].
@@ -135,7 +135,7 @@ impl FieldKey {
         self.path.mean_acceleration(from_ticks * self.tick_s, to_ticks * self.tick_s)
     }
 
-    /// Angle between neighbouring cells, in radians; that of the coarsest grid for a size that no grid has.
+    /// Angle between neighbouring cells, in radians; for a size that no grid has, the angle of the coarsest grid.
     #[must_use]
     pub fn cell_angle(&self) -> f64 {
         CubedSphere::new(self.cells as usize).map_or(std::f64::consts::FRAC_PI_2 / 8.0, CubedSphere::cell_angle)
@@ -148,7 +148,7 @@ pub struct OpenHoleKey {
     /// The film, at the moment of the burst.
     pub film: FilmKey,
     /// What has evaporated from it, nm.
-    pub thinned_nm: f64,
+    pub evaporated_nm: f64,
     /// Radius of the bubble, m.
     pub radius_m: f64,
     /// The hole.

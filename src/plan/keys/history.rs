@@ -38,7 +38,7 @@ impl FieldKey {
         if *law == FlowLaw::Rest {
             return from..end;
         }
-        let length = law.ticks_a_step(self.tick_s, self.cell_angle());
+        let length = law.ticks_per_step(self.tick_s, self.cell_angle());
         let start = tick - (tick - from) % length;
         start..start.saturating_add(length).min(end)
     }
@@ -58,11 +58,11 @@ impl FieldKey {
         !later.law_differs_until(earlier)
     }
 
-    /// Whether both began alike and are moved in the same way: then they differ in their moments and in what drove them alone.
+    /// Whether both began alike and are moved in the same way: then they differ only in their moments and in the laws and pushes that drove them.
     #[must_use]
     pub fn is_same_film(&self, other: &Self) -> bool {
         (self.cells, self.flow_cells) == (other.cells, other.flow_cells)
-            && (self.initial, &self.end) == (other.initial, &other.end)
+            && (self.initial, &self.boundary) == (other.initial, &other.boundary)
             && (self.tick_s, self.scheme, self.remap_ticks) == (other.tick_s, other.scheme, other.remap_ticks)
     }
 

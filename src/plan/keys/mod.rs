@@ -7,8 +7,8 @@ mod picture;
 mod rest;
 mod step;
 
-pub use film::{FieldKey, FilmEnd, FilmKey, OpenHoleKey};
-pub use optics::{BandsKey, OpticsKey, TableKey, range_nm};
+pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};
+pub use optics::{OpticsKey, QuadratureKey, TableKey, range_nm};
 pub use picture::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey, exposed_ev,
 };
@@ -18,7 +18,7 @@ pub use crate::physics::{
     bubble::Opening,
     film::{
         FlowLaw, FreeFlow,
-        model::{MAX_RIM_PATCHES, left_nm},
+        model::{MAX_RIM_PATCHES, remaining_nm},
         properties::BLACK_FILM_NM,
     },
     timeline::Moment,

@@ -1,10 +1,10 @@
-//! Keys of what films look like in a light: tables and bands.
+//! Keys of the colours of films in a light: tables and quadrature wavelengths.
 
 use std::sync::Arc;
 
 use crate::{
     physics::{
-        colour::{BandTask, FilmOptics, Illuminant},
+        colour::{FilmOptics, Illuminant, QuadratureTask},
         optics::FilmMaterial,
     },
     scene::Quality,
@@ -33,7 +33,7 @@ impl OpticsKey {
         FilmOptics::new(self.film.clone(), &self.illuminant)
     }
 
-    /// The same as fine as films up to a thickness need, see [`FilmOptics::resolving`].
+    /// These optics, as finely resolved as films up to a thickness need, see [`FilmOptics::resolving`].
     #[must_use]
     pub fn spectra_to(&self, thickest_nm: f64) -> FilmOptics {
         FilmOptics::resolving(self.film.clone(), &self.illuminant, thickest_nm)
@@ -60,9 +60,9 @@ pub struct TableKey {
 impl TableKey {
     /// Columns of a full table.
     pub const COLUMNS: u32 = 64;
-    /// Thickness that the table spans at least, in nm.
+    /// Minimum thickness range of the table, in nm.
     pub const MIN_RANGE_NM: f64 = 1500.0;
-    /// Rows for [`TableKey::MIN_RANGE_NM`]: 0.73 nm a row.
+    /// Rows for [`TableKey::MIN_RANGE_NM`]: 0.73 nm per row.
     pub const MIN_ROWS: u32 = 2048;
     /// Rows at most: the smallest limit on textures that adapters have.
     const MAX_ROWS: u32 = 8192;
@@ -76,7 +76,7 @@ impl TableKey {
         Self { optics, max_thickness_nm, columns: Self::COLUMNS, rows, coloured: false, polarised: false }
     }
 
-    /// The same range with fewer rows: what a window shows until the full table is there.
+    /// A table of this range with fewer rows, which a window shows until the full table is baked.
     #[must_use]
     pub fn coarser(&self, factor: u32) -> Self {
         Self { rows: (self.rows / factor).max(2), ..self.clone() }
@@ -89,7 +89,7 @@ impl TableKey {
     }
 }
 
-/// The range of tables and bands for films up to a thickness, in nm: steps of 250 nm, so that small edits make nothing anew.
+/// The range of tables and wavelengths for films up to a thickness, in nm: steps of 250 nm, so that small edits recompute nothing.
 #[must_use]
 pub fn range_nm(thickest_nm: f64) -> f64 {
     ((thickest_nm / 250.0).ceil() * 250.0).max(TableKey::MIN_RANGE_NM)
@@ -97,7 +97,7 @@ pub fn range_nm(thickest_nm: f64) -> f64 {
 
 /// The fitted wavelengths that shaders sum over.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BandsKey {
+pub struct QuadratureKey {
     /// Film and light.
     pub optics: OpticsKey,
     /// Thickness that they are fitted to, in nm.
@@ -106,48 +106,48 @@ pub struct BandsKey {
     pub quality: Quality,
 }
 
-impl BandsKey {
-    /// Bands at most: what the smallest uniform buffers have room for.
-    pub const MOST: usize = 256;
-    /// Bands at most where there is no table: with more of them, a table and fewer bands are as good and cheaper.
-    const MOST_ALONE: usize = 120;
+impl QuadratureKey {
+    /// Maximum number of wavelengths, which the smallest uniform buffers have room for.
+    pub const MAX: usize = 256;
+    /// Maximum number of wavelengths without a table: with more of them, a table and fewer wavelengths are as good and cheaper.
+    const MAX_ALONE: usize = 120;
 
-    /// What the bands are summed for.
+    /// The task of the sum.
     #[must_use]
-    pub fn task(&self) -> BandTask {
-        if self.needs_table() { BandTask::CrossTerms } else { BandTask::Everything }
+    pub fn task(&self) -> QuadratureTask {
+        if self.needs_table() { QuadratureTask::CrossTerms } else { QuadratureTask::Everything }
     }
 
     /// Whether single walls come from a table.
     #[must_use]
     pub fn needs_table(&self) -> bool {
-        self.quality != Quality::Spectral || self.wanted(self.measured()) > Self::MOST_ALONE
+        self.quality != Quality::Spectral || self.needed(self.measured()) > Self::MAX_ALONE
     }
 
     /// How many there are.
     #[must_use]
     pub fn count(&self) -> usize {
-        let alone = self.wanted(self.measured()).min(Self::MOST_ALONE);
-        alone.max(self.wanted(self.measured_beside_table()).min(Self::MOST))
+        let alone = self.needed(self.measured()).min(Self::MAX_ALONE);
+        alone.max(self.needed(self.measured_beside_table()).min(Self::MAX))
     }
 
-    /// Thickness, in nm, up to which as many as there is room for resolve the products' fringes.
+    /// Thickness, in nm, up to which the maximum number of wavelengths resolves the fringes of the products.
     #[must_use]
     pub fn resolved_nm(&self) -> f64 {
         let measured = if self.needs_table() { self.measured_beside_table() } else { self.measured() };
         // A fiftieth less than measured is no less good, and makes it 30 µm.
-        1.02 * Self::MOST as f64 / (measured * self.bands_over_water()) * TableKey::MIN_RANGE_NM
+        1.02 * Self::MAX as f64 / (measured * self.wavelengths_over_water()) * TableKey::MIN_RANGE_NM
     }
 
-    /// How many would do where so many do for 1500 nm of water: films with more fringes need as many more.
-    fn wanted(&self, measured: f64) -> usize {
-        (measured * self.bands_over_water() * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
+    /// Wavelengths needed, given the number that is enough for 1500 nm of water: it grows with the number of fringes.
+    fn needed(&self, measured: f64) -> usize {
+        (measured * self.wavelengths_over_water() * self.range_nm / TableKey::MIN_RANGE_NM).ceil() as usize
     }
 
-    /// How many times as many bands as water a film of the same thickness needs. One of a denser liquid has more fringes, and as its faces
-    /// reflect more they are sharper: measured from index 2 to 4, so that `fast` and `standard` err in the
-    /// mean no more than for water. Up to 1.4, water's do.
-    fn bands_over_water(&self) -> f64 {
+    /// Ratio of the wavelengths that a film needs to the wavelengths for water of the same thickness. A denser liquid has more fringes, and as its
+    /// faces reflect more they are sharper: measured from index 2 to 4, so that `fast` and `standard` err in the mean no more than for water. Up to
+    /// 1.4, water's do.
+    fn wavelengths_over_water(&self) -> f64 {
         1.0 + 4.3 * (self.optics.film.reference_index() - 1.4).max(0.0)
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{BandsKey, FilmKey, OpenHoleKey, Opening, TableKey};
+use super::{FilmKey, OpenHoleKey, Opening, QuadratureKey, TableKey};
 use crate::physics::{colour::Gamut, environment::CubeMap, film::Cap};
 
 /// The light around the bubbles.
@@ -30,11 +30,11 @@ impl PartialEq for EnvironmentKey {
 pub struct BubbleKey {
     /// Index of the bubble in the scene, and of its film.
     pub index: usize,
-    /// Centre in metres.
-    pub centre_m: DVec3,
+    /// Center in metres.
+    pub center_m: DVec3,
     /// Radius in metres.
     pub radius_m: f64,
-    /// Takes directions from the centre to places on the wall, over the radius: symmetric, of determinant 1, and the identity for a bubble that
+    /// Takes directions from the center to places on the wall, over the radius: symmetric, of determinant 1, and the identity for a bubble that
     /// is round.
     pub stretch: DMat3,
     /// Bounding rectangle in clip coordinates, lower left and upper right.
@@ -42,7 +42,7 @@ pub struct BubbleKey {
     /// Takes directions of the world to the film, which may turn as a whole.
     pub to_film: DMat3,
     /// What has evaporated from the whole film, in nm.
-    pub thinned_nm: f64,
+    pub evaporated_nm: f64,
     /// Samples along each side of a pixel.
     pub samples: u32,
     /// Whether the film is looked up through its flow map at each pixel: where cells are larger than pixels.
@@ -61,8 +61,8 @@ impl BubbleKey {
     /// The hole and what it opens in, while the bubble bursts.
     #[must_use]
     pub fn open_hole(&self) -> Option<OpenHoleKey> {
-        let Self { thinned_nm, radius_m, .. } = *self;
-        self.hole.map(|hole| OpenHoleKey { film: self.film.clone(), thinned_nm, radius_m, hole })
+        let Self { evaporated_nm, radius_m, .. } = *self;
+        self.hole.map(|hole| OpenHoleKey { film: self.film.clone(), evaporated_nm, radius_m, hole })
     }
 }
 
@@ -95,7 +95,7 @@ pub enum BackdropKey {
 pub struct LightKey {
     /// Factor on the environment's radiance, linear BT.2020.
     pub gain: DVec3,
-    /// From the environment's light to what is seen of it under the illuminant: linear BT.2020, where (1, 1, 1) is daylight's white.
+    /// Matrix from the environment's light to its colour under the illuminant: linear BT.2020, where (1, 1, 1) is daylight's white.
     pub seen: DMat3,
     /// Factor that makes daylight's white (1, 1, 1).
     pub scale: DVec3,
@@ -123,10 +123,10 @@ pub struct DrawKey {
     /// The scene's own light.
     pub lighting: Lighting,
     /// Lights of other illuminants. Light adds up: the picture is the sum of the pictures in each light alone.
-    pub lamps: Vec<Lighting>,
+    pub spectral_lights: Vec<Lighting>,
     /// The bubbles that can be seen, farthest first.
     pub bubbles: Vec<BubbleKey>,
-    /// Whether they stand on a bath, which is a mirror of water at the height of their centres.
+    /// Whether they stand on a bath, which is a mirror of water at the height of their centers.
     pub on_bath: bool,
 }
 
@@ -139,8 +139,8 @@ pub struct Lighting {
     pub environment: EnvironmentKey,
     /// The table, where the quality has one.
     pub table: Option<TableKey>,
-    /// The bands.
-    pub bands: BandsKey,
+    /// The quadrature.
+    pub quadrature: QuadratureKey,
 }
 
 /// Stops in which pictures of half floats are exposed. Half floats have sixteen between black and white to spare, so that small changes of the
@@ -156,7 +156,7 @@ pub fn exposed_ev(exposure_ev: f64) -> i32 {
 impl DrawKey {
     /// All lights, the scene's own first.
     pub fn lights(&self) -> impl Iterator<Item = &Lighting> {
-        std::iter::once(&self.lighting).chain(&self.lamps)
+        std::iter::once(&self.lighting).chain(&self.spectral_lights)
     }
 
     /// Whether any light from the environment can reach the picture.
@@ -176,7 +176,7 @@ impl DrawKey {
             "the camera"
         } else if self.lighting != other.lighting {
             self.lighting.difference(&other.lighting)
-        } else if self.lamps != other.lamps {
+        } else if self.spectral_lights != other.spectral_lights {
             "a light of another illuminant"
         } else if self.bubbles != other.bubbles {
             "a bubble or its film"
@@ -193,7 +193,7 @@ impl Lighting {
         } else if self.table != other.table {
             "the table"
         } else {
-            "the bands"
+            "the quadrature"
         }
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{FieldKey, FlowLaw, FreeFlow};
 use crate::physics::film::{ASKING_S, STEADY, resting_speed};
 
-/// A film that moved by itself and has come to rest: it stays as it is until something else than the same law acts on it.
+/// A film that moved by itself and has come to rest: it stays at rest until anything but this law acts on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestingFilm {
     /// The tick since which it rests.

@@ -24,7 +24,8 @@ impl FieldKey {
         if let FlowLaw::Free(free) = law {
             found.parts = self.parts(&free, step.start as f64, ticks);
             found.drain = self.draining(&free, end);
-            found.blackening = self.has_black_film(end).then(|| BlackeningLaw::new(self.thinned_nm(end), self.tick_s));
+            found.blackening =
+                self.has_black_film(end).then(|| BlackeningLaw::new(self.evaporated_nm(end), self.tick_s));
         }
         found
     }
@@ -44,7 +45,7 @@ impl FieldKey {
                 dt_s: split.part_ticks * self.tick_s,
                 forces: FlowForces { gravity: split.gravity * forces.gravity, ..forces },
                 pushes: self.pushes_during(now, next),
-                thinned_nm: self.thinned_nm(now + 0.5 * split.part_ticks),
+                evaporated_nm: self.evaporated_nm(now + 0.5 * split.part_ticks),
                 black_nm: BLACK_FILM_NM,
                 strain,
             }
@@ -52,26 +53,26 @@ impl FieldKey {
         (0..split.parts).map(part).collect()
     }
 
-    /// How film leaves at its rim until a time in ticks, if it does, and the most ticks between two remaps.
+    /// How film leaves at its rim until a time in ticks, if it does, and the maximum ticks between two remaps.
     fn draining(&self, free: &FreeFlow, ticks: f64) -> Option<(DrainLaw, u32)> {
         let regeneration = self.regeneration();
         if regeneration.is_none() && free.drainage == 0.0 {
             return None;
         }
-        let most = latest_ticks(regeneration.is_some(), self.remap_ticks, self.tick_s);
+        let max_ticks = latest_ticks(regeneration.is_some(), self.remap_ticks, self.tick_s);
         // A remap that is due comes with a step's end.
-        let window = most + free.ticks_a_step(self.tick_s) as f64;
+        let window = max_ticks + free.ticks_per_step(self.tick_s) as f64;
         let patches = self.patches_during(ticks - window, ticks);
         let aged = |patch: Patch| (patch.middle, patch.thickness, (ticks - patch.time_s / self.tick_s).max(0.0) as u32);
         let law = DrainLaw {
             gravity: free.forces.gravity,
             flux: free.drainage * self.tick_s,
-            thinned_nm: self.thinned_nm(ticks),
+            evaporated_nm: self.evaporated_nm(ticks),
             black_nm: BLACK_FILM_NM,
             drop_rad: if self.cap().is_some() { 0.0 } else { self.drop_rad().unwrap_or(DROP_RAD) },
             patch_radius: regeneration.map_or(1.0, |regeneration| regeneration.radius),
             patches: patches.into_iter().map(aged).collect(),
         };
-        Some((law, most as u32))
+        Some((law, max_ticks as u32))
     }
 }

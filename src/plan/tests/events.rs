@@ -4,7 +4,7 @@ use cpu_time::ThreadTime;
 
 use super::*;
 
-/// The text of a scene with so many events of all kinds that fit its boundary, so close together that bubbles live between their pricks.
+/// The text of a scene with a number of events of all kinds that fit its boundary, spaced so that bubbles live between pricks.
 fn text(boundary: &str, count: usize) -> String {
     let mut text = format!("version = 1\n[motion]\nevaporation_nm_s = 5\n[[bubble]]\nboundary = {boundary:?}\n");
     for index in 0..count {
@@ -20,22 +20,22 @@ fn text(boundary: &str, count: usize) -> String {
     text
 }
 
-/// CPU time of loading and planning a picture after so many events, s: the least of some runs, which nothing has disturbed.
+/// CPU time of loading and planning a picture after a number of events, s: the minimum of some runs, as the least disturbed.
 fn seconds(boundary: &str, count: usize) -> f64 {
     let text = text(boundary, count);
     let run = || {
         let started = ThreadTime::now();
         let scene = Scene::from_toml(&text, "events").unwrap();
         for moment in [100 * count as u64, 100 * count as u64 + 50] {
-            let want = wanted(&scene, moment, Pace::Whole);
-            assert!(!plan(&want, &Have::default()).is_empty());
+            let request = frame_request(&scene, moment, Pace::Whole);
+            assert!(!plan(&request, &GpuState::default()).is_empty());
         }
         started.elapsed().as_secs_f64()
     };
     (0..3).map(|_| run()).fold(f64::INFINITY, f64::min)
 }
 
-/// Four times as many events cost about four times as much; where each of them looked at all others it would be sixteen times.
+/// Four times as many events cost about four times as much; if each event looked at all others, they would cost sixteen times as much.
 #[test]
 fn the_cost_of_events_grows_as_their_number() {
     for boundary in ["free", "bath", "ring"] {

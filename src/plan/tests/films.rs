@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::*;
 
 #[test]
-fn another_past_seeds_anew_and_another_future_does_not() {
+fn a_changed_past_seeds_again_and_a_changed_future_does_not() {
     let mut sloshing_at_3 = stirred_scene();
     sloshing_at_3.events.push(event(3, Flow::Sloshing));
     let mut sloshing_at_30 = stirred_scene();
@@ -44,11 +44,11 @@ fn a_push_is_felt_from_its_first_tick_by_its_film_alone() {
 #[test]
 fn a_dragged_bubble_is_seen_where_it_is_and_its_film_feels_it() {
     let drag = |to_m| pushed_at(20, Change::Drag(Drag { bubble: 0, to_m }));
-    let bubble = |scene: &Scene, tick| wanted(scene, tick, Pace::Whole).picture.draw.bubbles[0].clone();
+    let bubble = |scene: &Scene, tick| frame_request(scene, tick, Pace::Whole).picture.draw.bubbles[0].clone();
     let (scene, start) = (drag([0.0, 0.01, 0.0]), DVec3::ZERO);
-    assert_eq!(bubble(&scene, 20).centre_m, start);
-    assert!((1e-4..0.01).contains(&bubble(&scene, 24).centre_m.y));
-    assert!(bubble(&scene, 200).centre_m.distance(DVec3::new(0.0, 0.01, 0.0)) < 1e-9);
+    assert_eq!(bubble(&scene, 20).center_m, start);
+    assert!((1e-4..0.01).contains(&bubble(&scene, 24).center_m.y));
+    assert!(bubble(&scene, 200).center_m.distance(DVec3::new(0.0, 0.01, 0.0)) < 1e-9);
     let FilmKey::Field(film) = bubble(&scene, 24).film else { panic!("the film has a field") };
     // At first the whole way over the square of the time constant, 0.1 s, in radii.
     let radius_m = scene.bubbles[0].radius_mm * 1e-3;
@@ -60,16 +60,16 @@ fn a_dragged_bubble_is_seen_where_it_is_and_its_film_feels_it() {
 
 /// The ticks of the steps that lead to a film's state.
 fn steps(scene: &Scene, tick: u64) -> Vec<Range<u64>> {
-    match &wanted(scene, tick, Pace::Whole).picture.draw.bubbles[0].film {
+    match &frame_request(scene, tick, Pace::Whole).picture.draw.bubbles[0].film {
         FilmKey::Field(film) => film.steps_from(0).collect(),
         FilmKey::Uniform(_) => panic!("the film has a field"),
     }
 }
 
 #[test]
-fn what_stirs_a_film_strains_it_until_drag_and_viscosity_have_calmed_it() {
+fn a_stir_strains_a_film_until_drag_and_viscosity_calm_it() {
     let mut scene = preset("default").unwrap();
-    let strain = |scene: &Scene, tick| match &wanted(scene, tick, Pace::Whole).picture.draw.bubbles[0].film {
+    let strain = |scene: &Scene, tick| match &frame_request(scene, tick, Pace::Whole).picture.draw.bubbles[0].film {
         FilmKey::Field(film) => film.strain_until(tick as f64),
         FilmKey::Uniform(_) => panic!("the film has a field"),
     };
@@ -101,31 +101,33 @@ fn a_free_film_is_stepped_as_its_waves_need() {
     assert_eq!(steps(&scene, 3), [0..1, 1..2, 2..3], "waves of 5 cm turn by a quarter of a radian in 18 ms");
     scene.motion.gravity_m_s2 = [0.0; 3];
     assert_eq!(steps(&scene, 5), [0..2, 2..4], "without gravity steps of a thirtieth of a second do");
-    let film = |scene: &Scene| match &wanted(scene, 90, Pace::Whole).picture.draw.bubbles[0].film {
+    let film = |scene: &Scene| match &frame_request(scene, 90, Pace::Whole).picture.draw.bubbles[0].film {
         FilmKey::Field(film) => film.clone(),
         FilmKey::Uniform(_) => panic!("the film has a field"),
     };
     scene.motion.evaporation_nm_s = 30.0;
     let faster = MotionChange { evaporation_nm_s: Some(60.0), ..MotionChange::default() };
     scene.events.push(Event { tick: 60, change: Change::Motion(faster) });
-    let thinned = film(&scene).thinned_nm(90.0);
+    let thinned = film(&scene).evaporated_nm(90.0);
     assert!((thinned - 60.0).abs() < 1e-9, "30 nm in the first second and 30 in the next half: {thinned}");
     scene.motion.flow = Flow::Stirred;
-    assert_eq!(film(&scene).thinned_nm(90.0), 0.0, "how thick it is changes nothing in how others move");
+    assert_eq!(film(&scene).evaporated_nm(90.0), 0.0, "how thick it is changes nothing in how others move");
 }
 
 #[test]
 fn a_film_that_was_found_at_rest_plans_nothing_until_something_acts_on_it() {
     let mut scene = preset("default").unwrap();
     scene.motion.strength = 0.0;
-    let FilmKey::Field(film) = &wanted(&scene, 240, Pace::Whole).picture.draw.bubbles[0].film else { unreachable!() };
+    let FilmKey::Field(film) = &frame_request(&scene, 240, Pace::Whole).picture.draw.bubbles[0].film else {
+        unreachable!()
+    };
     let FlowLaw::Free(law) = film.law(0) else { unreachable!("a free film") };
     let resting = |tick| {
-        let mut have = after(&scene, tick);
-        have.fields[0].as_mut().unwrap().rest = Some(RestingFilm { since_tick: 240, law });
-        have
+        let mut state = after(&scene, tick);
+        state.fields[0].as_mut().unwrap().rest = Some(RestingFilm { since_tick: 240, law });
+        state
     };
-    let then = |scene: &Scene, have: &Have, tick| plan(&wanted(scene, tick, Pace::Frame), have);
+    let then = |scene: &Scene, state: &GpuState, tick| plan(&frame_request(scene, tick, Pace::Frame), state);
     let shown = then(&scene, &resting(240), 7000);
     assert!(shown.is_empty(), "{shown}");
     let event = |change| Scene { events: vec![Event { tick: 400, change }], ..scene.clone() };
@@ -162,15 +164,15 @@ fn a_long_jump_takes_the_steps_of_the_frames_that_it_skips() {
     scene.events.push(event(100, Flow::Sloshing));
     let in_one_go = steps(&scene, end);
     let mut in_frames: Vec<Range<u64>> = Vec::new();
-    let mut have = Have::default();
+    let mut state = GpuState::default();
     for tick in 0..=end {
-        let frame = plan(&wanted(&scene, tick, Pace::Whole), &have);
+        let frame = plan(&frame_request(&scene, tick, Pace::Whole), &state);
         for (pass, _) in &frame.steps {
             if let Pass::StepField { key, ticks, .. } = pass {
                 in_frames.extend(key.steps_from(ticks.start));
             }
         }
-        have = frame.after;
+        state = frame.after;
     }
     assert_eq!(in_frames, in_one_go);
     assert!(in_one_go.len() <= 51, "12 ticks each, and one that the new law cut short: {}", in_one_go.len());
@@ -183,10 +185,10 @@ fn turning_and_evaporating_as_a_whole_only_draws() {
     scene.motion.spin_deg_s = [0.0, 0.0, 90.0];
     scene.motion.evaporation_nm_s = 60.0;
     assert_eq!(between((&scene, 5), (&scene, 65)), ["draw", "tonemap"]);
-    let bubble = |tick| wanted(&scene, tick, Pace::Whole).picture.draw.bubbles[0].clone();
+    let bubble = |tick| frame_request(&scene, tick, Pace::Whole).picture.draw.bubbles[0].clone();
     let later = bubble(60);
     assert!((later.to_film * DVec3::Y).distance(DVec3::X) < 1e-12, "a quarter turn in a second");
-    assert!((later.thinned_nm - 60.0).abs() < 1e-9);
+    assert!((later.evaporated_nm - 60.0).abs() < 1e-9);
     assert!(between((&uniform_scene(), 0), (&uniform_scene(), 9999)).is_empty());
 }
 
@@ -206,7 +208,7 @@ fn side_by_side(count: usize) -> Scene {
 fn films_share_the_cells_of_a_frame_and_all_get_on() {
     let mut scene = side_by_side(4);
     scene.bubbles.iter_mut().for_each(|bubble| bubble.film.cells = 256);
-    let (want, mut have) = (wanted(&scene, 40, Pace::Frame), Have::default());
+    let (request, mut state) = (frame_request(&scene, 40, Pace::Frame), GpuState::default());
     let cells = |pass: &Pass| match pass {
         Pass::StepField { key, ticks, .. } => {
             key.cell_count() * key.at(Moment::tick(ticks.end)).steps_from(ticks.start).count() as u64
@@ -215,14 +217,14 @@ fn films_share_the_cells_of_a_frame_and_all_get_on() {
     };
     for frame in 0.. {
         assert!(frame < 400, "some film waits for ever");
-        let plan = plan(&want, &have);
+        let plan = plan(&request, &state);
         let stepped: u64 = plan.steps.iter().map(|(pass, _)| cells(pass)).sum();
         assert!(stepped <= 800_000, "{stepped} cells in one frame");
-        let ticks: Vec<_> = plan.after.fields.iter().flatten().map(|have| have.state.moment.tick).collect();
+        let ticks: Vec<_> = plan.after.fields.iter().flatten().map(|field| field.key.moment.tick).collect();
         let behind = ticks.iter().max().unwrap() - ticks.iter().min().unwrap();
         // No more than the two steps that the cells of a frame are.
         assert!(behind <= 24, "films drift apart: {ticks:?}");
-        have = plan.after;
+        state = plan.after;
         if plan.complete {
             assert_eq!(behind, 0);
             return;
@@ -231,14 +233,14 @@ fn films_share_the_cells_of_a_frame_and_all_get_on() {
 }
 
 #[test]
-fn what_no_picture_of_the_scene_can_need_is_dropped() {
+fn products_that_the_scene_cannot_need_are_dropped() {
     let (three, mut one) = (side_by_side(3), side_by_side(1));
-    let have = after(&three, 4);
-    assert_eq!(have.fields.iter().flatten().count(), 3);
+    let state = after(&three, 4);
+    assert_eq!(state.fields.iter().flatten().count(), 3);
     let mut away = three.clone();
     away.camera.azimuth_deg = 180.0;
     away.camera.target_m = [10.0, 0.0, 0.0];
-    let plan_of = |scene: &Scene| plan(&wanted(scene, 4, Pace::Whole), &have);
+    let plan_of = |scene: &Scene| plan(&frame_request(scene, 4, Pace::Whole), &state);
     assert_eq!(plan_of(&away).after.fields.iter().flatten().count(), 3, "films out of sight stay");
     assert_eq!(plan_of(&one).after.fields.len(), 1);
     one.bubbles[0].film.state = crate::scene::FilmStateName::Uniform;
@@ -247,13 +249,13 @@ fn what_no_picture_of_the_scene_can_need_is_dropped() {
 
 #[test]
 fn a_picture_for_a_file_leaves_no_checkpoints() {
-    let passes = names(&plan(&wanted(&checkpoints::free_scene(), 600, Pace::Whole), &Have::default()));
+    let passes = names(&plan(&frame_request(&checkpoints::free_scene(), 600, Pace::Whole), &GpuState::default()));
     assert!(passes.contains(&"step_field") && !passes.contains(&"save_field"), "{passes:?}");
 }
 
 /// A picture of a size, at tick 9.
-fn wanted_at(scene: &Scene, size: [u32; 2]) -> Want {
-    want(scene, &resources(), &Shot { size, ..shot(9, Pace::Whole) }).unwrap()
+fn frame_request_at(scene: &Scene, size: [u32; 2]) -> FrameRequest {
+    request(scene, &resources(), &Shot { size, ..shot(9, Pace::Whole) }).unwrap()
 }
 
 #[test]
@@ -271,7 +273,7 @@ fn a_bubble_that_is_never_large_in_the_picture_takes_half_of_its_cells() {
     assert_eq!(film_grids(&far, 0), [128, 32]);
     assert_eq!(film_grids(&scene_at(0.0), 0), [256, 64], "from inside");
 
-    let field = |scene: &Scene, size| match &wanted_at(scene, size).picture.draw.bubbles[0].film {
+    let field = |scene: &Scene, size| match &frame_request_at(scene, size).picture.draw.bubbles[0].film {
         FilmKey::Field(field) => [field.cells, field.flow_cells],
         FilmKey::Uniform(_) => panic!("a blown film has a field"),
     };
@@ -301,9 +303,9 @@ fn a_bubble_that_is_never_large_in_the_picture_takes_half_of_its_cells() {
 fn settled_films_do_not_heed_the_camera() {
     let mut scene = preset("default").unwrap();
     settle_detail(&mut scene);
-    let near = wanted_at(&scene, [160, 90]);
+    let near = frame_request_at(&scene, [160, 90]);
     scene.camera.distance_m = 6.0;
-    let passes = names(&plan(&wanted_at(&scene, [160, 90]), &plan(&near, &Have::default()).after));
+    let passes = names(&plan(&frame_request_at(&scene, [160, 90]), &plan(&near, &GpuState::default()).after));
     assert_eq!(passes, ["draw", "tonemap"]);
 }
 

@@ -1,4 +1,4 @@
-//! Lives of bubbles, as scenes have them.
+//! Life cycles of bubbles, as scenes have them.
 
 use super::*;
 use crate::{
@@ -14,9 +14,9 @@ fn age(scene: &Scene, index: usize, moment: Moment) -> Option<Age> {
     Story::new(scene.clone()).age(index, moment)
 }
 
-/// When the first bubble of a scene ends, and where, had it been blown at tick 0 after so many others.
+/// When and where the first bubble of a scene ends, had it been blown at tick 0 as number `generation`.
 fn end_of(scene: &Scene, generation: u32) -> Option<(u64, Option<DVec3>)> {
-    Story::new(scene.clone()).lives(0).unwrap().end_of(0, generation)
+    Story::new(scene.clone()).life_cycle(0).unwrap().end_of(0, generation)
 }
 
 fn pricked(ticks: &[u64]) -> Scene {

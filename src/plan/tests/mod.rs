@@ -30,7 +30,7 @@ fn resources() -> Resources {
     Resources {
         environment: Arc::new(CubeMap::constant(DVec3::ONE)),
         illuminant: Arc::new(Illuminant::default()),
-        lamps: Vec::new(),
+        spectral_lights: Vec::new(),
         liquids: BTreeMap::new(),
     }
 }
@@ -46,8 +46,8 @@ fn shot(tick: u64, pace: Pace) -> Shot {
     }
 }
 
-fn wanted(scene: &Scene, tick: u64, pace: Pace) -> Want {
-    want(scene, &resources(), &shot(tick, pace)).unwrap()
+fn frame_request(scene: &Scene, tick: u64, pace: Pace) -> FrameRequest {
+    request(scene, &resources(), &shot(tick, pace)).unwrap()
 }
 
 fn names(plan: &Plan) -> Vec<&'static str> {
@@ -55,13 +55,13 @@ fn names(plan: &Plan) -> Vec<&'static str> {
 }
 
 /// What is there after a whole picture of a scene.
-fn after(scene: &Scene, tick: u64) -> Have {
-    plan(&wanted(scene, tick, Pace::Whole), &Have::default()).after
+fn after(scene: &Scene, tick: u64) -> GpuState {
+    plan(&frame_request(scene, tick, Pace::Whole), &GpuState::default()).after
 }
 
 /// Names of the passes from one picture to another.
 fn between(from: (&Scene, u64), to: (&Scene, u64)) -> Vec<&'static str> {
-    names(&plan(&wanted(to.0, to.1, Pace::Whole), &after(from.0, from.1)))
+    names(&plan(&frame_request(to.0, to.1, Pace::Whole), &after(from.0, from.1)))
 }
 
 fn stirred_scene() -> Scene {
@@ -80,29 +80,38 @@ fn event(tick: u64, flow: Flow) -> Event {
 
 #[test]
 fn each_light_has_what_it_needs_and_loses_nothing_to_another() {
-    let lamp = |illuminant: &str| Lamp {
+    let spectral_light = |illuminant: &str| SpectralLight {
         environment: Arc::new(CubeMap::constant(DVec3::ONE)),
         illuminant: Arc::new(illuminant.parse().unwrap()),
     };
-    let lit =
-        |lamps: Vec<Lamp>| want(&uniform_scene(), &Resources { lamps, ..resources() }, &shot(0, Pace::Whole)).unwrap();
-    let alone = plan(&lit(vec![]), &Have::default());
-    let both = plan(&lit(vec![lamp("A")]), &alone.after);
+    let lit = |spectral_lights: Vec<SpectralLight>| {
+        request(&uniform_scene(), &Resources { spectral_lights, ..resources() }, &shot(0, Pace::Whole)).unwrap()
+    };
+    let alone = plan(&lit(vec![]), &GpuState::default());
+    let both = plan(&lit(vec![spectral_light("A")]), &alone.after);
     assert_eq!(both.after.lights.len(), 2);
     let mut passes = names(&both);
     passes.dedup();
-    assert_eq!(passes, ["bake_table", "fit_bands", "upload_environment", "draw", "tonemap"]);
-    assert!(plan(&lit(vec![lamp("A")]), &both.after).is_empty());
+    assert_eq!(passes, ["bake_table", "fit_quadrature", "upload_environment", "draw", "tonemap"]);
+    assert!(plan(&lit(vec![spectral_light("A")]), &both.after).is_empty());
     assert_eq!(names(&plan(&lit(vec![]), &both.after)), ["draw", "tonemap"]);
 }
 
 #[test]
 fn the_first_picture_makes_everything_once() {
-    let first = names(&plan(&wanted(&stirred_scene(), 30, Pace::Whole), &Have::default()));
+    let first = names(&plan(&frame_request(&stirred_scene(), 30, Pace::Whole), &GpuState::default()));
     let mut order = first.clone();
     order.dedup();
-    let expected =
-        ["bake_table", "fit_bands", "upload_environment", "seed_field", "step_field", "show_field", "draw", "tonemap"];
+    let expected = [
+        "bake_table",
+        "fit_quadrature",
+        "upload_environment",
+        "seed_field",
+        "step_field",
+        "show_field",
+        "draw",
+        "tonemap",
+    ];
     assert_eq!(order, expected);
 }
 
@@ -116,7 +125,7 @@ fn half_floats_are_exposed_in_wide_steps() {
     let exposed = |exposure_ev: f64| {
         let mut scene = uniform_scene();
         scene.view.exposure_ev = exposure_ev;
-        let draw = wanted(&scene, 0, Pace::Whole).picture.draw;
+        let draw = frame_request(&scene, 0, Pace::Whole).picture.draw;
         assert!((f64::from(draw.exposed_ev) - exposure_ev).abs() <= 4.0);
         draw
     };
@@ -141,7 +150,7 @@ fn a_camera_move_draws_and_neither_bakes_nor_steps() {
 
 #[test]
 fn a_uniform_film_has_no_field() {
-    let passes = names(&plan(&wanted(&uniform_scene(), 100, Pace::Whole), &Have::default()));
+    let passes = names(&plan(&frame_request(&uniform_scene(), 100, Pace::Whole), &GpuState::default()));
     assert!(passes.iter().all(|name| !name.ends_with("field")), "{passes:?}");
     assert_eq!(between((&uniform_scene(), 0), (&uniform_scene(), 9999)), [] as [&str; 0]);
 }
@@ -151,7 +160,7 @@ fn a_film_at_rest_is_never_stepped() {
     let mut scene = stirred_scene();
     scene.motion.flow = Flow::Rest;
     for tick in [0, 1, 1_000_000] {
-        let passes = names(&plan(&wanted(&scene, tick, Pace::Whole), &Have::default()));
+        let passes = names(&plan(&frame_request(&scene, tick, Pace::Whole), &GpuState::default()));
         assert!(!passes.contains(&"step_field"), "tick {tick}: {passes:?}");
     }
     assert_eq!(between((&scene, 7), (&scene, 70_000)), [] as [&str; 0]);
@@ -159,28 +168,28 @@ fn a_film_at_rest_is_never_stepped() {
 
 #[test]
 fn films_that_end_nowhere_know_of_no_end() {
-    let field = |scene: &Scene| match wanted(scene, 4, Pace::Whole).picture.draw.bubbles[0].film.clone() {
+    let field = |scene: &Scene| match frame_request(scene, 4, Pace::Whole).picture.draw.bubbles[0].film.clone() {
         FilmKey::Field(field) => field,
         FilmKey::Uniform(_) => panic!("a film that flows"),
     };
     let free = preset("default").unwrap();
-    assert_eq!(field(&free).end, None);
-    assert!(!wanted(&free, 4, Pace::Whole).picture.draw.on_bath);
+    assert_eq!(field(&free).boundary, None);
+    assert!(!frame_request(&free, 4, Pace::Whole).picture.draw.on_bath);
     let bath = preset("bath").unwrap();
-    let draw = wanted(&bath, 4, Pace::Whole).picture.draw;
+    let draw = frame_request(&bath, 4, Pace::Whole).picture.draw;
     assert!(draw.on_bath && draw.bubbles[0].cap == Some(Cap::HEMISPHERE) && field(&bath).regeneration().is_some());
     let mut drained = bath.clone();
     drained.bubbles[0].regeneration = 0.0;
     assert_eq!(field(&drained).regeneration(), None);
     let drop = field(&preset("drop").unwrap());
-    assert!(drop.cap().is_none() && drop.end.unwrap().drop_rad.unwrap() < 0.3);
+    assert!(drop.cap().is_none() && drop.boundary.unwrap().drop_rad.unwrap() < 0.3);
 }
 
 #[test]
 fn nothing_is_seen_from_below_a_bath() {
     let mut scene = preset("bath").unwrap();
     scene.camera.elevation_deg = -30.0;
-    let error = want(&scene, &resources(), &shot(0, Pace::Whole)).unwrap_err();
+    let error = request(&scene, &resources(), &shot(0, Pace::Whole)).unwrap_err();
     assert!(error.to_string().starts_with("`elevation_deg` in [camera] looks from below the bath"), "{error}");
 }
 
@@ -190,11 +199,11 @@ fn a_bubble_out_of_sight_costs_nothing() {
     scene.bubbles.push(Bubble { center_m: [0.0, 5.0, 0.0], ..Bubble::default() });
     let behind = Bubble { center_m: [5.0, 0.0, 0.0], ..Bubble::default() };
     scene.bubbles.push(behind);
-    let want = wanted(&scene, 4, Pace::Whole);
-    assert_eq!(want.picture.draw.bubbles.iter().map(|bubble| bubble.index).collect::<Vec<_>>(), [0]);
+    let request = frame_request(&scene, 4, Pace::Whole);
+    assert_eq!(request.picture.draw.bubbles.iter().map(|bubble| bubble.index).collect::<Vec<_>>(), [0]);
     assert_eq!(
-        names(&plan(&want, &Have::default())),
-        names(&plan(&wanted(&stirred_scene(), 4, Pace::Whole), &Have::default()))
+        names(&plan(&request, &GpuState::default())),
+        names(&plan(&frame_request(&stirred_scene(), 4, Pace::Whole), &GpuState::default()))
     );
 }
 
@@ -202,24 +211,24 @@ fn a_bubble_out_of_sight_costs_nothing() {
 fn a_bubble_below_a_pixel_is_not_simulated() {
     let mut scene = stirred_scene();
     scene.camera.distance_m = 500.0;
-    let passes = names(&plan(&wanted(&scene, 4, Pace::Whole), &Have::default()));
+    let passes = names(&plan(&frame_request(&scene, 4, Pace::Whole), &GpuState::default()));
     assert!(!passes.contains(&"seed_field"), "{passes:?}");
 }
 
 #[test]
 fn a_window_gets_a_coarse_table_first_and_the_full_one_soon() {
-    let want = wanted(&uniform_scene(), 0, Pace::Frame);
-    let full = want.picture.draw.lighting.table.clone().unwrap();
-    let mut have = Have::default();
-    let first = plan(&want, &have);
+    let request = frame_request(&uniform_scene(), 0, Pace::Frame);
+    let full = request.picture.draw.lighting.table.clone().unwrap();
+    let mut state = GpuState::default();
+    let first = plan(&request, &state);
     let coarse = first.after.lights[0].table.clone().unwrap();
     assert!(coarse.rows < full.rows && coarse.max_thickness_nm == full.max_thickness_nm && !first.complete);
     assert!(names(&first).ends_with(&["draw", "tonemap"]), "something is shown at once");
     for frame in 0..100 {
-        let plan = plan(&want, &have);
-        have = plan.after;
+        let plan = plan(&request, &state);
+        state = plan.after;
         if plan.complete {
-            assert_eq!(have.lights[0].table.as_ref(), Some(&full));
+            assert_eq!(state.lights[0].table.as_ref(), Some(&full));
             assert!(frame > 1, "the full table is baked in portions");
             return;
         }
@@ -229,28 +238,28 @@ fn a_window_gets_a_coarse_table_first_and_the_full_one_soon() {
 
 #[test]
 fn a_window_catches_up_with_a_film_in_portions() {
-    let want = wanted(&stirred_scene(), 160, Pace::Frame);
-    let (mut have, mut frames) = (Have::default(), 0);
+    let request = frame_request(&stirred_scene(), 160, Pace::Frame);
+    let (mut state, mut frames) = (GpuState::default(), 0);
     loop {
-        let next = plan(&want, &have);
+        let next = plan(&request, &state);
         frames += 1;
-        have = next.after;
+        state = next.after;
         if next.complete {
             break;
         }
         assert!(frames < 1000, "it never catches up");
     }
-    assert!(frames > 3 && have.fields[0].as_ref().unwrap().state.moment == Moment::tick(156));
+    assert!(frames > 3 && state.fields[0].as_ref().unwrap().key.moment == Moment::tick(156));
 }
 
 #[test]
 fn the_plan_says_what_and_why() {
-    let text = plan(&wanted(&stirred_scene(), 30, Pace::Whole), &Have::default()).to_string();
+    let text = plan(&frame_request(&stirred_scene(), 30, Pace::Whole), &GpuState::default()).to_string();
     for part in ["bake_table", "film 0, ticks 0..24", "nothing there yet"] {
         assert!(text.contains(part), "{part} in {text}");
     }
     assert_eq!(
-        plan(&wanted(&stirred_scene(), 2, Pace::Whole), &after(&stirred_scene(), 2)).to_string(),
+        plan(&frame_request(&stirred_scene(), 2, Pace::Whole), &after(&stirred_scene(), 2)).to_string(),
         "nothing to do\n"
     );
 }
@@ -285,20 +294,28 @@ fn scenes() -> impl Strategy<Value = Scene> {
 
 /// What of a state a whole picture decides. Products that this picture does not need may linger from others, and a table in the making
 /// may be left where it was; checkpoints are where the way led.
-fn decided(have: &Have, want: &Want) -> (Option<TonemapKey>, Vec<Option<TableKey>>, Vec<Option<FieldHave>>) {
+fn decided(
+    state: &GpuState,
+    request: &FrameRequest,
+) -> (Option<TonemapKey>, Vec<Option<TableKey>>, Vec<Option<FieldState>>) {
     let needed = |index: usize| {
-        want.picture.draw.bubbles.iter().any(|bubble| bubble.index == index && matches!(bubble.film, FilmKey::Field(_)))
+        request
+            .picture
+            .draw
+            .bubbles
+            .iter()
+            .any(|bubble| bubble.index == index && matches!(bubble.film, FilmKey::Field(_)))
     };
-    let field = |(index, field): (usize, &Option<FieldHave>)| {
+    let field = |(index, field): (usize, &Option<FieldState>)| {
         let field = field.clone().filter(|_| needed(index))?;
-        Some(FieldHave { checkpoints: Checkpoints::default(), ..field })
+        Some(FieldState { checkpoints: Checkpoints::default(), ..field })
     };
-    let mut fields: Vec<_> = have.fields.iter().enumerate().map(field).collect();
+    let mut fields: Vec<_> = state.fields.iter().enumerate().map(field).collect();
     while fields.last().is_some_and(Option::is_none) {
         fields.pop();
     }
-    let tables = have.lights.iter().map(|light| light.table.clone()).collect();
-    (have.picture.clone(), tables, fields)
+    let tables = state.lights.iter().map(|light| light.table.clone()).collect();
+    (state.picture.clone(), tables, fields)
 }
 
 proptest! {
@@ -306,32 +323,32 @@ proptest! {
 
     #[test]
     fn the_way_there_does_not_matter(way in proptest::collection::vec((scenes(), 0..80_u64, any::<bool>()), 1..6), end in scenes(), tick in 0..80_u64) {
-        let mut have = Have::default();
+        let mut state = GpuState::default();
         for (scene, tick, whole) in way {
-            have = plan(&wanted(&scene, tick, if whole { Pace::Whole } else { Pace::Frame }), &have).after;
+            state = plan(&frame_request(&scene, tick, if whole { Pace::Whole } else { Pace::Frame }), &state).after;
         }
-        let want = wanted(&end, tick, Pace::Whole);
-        let arrived = plan(&want, &have);
-        let fresh = plan(&want, &Have::default());
+        let request = frame_request(&end, tick, Pace::Whole);
+        let arrived = plan(&request, &state);
+        let fresh = plan(&request, &GpuState::default());
         prop_assert!(arrived.complete && fresh.complete);
-        prop_assert_eq!(decided(&arrived.after, &want), decided(&fresh.after, &want));
-        prop_assert_eq!(arrived.after.picture.as_ref(), Some(&want.picture));
-        prop_assert!(plan(&want, &arrived.after).is_empty());
-        let in_a_frame = Want { pace: Pace::Frame, ..want };
-        prop_assert!(plan(&in_a_frame, &arrived.after).is_empty());
+        prop_assert_eq!(decided(&arrived.after, &request), decided(&fresh.after, &request));
+        prop_assert_eq!(arrived.after.picture.as_ref(), Some(&request.picture));
+        prop_assert!(plan(&request, &arrived.after).is_empty());
+        let frame_paced = FrameRequest { pace: Pace::Frame, ..request };
+        prop_assert!(plan(&frame_paced, &arrived.after).is_empty());
     }
 
     #[test]
     fn frames_end_where_one_go_does(scene in scenes(), tick in 0..80_u64) {
-        let (want, mut have) = (wanted(&scene, tick, Pace::Frame), Have::default());
+        let (request, mut state) = (frame_request(&scene, tick, Pace::Frame), GpuState::default());
         for _ in 0..200 {
-            let next = plan(&want, &have);
-            have = next.after;
+            let next = plan(&request, &state);
+            state = next.after;
             if next.complete {
                 break;
             }
         }
-        let whole = plan(&Want { pace: Pace::Whole, ..want.clone() }, &Have::default());
-        prop_assert_eq!(decided(&have, &want), decided(&whole.after, &want));
+        let whole = plan(&FrameRequest { pace: Pace::Whole, ..request.clone() }, &GpuState::default());
+        prop_assert_eq!(decided(&state, &request), decided(&whole.after, &request));
     }
 }

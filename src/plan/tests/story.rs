@@ -35,7 +35,7 @@ fn frames_share_their_histories() {
 }
 
 #[test]
-fn a_camera_that_moves_leaves_a_story_as_it_is_and_an_event_does_not() {
+fn a_story_changes_with_an_event_and_not_with_the_camera() {
     let mut story = Story::new(eventful(60));
     let before = field(&story, 3000);
     story.change(|scene| scene.camera.azimuth_deg += 10.0);
@@ -48,21 +48,21 @@ fn a_camera_that_moves_leaves_a_story_as_it_is_and_an_event_does_not() {
 
 /// After an edit of the future, what is there is compared once with the new history, and shared from then on.
 #[test]
-fn what_is_there_shares_the_history_that_it_was_planned_by() {
+fn the_gpu_state_shares_the_history_that_it_was_planned_by() {
     let mut story = Story::new(eventful(20));
     story.change(|scene| scene.bubbles[0].film.cells = 16);
-    let mut have = Have::default();
+    let mut state = GpuState::default();
     let mut go = |story: &Story, tick| loop {
-        let next = plan(&story.want(&resources(), &shot(tick, Pace::Frame)).unwrap(), &have);
-        have = next.after;
+        let next = plan(&story.request(&resources(), &shot(tick, Pace::Frame)).unwrap(), &state);
+        state = next.after;
         if next.complete {
-            return have.fields[0].clone().unwrap();
+            return state.fields[0].clone().unwrap();
         }
     };
     go(&story, 600);
     story.change(|scene| scene.events.truncate(12));
     let (there, now) = (go(&story, 607), field(&story, 607));
-    assert!(shares(&there.state, &now));
+    assert!(shares(&there.key, &now));
     let (_, kept) = there.checkpoints.latest(&now).unwrap();
     assert!(kept.moment.tick == 600 && shares(kept, &now));
 }

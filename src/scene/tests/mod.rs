@@ -180,7 +180,7 @@ fn is_section(value: &toml::Value) -> bool {
     value.is_table() || value.as_array().is_some_and(|items| items.iter().any(toml::Value::is_table))
 }
 
-/// A number as TOML, in the form that its key wants.
+/// A number as TOML, in the form that its key takes.
 fn written(key: &str, default: &str, value: f64) -> String {
     // TOML writes `nan` where Rust writes `NaN`.
     let number = format!("{value:?}").to_lowercase();
@@ -285,7 +285,7 @@ fn bubbles_too_large_to_be_round_are_warned_of() {
 }
 
 /// Real films: of 20 to 2000 mm²/s with their surfaces, up to 3 µm thick, on bubbles from a centimetre to a metre, in gravity no stronger
-/// than the Earth's, losing 100 nm a second at most, drawn with patches of millimetres.
+/// than the Earth's, losing 100 nm per second at most, drawn with patches of millimetres.
 #[test]
 fn presets_have_constants_of_real_films() {
     for name in preset_names() {

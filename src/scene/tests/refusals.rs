@@ -30,7 +30,7 @@ fn assert_refused(cases: &[Case]) {
 
 #[test]
 fn version_is_required_and_known() {
-    let unknown = |found: &str| format!("version {found} cannot be read here; this program reads `version = 1`");
+    let unknown = |found: &str| format!("version {found} is not supported; this program reads `version = 1`");
     assert_eq!(refusal(""), "s.toml:1: no version; add `version = 1` at the top");
     assert_eq!(refusal("\nversion = 2\nnew_in_2 = 1"), format!("s.toml:2: {}", unknown("2")));
     assert_eq!(refusal("version = \"1\""), format!("s.toml:1: {}", unknown("\"1\"")));
@@ -105,7 +105,7 @@ fn tables_and_lists_are_told_apart() {
 }
 
 #[test]
-fn words_that_are_not_known_are_told_those_that_are() {
+fn an_unknown_word_is_answered_with_the_known_words() {
     let known: Vec<_> = Flow::ALL.iter().map(|flow| format!("`{}`", flow.name())).collect();
     let message = refusal(&with_version("[motion]\nflow = \"windy\""));
     let told = format!("unknown word `windy`, expected one of {}", known.join(", "));
@@ -121,7 +121,7 @@ fn values_have_their_type() {
         ),
         (
             "[motion]\nseed = -1",
-            "3: `seed` in [motion] is wrong: invalid value: integer `-1`, expected a whole number from 0 on",
+            "3: `seed` in [motion] is wrong: invalid value: integer `-1`, expected a whole number, 0 or more",
         ),
         ("[motion]\nflow = 3", "3: `flow` in [motion] is wrong: expected a word in quotes"),
         ("[camera]\ntarget_m = [\n0, 0]", "3: `target_m` in [camera] is a list of 2; it must hold 3 numbers"),
@@ -135,8 +135,8 @@ fn values_have_their_type() {
             "[[event]]\nkind = \"stir\"\nat = [1, 0, 0, 0]",
             "4: `at` in [[event]] is a list of 4; it must hold 3 numbers",
         ),
-        ("bubble = [{}, 3]", "2: [[bubble]] number 2 must be a table and holds a value of the type integer"),
-        ("bubble = [[[0, 0, 0], 50]]", "2: [[bubble]] must be a table and holds a value of the type array"),
+        ("bubble = [{}, 3]", "2: [[bubble]] number 2 must be a table, but is a value of the type integer"),
+        ("bubble = [[[0, 0, 0], 50]]", "2: [[bubble]] must be a table, but is a value of the type array"),
         (
             "[camera]\ntarget_m = 3",
             "3: `target_m` in [camera] is wrong: invalid type: integer `3`, expected a list of three numbers",
@@ -147,7 +147,7 @@ fn values_have_their_type() {
         ),
         (
             "[[event]]\nkind = \"motion\"\ntick = 0.5",
-            "4: `tick` in [[event]] is wrong: invalid type: floating point `0.5`, expected a whole number from 0 on",
+            "4: `tick` in [[event]] is wrong: invalid type: floating point `0.5`, expected a whole number, 0 or more",
         ),
         (
             "[[event]]\nkind = \"dance\"",
@@ -190,7 +190,7 @@ fn films_end_where_they_can() {
         ),
         (
             "[[bubble]]\nboundary = \"ring\"\nrim_deg = 160",
-            "4: `rim_deg` in [[bubble]] is 160; a ring's must be within 30 ..= 150",
+            "4: `rim_deg` in [[bubble]] is 160; for a ring it must be within 30 ..= 150",
         ),
         (
             "[[bubble]]\nboundary = \"bath\"\nradius_mm = 5",
@@ -202,15 +202,15 @@ fn films_end_where_they_can() {
         ),
         (
             "[[bubble]]\nboundary = \"ring\"\n[motion]\nspin_deg_s = [1, 0, 0]",
-            "5: `spin_deg_s` in [motion] turns films that have a rim over; only a turn about the vertical, [0, 0, z], leaves it in place",
+            "5: `spin_deg_s` in [motion] turns over films that have a rim; only a turn about the vertical, [0, 0, z], leaves the rim in place",
         ),
         (
             "[[bubble]]\nboundary = \"bath\"\n[motion]\nflow = \"stirred\"",
-            "5: `flow` in [motion] would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone",
+            "5: `flow` in [motion] would carry film across a rim; films with a rim move only by `\"free\"` or `\"rest\"`",
         ),
         (
             "[[bubble]]\nboundary = \"bath\"\n[[event]]\ntick = 3\nkind = \"motion\"\nflow = \"stirred\"",
-            "7: `flow` in [[event]] would carry film across a rim; films that have one move by `\"free\"` or `\"rest\"` alone",
+            "7: `flow` in [[event]] would carry film across a rim; films with a rim move only by `\"free\"` or `\"rest\"`",
         ),
         (
             "[[bubble]]\nboundary = \"bath\"\n[[event]]\nkind = \"drag\"\nto_m = [0, 0, 1]",

@@ -36,14 +36,14 @@ fn they_reach_every_kind_of_key() {
 }
 
 #[test]
-fn a_bubble_that_the_text_leaves_out_is_the_default_one() {
+fn settings_apply_to_the_default_bubble_of_a_text_without_bubbles() {
     let scene = read("version = 1", &["bubble.0.radius_mm=30"]).unwrap();
     assert_eq!((scene.bubbles.len(), scene.bubbles[0].radius_mm), (1, 30.0));
     assert_eq!(read("version = 1", &["bubble=[]"]).unwrap().bubbles.len(), 0);
 }
 
 #[test]
-fn the_one_at_fault_is_named_and_not_a_line() {
+fn a_faulty_setting_is_named_instead_of_a_line() {
     for (setting, told) in [
         ("view.exposure=2", "unknown key `exposure` in [view]; did you mean `exposure_ev`?"),
         ("veiw.exposure_ev=2", "unknown key `veiw`; did you mean `view`?"),
@@ -67,7 +67,7 @@ fn the_one_at_fault_is_named_and_not_a_line() {
             "camera={fov_y_deg = 'x', azimuth_deg = 3}",
             "`fov_y_deg` in [camera] is wrong: invalid type: string \"x\", expected a number",
         ),
-        ("version=2", "version 2 cannot be read here; this program reads `version = 1`"),
+        ("version=2", "version 2 is not supported; this program reads `version = 1`"),
         (
             "motion.flow=windy",
             "`flow` in [motion] is wrong: unknown word `windy`, expected one of `free`, `rest`, `sloshing`, `draught`, `stirred`, `jets`",
@@ -81,7 +81,7 @@ fn the_one_at_fault_is_named_and_not_a_line() {
 }
 
 #[test]
-fn what_is_no_setting_says_how_to_write_one() {
+fn an_invalid_setting_is_answered_with_the_syntax() {
     for wrong in ["view", "", "=3", "view..x=3", ".=3"] {
         let told = wrong.parse::<crate::scene::Setting>().unwrap_err();
         assert!(told.contains("KEY=VALUE"), "{wrong}: {told}");

@@ -101,7 +101,7 @@ pub fn osl_as_wgsl(functions: &str) -> String {
             ),
         ],
     );
-    // Channels as OpenImageIO orders them: those of the layer without a name, then of p, then of s.
+    // Channels as OpenImageIO orders them: first the layer without a name, then p, then s.
     let texture = "#define color vec3\nvec3 channels(float s, float t, int first) {\n\
                    int layer = (first == 0) ? 0 : (first == 3) ? 2 : 1;\n\
                    return textureLod(sampler2DArray(layers, filtering), vec3(s, t, float(layer)), 0.0).rgb;\n}\n";

@@ -41,7 +41,7 @@ fn truth(layer: usize, (cos_theta, thickness_nm): (f64, f64)) -> DVec3 {
     BT2020.from_xyz() * [0.5 * (s + p), s, p][layer]
 }
 
-/// Mean and maximum of differences, as parts of the most that a film reflects at the angle.
+/// Mean and maximum of differences, as fractions of the maximum reflectance at the angle.
 fn differences(layer: usize, found: impl Iterator<Item = DVec3>) -> (f64, f64) {
     let error = |(film, found): ((f64, f64), DVec3)| {
         (found - truth(layer, film)).abs().max_element() / OPTICS.film().max_reflectance(film.0)
@@ -104,7 +104,7 @@ fn files_of_every_kind_hold_the_same_table() {
     };
     for (layer, texels) in layers.iter().enumerate() {
         compare("film.exr", layer, sampled(texels));
-        // A planted error of half a row, as of coordinates that miss the texels' centres, would be found.
+        // A planted error of half a row, as of coordinates that miss the texels' centers, would be found.
         let half_a_row: Vec<Vec3> = texels.iter().zip(&texels[TABLE.columns..]).map(|(a, b)| 0.5 * (*a + *b)).collect();
         let shifted = [&half_a_row[..], &texels[texels.len() - TABLE.columns..]].concat();
         let (mean, _) = differences(layer, sampled(&shifted));

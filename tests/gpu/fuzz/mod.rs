@@ -23,7 +23,7 @@ use soapfilm::{
         colour::{BT2020, Gamut},
         environment::CubeMap,
     },
-    plan::{FilmKey, Moment, Pace, Shot, Want, want},
+    plan::{FilmKey, FrameRequest, Moment, Pace, Shot, request},
     scene::{Backdrop, Fault, Quality, Scene},
 };
 
@@ -101,16 +101,16 @@ fn any_valid_scene_is_drawn() {
 fn check(renderer: &mut Renderer, case: Case) -> Result<(), TestCaseError> {
     prop_assert_eq!(case.scene.validate(), Ok(()));
     let loaded = load(&case.scene);
-    let want = match wanted(&loaded, case.moment) {
-        Ok(want) => want,
+    let request = match frame_request(&loaded, case.moment) {
+        Ok(request) => request,
         // Nothing can be seen from below a bath.
         Err(fault) if fault.to_string().contains("from below the bath") => return Ok(()),
         Err(error) => return Err(TestCaseError::fail(error.to_string())),
     };
-    let pixels = radiance(renderer, &want);
+    let pixels = radiance(renderer, &request);
     all_light(&pixels)?;
     if case.again {
-        repeats(renderer, &want, &pixels)?;
+        repeats(renderer, &request, &pixels)?;
     }
     if loaded.scene.view.quality == Quality::Fast {
         agrees_with_spectral(renderer, &loaded, case.moment, &pixels)?;
@@ -129,21 +129,21 @@ fn load(scene: &Scene) -> LoadedScene {
 }
 
 /// The picture at a moment, or at an earlier one where films would take too long to get there.
-fn wanted(loaded: &LoadedScene, mut moment: Moment) -> Result<Want, Fault> {
+fn frame_request(loaded: &LoadedScene, mut moment: Moment) -> Result<FrameRequest, Fault> {
     loop {
         let shot =
             Shot { size: SIZE, moment, full_precision: true, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-        let want = want(&loaded.scene, &loaded.resources, &shot)?;
-        if moment.tick == 0 || is_cheap(&want) {
-            return Ok(want);
+        let request = request(&loaded.scene, &loaded.resources, &shot)?;
+        if moment.tick == 0 || is_cheap(&request) {
+            return Ok(request);
         }
         moment.tick /= 2;
     }
 }
 
-fn is_cheap(want: &Want) -> bool {
+fn is_cheap(request: &FrameRequest) -> bool {
     let (mut steps, mut cells) = (0, 0);
-    for bubble in &want.picture.draw.bubbles {
+    for bubble in &request.picture.draw.bubbles {
         if let FilmKey::Field(film) = &bubble.film {
             let own = film.steps_from(0).take(MAX_STEPS + 1).count();
             (steps, cells) = (steps + own, cells + own as u64 * film.cell_count());
@@ -166,8 +166,8 @@ fn all_light(pixels: &[DVec3]) -> Result<(), TestCaseError> {
 }
 
 /// Another renderer draws the same bits.
-fn repeats(renderer: &Renderer, want: &Want, pixels: &[DVec3]) -> Result<(), TestCaseError> {
-    let again = radiance(&mut Renderer::new(renderer.gpu.clone()), want);
+fn repeats(renderer: &Renderer, request: &FrameRequest, pixels: &[DVec3]) -> Result<(), TestCaseError> {
+    let again = radiance(&mut Renderer::new(renderer.gpu.clone()), request);
     let bits = |pixels: &[DVec3]| pixels.iter().map(|rgb| rgb.to_array().map(f64::to_bits)).collect::<Vec<_>>();
     prop_assert!(bits(&again) == bits(pixels), "another picture each time");
     Ok(())
@@ -181,7 +181,7 @@ fn agrees_with_spectral(
 ) -> Result<(), TestCaseError> {
     let mut loaded = loaded.clone();
     loaded.scene.view.quality = Quality::Spectral;
-    let spectral = radiance(renderer, &wanted(&loaded, moment).unwrap());
+    let spectral = radiance(renderer, &frame_request(&loaded, moment).unwrap());
     let (mean, _) = mean_and_max(spectral.iter().map(|rgb| (BT2020.to_xyz() * *rgb).max_element()));
     let (apart, _) =
         mean_and_max(fast.iter().zip(&spectral).map(|(a, b)| (BT2020.to_xyz() * (*a - *b)).abs().max_element()));
@@ -195,14 +195,15 @@ fn vanishes(renderer: &mut Renderer, mut loaded: LoadedScene, moment: Moment) ->
     let (light, is_neutral) = (&mut loaded.scene.light, loaded.resources.environment.is_neutral());
     light.constant.get_or_insert(if is_neutral { [1.0; 3] } else { [1.0, 0.5, 0.25] });
     (light.patches, loaded.scene.view.backdrop) = (Vec::new(), Backdrop::Environment);
-    (loaded.resources.environment, loaded.resources.lamps) = (Arc::new(CubeMap::constant(DVec3::ONE)), Vec::new());
-    let want = wanted(&loaded, moment).unwrap();
-    if want.picture.draw.on_bath {
+    (loaded.resources.environment, loaded.resources.spectral_lights) =
+        (Arc::new(CubeMap::constant(DVec3::ONE)), Vec::new());
+    let request = frame_request(&loaded, moment).unwrap();
+    if request.picture.draw.on_bath {
         return Ok(());
     }
-    let light = &want.picture.draw.lighting.light;
+    let light = &request.picture.draw.lighting.light;
     let even = light.seen * light.gain;
-    let pixels = radiance(renderer, &want);
+    let pixels = radiance(renderer, &request);
     let (_, error) = mean_and_max(pixels.into_iter().map(|rgb| (rgb - even).abs().max_element()));
     prop_assert!(error <= 1e-3 * even.abs().max_element(), "seen in even light: {} beside {}", error, even);
     Ok(())

@@ -44,7 +44,7 @@ pub struct Frame {
     patches: usize,
     /// Sections of the kinds of the events.
     events: Vec<&'static str>,
-    /// From the first bubble's centre to the eye in radii, where the camera looks at that bubble; else it looks anywhere.
+    /// From the first bubble's center to the eye in radii, where the camera looks at that bubble; else it looks anywhere.
     radii: Option<f64>,
 }
 

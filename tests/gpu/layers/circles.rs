@@ -122,7 +122,7 @@ impl Modules {
         Self(modules.map(|(name, code)| (name, Module::of(without_tests(&code)))).collect())
     }
 
-    /// The module that defines what a path of a module leads to; nothing for a path out of the crate.
+    /// The module that defines what a path of a module leads to; `None` for a path out of the crate.
     fn resolve(&self, from: &Name, path: &[String]) -> Option<Name> {
         let ups = path.iter().take_while(|part| *part == "super").count();
         let (mut at, rest) = match path.first()?.as_str() {

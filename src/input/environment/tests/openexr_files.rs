@@ -43,7 +43,7 @@ fn honours_chromaticities() {
         openexr::attribute::Chromaticities { red: chromaticities.blue, green: chromaticities.blue, ..chromaticities };
     let (environment, told) = load_told("a.exr", &Exr { chromaticities: Some(grey), ..Exr::default() }.bytes());
     assert_pixels(&environment, BT709.to_bt2020().unwrap());
-    assert_eq!(told, ["has chromaticities of no colour space and is taken as BT.709"]);
+    assert_eq!(told, ["has chromaticities of no valid colour space and is read as BT.709"]);
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn the_flat_part_beside_a_deep_one_is_taken() {
 }
 
 #[test]
-fn what_the_decoder_cannot_do_is_not_called_damaged() {
+fn an_unsupported_file_is_not_called_damaged() {
     let bytes = Exr { compression: openexr::Compression::ZIP16, ..Exr::default() }.bytes();
     let compression = b"compression\0compression\0\x01\0\0\0";
     let at = compression.len() + bytes.windows(compression.len()).position(|window| window == compression).unwrap();

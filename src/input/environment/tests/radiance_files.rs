@@ -86,7 +86,7 @@ fn radiance_headers_are_read_as_people_have_them() {
         assert_eq!(notes, [format!("has a line `{line}` in its header, which {reason} and is ignored")]);
     }
     let (_, notes) = told("#?RADIANCE\nPRIMARIES=1 1 1 1 1 1 1 1", [128, 64, 32, 129]);
-    assert_eq!(notes, ["has chromaticities of no colour space and is taken as BT.709"]);
+    assert_eq!(notes, ["has chromaticities of no valid colour space and is read as BT.709"]);
     let message = message("a.hdr", &radiance("#?RADIANCE\nFORMAT=Radiance_spectra", 4, 2, [0; 4]));
     assert!(message.contains("its FORMAT is `Radiance_spectra`"), "{message}");
 }

@@ -91,7 +91,7 @@ fn mean_radiance_weighs_by_solid_angle() {
 }
 
 #[test]
-fn what_f16_cannot_hold_is_repaired_and_counted() {
+fn values_beyond_f16_are_repaired_and_counted() {
     let map = CubeMap::from_fn(2, 1, |direction| match CubeFace::of_direction(direction).0 {
         CubeFace::PositiveX => DVec3::splat(1e30),
         CubeFace::NegativeY => DVec3::splat(f64::NAN),

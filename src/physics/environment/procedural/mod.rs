@@ -19,7 +19,7 @@ words! {
     }
 }
 
-/// The maps of all of them, each made when it is first asked for: the room takes seconds.
+/// The maps of all built-in environments, each made at its first use: the room takes seconds.
 static MAPS: [LazyLock<Arc<CubeMap>>; Procedural::ALL.len()] =
     [LazyLock::new(|| Procedural::Tent.made()), LazyLock::new(|| Procedural::Windows.made())];
 

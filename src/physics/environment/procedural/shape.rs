@@ -49,7 +49,7 @@ mod tests {
         let distance = |x, y| rounded_box_distance(DVec2::new(x, y), DVec2::new(3.0, 2.0), 1.0);
         assert_eq!(distance(4.0, 0.0), 1.0);
         assert_eq!(distance(0.0, 0.0), -2.0);
-        // The rounded corner's centre is (2, 1).
+        // The rounded corner's center is (2, 1).
         assert!((distance(2.0 + 3.0, 1.0 + 4.0) - 4.0).abs() < 1e-15);
     }
 

@@ -29,7 +29,7 @@ enum Wall {
 struct Window {
     wall: Wall,
     /// Its middle in metres: along the wall (y behind, x at the sides) and up; x and y in the ceiling.
-    centre_m: DVec2,
+    center_m: DVec2,
     half_size_m: DVec2,
     /// Panes along the wall and up.
     panes: DVec2,
@@ -42,35 +42,35 @@ const COOL_SKY: DVec3 = DVec3::new(0.80, 0.86, 0.95);
 const WINDOWS: [Window; 5] = [
     Window {
         wall: Wall::Behind,
-        centre_m: DVec2::new(-0.40, 0.28),
+        center_m: DVec2::new(-0.40, 0.28),
         half_size_m: DVec2::new(1.08, 1.02),
         panes: DVec2::new(3.0, 3.0),
         sky: DVec3::new(0.94, 1.0, 1.08),
     },
     Window {
         wall: Wall::Left,
-        centre_m: DVec2::new(0.50, 0.24),
+        center_m: DVec2::new(0.50, 0.24),
         half_size_m: DVec2::new(0.58, 1.02),
         panes: DVec2::new(2.0, 3.0),
         sky: COOL_SKY,
     },
     Window {
         wall: Wall::Left,
-        centre_m: DVec2::new(-1.25, 0.24),
+        center_m: DVec2::new(-1.25, 0.24),
         half_size_m: DVec2::new(0.58, 1.02),
         panes: DVec2::new(2.0, 3.0),
         sky: COOL_SKY,
     },
     Window {
         wall: Wall::Right,
-        centre_m: DVec2::new(0.0, 0.26),
+        center_m: DVec2::new(0.0, 0.26),
         half_size_m: DVec2::new(0.82, 0.98),
         panes: DVec2::new(2.0, 2.0),
         sky: DVec3::new(0.98, 0.90, 0.79),
     },
     Window {
         wall: Wall::Ceiling,
-        centre_m: DVec2::new(0.15, 0.35),
+        center_m: DVec2::new(0.15, 0.35),
         half_size_m: DVec2::new(0.42, 1.0),
         panes: DVec2::new(1.0, 4.0),
         sky: DVec3::new(0.72, 0.80, 0.92),
@@ -136,7 +136,7 @@ fn corner_shade(hit: DVec3) -> f64 {
 impl Window {
     /// The window's middle in the room, and the direction into the room there.
     fn middle(&self) -> (DVec3, DVec3) {
-        let DVec2 { x: along, y: up } = self.centre_m;
+        let DVec2 { x: along, y: up } = self.center_m;
         match self.wall {
             Wall::Behind => (DVec3::new(ROOM_MAX.x, along, up), DVec3::NEG_X),
             Wall::Left => (DVec3::new(along, ROOM_MIN.y, up), DVec3::Y),
@@ -155,7 +155,7 @@ impl Window {
 
     /// The window in front of the wall's radiance `behind`, seen at `on_wall` along `direction`.
     fn over(&self, behind: DVec3, on_wall: DVec2, direction: DVec3) -> DVec3 {
-        let position = on_wall - self.centre_m;
+        let position = on_wall - self.center_m;
         let half = self.half_size_m;
         let frame = smoothstep(0.10, 0.06, rounded_box_distance(position, half, 0.02));
         let across = |axis: usize| panes(position[axis], half[axis], self.panes[axis], BAR_M, EDGE_M);

@@ -25,7 +25,7 @@ const ONSET_WIDTH: f64 = 0.1;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BlackeningLaw {
     /// What has evaporated from the film, nm.
-    pub thinned_nm: f64,
+    pub evaporated_nm: f64,
     /// Thickness of black film, at which evaporation ends, h_b, nm.
     pub black_nm: f64,
     /// Thickness below which film collapses, h_c, nm.
@@ -38,9 +38,9 @@ impl BlackeningLaw {
     /// The law of [`BLACK_FILM_NM`], [`BLACK_FILM_ONSET`] and [`BLACK_FILM_COLLAPSE`] for a film from which so much has evaporated, in ticks of a
     /// length in seconds.
     #[must_use]
-    pub fn new(thinned_nm: f64, tick_s: f64) -> Self {
+    pub fn new(evaporated_nm: f64, tick_s: f64) -> Self {
         Self {
-            thinned_nm,
+            evaporated_nm,
             black_nm: BLACK_FILM_NM,
             onset_nm: 1e9 * BLACK_FILM_ONSET,
             rate: BLACK_FILM_COLLAPSE * tick_s,
@@ -51,17 +51,17 @@ impl BlackeningLaw {
 /// Thickness in nm that is left of film from which so much would have evaporated: evaporation ends at black film, and what is thinner stays
 /// as it is.
 #[must_use]
-pub fn left_nm(thickness_nm: f64, thinned_nm: f64) -> f64 {
-    (thickness_nm - thinned_nm).max(thickness_nm.min(BLACK_FILM_NM))
+pub fn remaining_nm(thickness_nm: f64, evaporated_nm: f64) -> f64 {
+    (thickness_nm - evaporated_nm).max(thickness_nm.min(BLACK_FILM_NM))
 }
 
 /// A tracer, which departs from a level in nm, with what did not evaporate of film that was black already given back to it.
 #[must_use]
 pub fn stop_evaporation(tracer: &PaddedField<f64>, law: &BlackeningLaw, level_nm: f64) -> PaddedField<f64> {
-    let thinned_level_nm = level_nm - law.thinned_nm;
+    let remaining_level_nm = level_nm - law.evaporated_nm;
     let spared = |departure: &f64| {
-        let left = (departure + thinned_level_nm).max((departure + level_nm).min(law.black_nm));
-        departure.max(left - thinned_level_nm)
+        let left = (departure + remaining_level_nm).max((departure + level_nm).min(law.black_nm));
+        departure.max(left - remaining_level_nm)
     };
     PaddedField::from_padded(tracer.grid(), tracer.padded().iter().map(spared).collect())
 }
@@ -88,7 +88,7 @@ pub fn collapse(
     ticks: u32,
     halo: &HaloTable,
 ) -> PaddedField<f64> {
-    let (grid, level_nm) = (tracer.grid(), level_nm - law.thinned_nm);
+    let (grid, level_nm) = (tracer.grid(), level_nm - law.evaporated_nm);
     let film = Collapse {
         law,
         tracer,
@@ -96,10 +96,10 @@ pub fn collapse(
         level_nm,
         ticks,
     };
-    let shed = PaddedField::from_places(grid, HALO, |place| film.share_nm(place)).with_bounded_halo(halo);
+    let shares = PaddedField::from_places(grid, HALO, |place| film.share_nm(place)).with_bounded_halo(halo);
     let gathered = |place: usize| {
         let is_thick = !film.is_thin(place);
-        let gained: f64 = if is_thick { around(&shed, place).map(|near| shed.padded()[near]).sum() } else { 0.0 };
+        let gained: f64 = if is_thick { around(&shares, place).map(|near| shares.padded()[near]).sum() } else { 0.0 };
         tracer.padded()[place] - film.lost_nm(place) + gained
     };
     PaddedField::from_places(grid, HALO, gathered).with_bounded_halo(halo)
@@ -109,7 +109,7 @@ pub fn collapse(
 fn means(tracer: &PaddedField<f64>, limit: f64, halo: &HaloTable) -> PaddedField<f64> {
     let (grid, width) = (tracer.grid(), tracer.grid().padded_width());
     let is_inside = |column: usize| (HALO..width - HALO).contains(&column);
-    // Along rows, those of the halo included, then along columns.
+    // Along rows, including rows of the halo, then along columns.
     let along_row = |place: usize| {
         if is_inside(place % width) { mean_along(tracer.padded(), place, 1, limit) } else { 0.0 }
     };
@@ -169,8 +169,8 @@ mod tests {
 
     const LEVEL_NM: f64 = 100.0;
 
-    fn law(thinned_nm: f64) -> BlackeningLaw {
-        BlackeningLaw::new(thinned_nm, 1.0 / 60.0)
+    fn law(evaporated_nm: f64) -> BlackeningLaw {
+        BlackeningLaw::new(evaporated_nm, 1.0 / 60.0)
     }
 
     fn film(nm: impl Fn(DVec3) -> f64 + Sync) -> (PaddedField<f64>, HaloTable) {
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_spot_loses_is_found_around_it() {
+    fn the_film_around_a_black_spot_gains_what_the_spot_loses() {
         let (tracer, halo) = film(|x| 60.0 - 25.0 * (-(x - DVec3::X).length_squared() / 0.05).exp());
         let after = collapse(&tracer, &law(0.0), LEVEL_NM, 6, &halo);
         let areas = tracer.grid().areas();
@@ -207,8 +207,11 @@ mod tests {
         let spared = stop_evaporation(&tracer, &law(25.0), LEVEL_NM);
         for (before, after) in tracer.padded().iter().zip(spared.padded()) {
             let [before, after] = [before, after].map(|departure| LEVEL_NM + departure);
-            assert!((left_nm(before, 25.0) - (after - 25.0)).abs() < 1e-12, "{before} {after}");
+            assert!((remaining_nm(before, 25.0) - (after - 25.0)).abs() < 1e-12, "{before} {after}");
         }
-        assert_eq!((left_nm(500.0, 100.0), left_nm(12.0, 100.0), left_nm(4.0, 100.0)), (400.0, 10.0, 4.0));
+        assert_eq!(
+            (remaining_nm(500.0, 100.0), remaining_nm(12.0, 100.0), remaining_nm(4.0, 100.0)),
+            (400.0, 10.0, 4.0)
+        );
     }
 }

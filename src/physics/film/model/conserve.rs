@@ -60,7 +60,7 @@ impl Liquid {
         field.cells().iter().zip(&self.areas).map(|(value, area)| area * (value - self.mean)).sum()
     }
 
-    /// Takes a field as it is for what must be conserved, because evaporation has spared some of it.
+    /// Makes the present amount the one to be conserved, because evaporation has spared some film.
     pub fn count_spared(&mut self, field: &PaddedField<f64>) {
         self.spared_nm = self.gained(field) / self.film_area + self.drained_nm;
     }
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_counted_is_not_restored() {
+    fn counted_losses_are_not_restored() {
         let film = field(|x| x.z);
         let mut liquid = Liquid::of(&film, None);
         liquid.unbind();

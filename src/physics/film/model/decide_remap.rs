@@ -1,4 +1,4 @@
-//! When the tracer is looked up for good and a new map begun: the twin of `shaders/pass/decide_remap.wgsl`.
+//! When the tracer is looked up and stored, and a new map begins: the twin of `shaders/pass/decide_remap.wgsl`.
 //!
 //! A map is interpolated by cubics, which err halfway between cells by 3/128 of its fourth difference. With D the angle between cells and ε the
 //! limit, it is remapped where along either axis
@@ -7,7 +7,7 @@
 //! 3/128 |Δ⁴ M| > ε D                                                                                 (M5)
 //! ```
 //!
-//! or where a cell is turned inside out, and at the latest after so many ticks.
+//! or where a cell is turned inside out, and at the latest after a maximum number of ticks.
 
 use glam::DVec3;
 
@@ -39,7 +39,7 @@ impl RemapRule {
         ticks > self.latest_ticks / 2
     }
 
-    /// The same rule where remaps must be no more than so many ticks apart, for each of several reasons that may not be there.
+    /// This rule where remaps must be at most a number of ticks apart, for each of several reasons, which may be absent.
     #[must_use]
     pub fn no_later_than(self, limits: impl IntoIterator<Item = Option<u32>>) -> Self {
         let latest_ticks = limits.into_iter().flatten().fold(self.latest_ticks, u32::min);

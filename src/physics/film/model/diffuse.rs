@@ -19,7 +19,7 @@ use crate::physics::{
 /// Stages of a part: as many as a panel's halo is wide.
 pub const STAGES: u32 = HALO as u32;
 /// Squared cell angles that one part can spread over: s stages are stable for (s² + s)/2 explicit steps, and one of those for 1/6, because at a
-/// panel's corners cells are narrower than at its centre.
+/// panel's corners cells are narrower than at its center.
 pub const MAX_SPREAD_PER_PART: f64 = 0.9;
 /// Parts of one diffusion at most.
 const MAX_PARTS: u32 = 4;
@@ -47,7 +47,7 @@ impl DiffusionPlan {
         if per_tick <= 0.0 {
             return None;
         }
-        let [default_ticks, longest_ticks] = [DEFAULT_S, LONGEST_S].map(|most_s| (most_s / tick_s).max(1.0));
+        let [default_ticks, longest_ticks] = [DEFAULT_S, LONGEST_S].map(|max_s| (max_s / tick_s).max(1.0));
         let parts = (default_ticks * per_tick / MAX_SPREAD_PER_PART).ceil().min(f64::from(MAX_PARTS));
         let latest_ticks = longest_ticks.min(parts * MAX_SPREAD_PER_PART / per_tick).max(1.0) as u32;
         Some(Self { per_tick, parts: parts as u32, latest_ticks })
@@ -78,7 +78,7 @@ pub fn diffuse(field: PaddedField<f64>, plan: &DiffusionPlan, ticks: u32, halo: 
     })
 }
 
-/// One stage from the two before it, where so many cells around each place are known.
+/// One stage from the two before it, where a number of cells around each place are known.
 fn staged(before: &PaddedField<f64>, earlier: &PaddedField<f64>, stage: u32, spread: f64) -> PaddedField<f64> {
     let [of_before, of_earlier, of_laplacian] = stage_factors(stage);
     let angle2 = before.grid().cell_angle().powi(2);

@@ -9,7 +9,7 @@
 //!
 //! which is followed back for the ticks since the last remap, by the midpoint of the way. Black film does not drain, and neither does what
 //! is in the drop. Thin patches take the place of film at a rim (see [`Regeneration`](super::super::Regeneration)): with w a patch's thickness over
-//! that of the film around and s a smooth step from its middle outwards
+//! the thickness of the film around and s a smooth step from its middle outwards
 //!
 //! ```text
 //! h ← h Π (1 − s (1 − w))                                                                            (D2)
@@ -26,11 +26,11 @@ pub const REGENERATION_S: f64 = 0.1;
 /// Angle from the lowest point of a film within which what drains is in the drop, where nothing else says how large that is, radians: 5°.
 pub const DROP_RAD: f64 = 0.0873;
 
-/// The most ticks between two remaps of a film that drains, or regenerates, and that other reasons remap after so many ticks.
+/// The maximum number of ticks between two remaps of a film that drains, or regenerates, and that other reasons remap after `remap_ticks`.
 #[must_use]
 pub fn latest_ticks(regenerates: bool, remap_ticks: u32, tick_s: f64) -> f64 {
-    let most = if regenerates { REGENERATION_S / tick_s } else { f64::from(remap_ticks) };
-    most.max(1.0)
+    let max_ticks = if regenerates { REGENERATION_S / tick_s } else { f64::from(remap_ticks) };
+    max_ticks.max(1.0)
 }
 
 /// How film leaves at its rim, now.
@@ -41,7 +41,7 @@ pub struct DrainLaw {
     /// Times it and the cube of a thickness in nm, the flux of drainage in a tick, nm rad.
     pub flux: f64,
     /// What has evaporated, nm.
-    pub thinned_nm: f64,
+    pub evaporated_nm: f64,
     /// Thickness of black film, nm.
     pub black_nm: f64,
     /// Angle from the lowest point within which what drains is in the drop, radians; 0 where film drains over a rim.
@@ -72,7 +72,7 @@ pub fn drain(
     ticks: u32,
     cap: Option<Cap>,
 ) -> PaddedField<f64> {
-    let film = Draining { law, tracer, level_nm: level_nm - law.thinned_nm, ticks };
+    let film = Draining { law, tracer, level_nm: level_nm - law.evaporated_nm, ticks };
     let grid = tracer.grid();
     PaddedField::from_places(grid, 0, |place| {
         let x = grid.padded_direction(place);

@@ -19,7 +19,8 @@ use crate::physics::{
 /// The logarithm of the thickness over a reference in nm (M7), for departures of the tracer from a level in nm.
 #[must_use]
 pub fn log_thickness(departures: &[f64], level_nm: f64, part: &FreePart, reference_nm: f64) -> Vec<f64> {
-    let nm = |departure: f64| (departure + level_nm - part.thinned_nm).max((departure + level_nm).min(part.black_nm));
+    let nm =
+        |departure: f64| (departure + level_nm - part.evaporated_nm).max((departure + level_nm).min(part.black_nm));
     departures.iter().map(|departure| (nm(*departure) / reference_nm).ln()).collect()
 }
 
@@ -43,7 +44,7 @@ pub fn source(pushes: &[Push], flow: &FlowSolver) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::film::model::left_nm;
+    use crate::physics::film::model::remaining_nm;
 
     #[test]
     fn the_flow_feels_what_evaporation_has_left() {
@@ -52,14 +53,14 @@ mod tests {
             dt_s: 0.1,
             forces: FlowForces::default(),
             pushes: Vec::new(),
-            thinned_nm: 120.0,
+            evaporated_nm: 120.0,
             black_nm: 10.0,
             strain: 0.0,
         };
         assert_eq!((part.reference_nm(600.0), part.reference_nm(90.0)), (480.0, 10.0));
         let felt = log_thickness(&[0.0, -100.0, 100.0, -195.0], 200.0, &part, 80.0);
         for (log, nm) in felt.into_iter().zip([200.0, 100.0, 300.0, 5.0]) {
-            assert!((80.0 * log.exp() / left_nm(nm, 120.0) - 1.0).abs() < 1e-12, "{nm}");
+            assert!((80.0 * log.exp() / remaining_nm(nm, 120.0) - 1.0).abs() < 1e-12, "{nm}");
         }
     }
 }

@@ -17,7 +17,7 @@ mod trace_step;
 
 use glam::DVec3;
 
-pub use blacken::{BlackeningLaw, collapse, left_nm, stop_evaporation};
+pub use blacken::{BlackeningLaw, collapse, remaining_nm, stop_evaporation};
 pub use compose_map::compose_map;
 pub use conserve::{Liquid, film_areas};
 pub use decide_remap::{RemapClock, RemapRule, distortion};
@@ -188,7 +188,7 @@ impl Film {
     /// Decides on a remap as often as it must, and lets what it is due for happen.
     fn remap_if_due(&mut self, step: &FilmStep) {
         let spreads = DiffusionPlan::new(step.law.diffusion(), step.tick_s, self.grid().cell_angle());
-        let drains = step.drain.as_ref().map(|(_, most)| *most);
+        let drains = step.drain.as_ref().map(|(_, max_ticks)| *max_ticks);
         let rule = self.rules.remap.no_later_than([spreads.map(|plan| plan.latest_ticks), drains]);
         let (ticks, Some(map)) = (self.clock.since_decision, &self.map) else { return };
         if ticks < rule.decision_ticks() || !self.clock.decide(rule, map) {
@@ -238,7 +238,7 @@ impl Film {
 
     /// Evaporation has ended where film is black, and what collapsing film loses goes to the film around it.
     fn blacken(&mut self, law: &BlackeningLaw, ticks: u32) {
-        if law.thinned_nm > 0.0 {
+        if law.evaporated_nm > 0.0 {
             self.tracer = stop_evaporation(&self.tracer, law, self.level_nm);
             self.liquid.count_spared(&self.tracer);
         }
@@ -251,7 +251,7 @@ impl Film {
         self.shown(self.map.as_ref())
     }
 
-    /// The same a part of a step later, in the law that drives the film from a time in seconds on for so many seconds.
+    /// This thickness a fraction of a step later, in the law that drives the film from a time in seconds on for a number of seconds.
     #[must_use]
     pub fn thickness_ahead_nm(&self, law: FlowLaw, from_s: f64, dt_s: f64) -> Vec<f64> {
         let step = match law {

@@ -1,7 +1,7 @@
-//! The film model as a list: what is done in a step, in order.
+//! The film model as a list: the operations of a step, in order.
 //!
 //! Each operation is a pass on the device, with the shader's name, and a function in f64 here. `Film` executes these lists; the device records the same
-//! passes in the same order, and `tests/gpu/film_model.rs` holds the two together.
+//! passes in the same order, and `tests/gpu/film_model.rs` compares the two.
 
 /// What is done to a film in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,8 +12,8 @@ pub enum Operation {
     BlowAir,
     /// What pushes it: `flow_push`.
     Push,
-    /// Vorticity and stream function move on by a step: `flow_force`, `flow_trace`, the multigrid solves of viscosity and of ψ, `flow_image` and
-    /// `flow_hold`.
+    /// Vorticity and stream function move on by a step: `flow_force`, `flow_trace`, the multigrid solves of viscosity and of ψ, `flow_mirror` and
+    /// `flow_pin`.
     StepFlow,
     /// Where the liquid of each cell was when the step began: `trace_flow`, or `trace_step` for flows in closed form.
     TraceStep,
@@ -38,7 +38,7 @@ pub const FREE_STEP: [Operation; 7] = [
 /// A step of a film that is moved by a flow in closed form.
 pub const PRESCRIBED_STEP: [Operation; 3] = [Operation::TraceStep, Operation::ComposeMap, Operation::DecideRemap];
 
-/// What is done to a film when its map is looked through for good.
+/// The operations on a film at a remap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RemapOperation {
     /// The tracer is looked up through the map: `sample_tracer`.

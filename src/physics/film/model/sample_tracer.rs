@@ -12,7 +12,7 @@ use glam::DVec3;
 use super::compose_map::lookup;
 use crate::physics::sphere::{Cap, PaddedField};
 
-/// Where the liquid at unit vector `x`, the place in padded storage, or at its image was at the last remap. Nothing if it is where it was, at the
+/// Where the liquid at unit vector `x`, the place in padded storage, or at its image was at the last remap. `None` if it is where it was, at the
 /// same place of storage.
 fn origin(x: DVec3, place: usize, map: Option<&PaddedField<DVec3>>, cap: Option<Cap>) -> Option<DVec3> {
     match (cap.filter(|cap| !cap.contains(x)), map) {
@@ -57,14 +57,14 @@ mod tests {
     }
 
     #[test]
-    fn what_has_not_moved_is_the_same_to_the_bit() {
+    fn a_tracer_without_a_map_is_equal_to_the_bit() {
         let tracer = tracer();
         assert_eq!(sample_tracer(&tracer, None, None), tracer);
         assert_eq!(felt_tracer(&tracer, None, None), tracer.cells());
     }
 
     #[test]
-    fn what_is_beyond_a_rim_is_the_image_of_what_is_within() {
+    fn vorticity_beyond_a_rim_mirrors_the_vorticity_within() {
         let (cap, tracer) = (Cap::HEMISPHERE, tracer());
         let sampled = sample_tracer(&tracer, None, Some(cap));
         let grid = tracer.grid();

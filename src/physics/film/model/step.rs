@@ -19,7 +19,7 @@ pub struct FilmStep {
     pub law: FlowLaw,
     /// The steps of a film's own flow, in order; empty for other films.
     pub parts: Vec<FreePart>,
-    /// How the film drains, if it does, and the most ticks between two remaps that this allows.
+    /// How the film drains, if it does, and the maximum ticks between two remaps that this allows.
     pub drain: Option<(DrainLaw, u32)>,
     /// How it collapses to black film, if any of it may.
     pub blackening: Option<BlackeningLaw>,
@@ -37,7 +37,7 @@ pub struct FreePart {
     /// What pushes the film.
     pub pushes: Vec<Push>,
     /// What has evaporated from the film by the middle of the step, nm.
-    pub thinned_nm: f64,
+    pub evaporated_nm: f64,
     /// Thickness at which evaporation ends, nm.
     pub black_nm: f64,
     /// How fast the film may shear and turn because of what has pushed it, 1/s.
@@ -49,6 +49,6 @@ impl FreePart {
     /// film at least.
     #[must_use]
     pub fn reference_nm(&self, mean_nm: f64) -> f64 {
-        (mean_nm - self.thinned_nm).max(self.black_nm)
+        (mean_nm - self.evaporated_nm).max(self.black_nm)
     }
 }

@@ -17,7 +17,7 @@ pub fn trace_prescribed(grid: CubedSphere, flow: &PrescribedFlow, to_s: f64, dt_
     PaddedField::sample(grid, |x| backtrace(x, to_s, dt_s, |x, t| flow.velocity(x, t)))
 }
 
-/// The same in a solved velocity in rad/s that stands still meanwhile, by the implicit midpoint rule (F3).
+/// Traces a step in a solved velocity in rad/s, constant during the step, by the implicit midpoint rule (F3).
 #[must_use]
 pub fn trace_solved(velocity: &PaddedField<DVec3>, dt_s: f64) -> PaddedField<DVec3> {
     let grid = velocity.grid();

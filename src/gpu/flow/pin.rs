@@ -3,23 +3,23 @@
 use super::FlowGrid;
 use crate::gpu::{
     device::{Gpu, GpuError},
-    passes::flow_hold::{FlowHold, HoldUniform},
+    passes::flow_pin::{FlowPin, PinUniform},
     timing::{Recorder, STEP_FLOW},
     uniform_buffer::UniformBuffer,
 };
 use crate::physics::flow::PinnedRegion;
 
 /// What holds the film fast.
-pub(super) struct HeldDrop {
-    uniform: UniformBuffer<HoldUniform>,
+pub(super) struct PinnedDrop {
+    uniform: UniformBuffer<PinUniform>,
 }
 
-impl HeldDrop {
+impl PinnedDrop {
     /// A drop of an angular radius in radians.
     pub(super) fn new(gpu: &Gpu, grid: &FlowGrid, radius: f64) -> Self {
         let PinnedRegion { outer, inner } = PinnedRegion::new(radius, grid.sphere.cell_angle());
-        let uniform = HoldUniform { cells: grid.sphere.n() as u32, rim: outer as f32, inner: inner as f32, padding: 0 };
-        Self { uniform: gpu.uniform("hold", &uniform) }
+        let uniform = PinUniform { cells: grid.sphere.n() as u32, rim: outer as f32, inner: inner as f32, padding: 0 };
+        Self { uniform: gpu.uniform("pin", &uniform) }
     }
 
     /// Stops what flows in the drop.
@@ -30,8 +30,8 @@ impl HeldDrop {
         zeta: &wgpu::Buffer,
         psi: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
-        let kernel = FlowHold { hold: &self.uniform, tangents: &grid.tangents, zeta, psi };
-        kernel.flow_hold(recorder, STEP_FLOW, [1; 3])?;
+        let kernel = FlowPin { pin: &self.uniform, tangents: &grid.tangents, zeta, psi };
+        kernel.flow_pin(recorder, STEP_FLOW, [1; 3])?;
         grid.fill_halo(recorder, psi)
     }
 }

@@ -3,8 +3,8 @@
 use crate::gpu::kernel::{Read, ReadWrite, Uniform, kernels, shader_struct};
 
 shader_struct! {
-    /// The rim: see `shaders/pass/flow_image.wgsl`.
-    pub struct ImageUniform {
+    /// The rim: see `shaders/pass/flow_mirror.wgsl`.
+    pub struct MirrorUniform {
         /// Height of the rim.
         pub rim_z: f32,
         /// The inversion in it.
@@ -17,14 +17,14 @@ shader_struct! {
 }
 
 kernels! {
-    pass flow_image;
+    pass flow_mirror;
 
     /// Vorticity within the rim, and its image beyond.
-    struct FlowImage {
-        @0 mirror: Uniform<ImageUniform>;
+    struct FlowMirror {
+        @0 mirror: Uniform<MirrorUniform>;
         @1 tangents: Read<[f32]>;
         @2 zeta: Read<[f32]>;
-        @3 with_image: ReadWrite<[f32]>;
+        @3 with_mirror: ReadWrite<[f32]>;
     }
-    compute flow_image;
+    compute flow_mirror;
 }

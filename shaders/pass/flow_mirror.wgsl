@@ -1,10 +1,10 @@
-// Beyond the rim of a film, vorticity becomes the image of what is within: then nothing flows across the rim. One invocation a cell.
+// Beyond the rim of a film, vorticity becomes the image of what is within: then nothing flows across the rim. One invocation per cell.
 
 import package::sphere::cap::{Cap, image, stretch};
 import package::sphere::cubed::{HALO, locate, padded_index, panel_direction};
 
-// Mirrors `ImageUniform` in src/gpu/passes/flow_image.rs.
-struct Image {
+// Mirrors `MirrorUniform` in src/gpu/passes/flow_mirror.rs.
+struct Mirror {
     // Where the film ends: see `Cap`.
     rim_z: f32,
     inversion: f32,
@@ -12,12 +12,12 @@ struct Image {
     cells: u32,
 }
 
-@group(0) @binding(0) var<uniform> mirror: Image;
+@group(0) @binding(0) var<uniform> mirror: Mirror;
 // tan(alpha) of each cell coordinate, halo included.
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
 // Vorticity with its halo.
 @group(0) @binding(2) var<storage, read> zeta: array<f32>;
-@group(0) @binding(3) var<storage, read_write> with_image: array<f32>;
+@group(0) @binding(3) var<storage, read_write> with_mirror: array<f32>;
 
 // Bilinear: at the rim vorticity jumps, and a wider stencil would ring.
 fn zeta_at(x: vec3f) -> f32 {
@@ -31,17 +31,17 @@ fn zeta_at(x: vec3f) -> f32 {
 }
 
 @compute @workgroup_size(64)
-fn flow_image(@builtin(global_invocation_id) id: vec3u) {
+fn flow_mirror(@builtin(global_invocation_id) id: vec3u) {
     if (id.x >= mirror.cells) {
         return;
     }
     let x = normalize(panel_direction(id.z, vec2f(tangents[id.x + HALO], tangents[id.y + HALO])));
     let at = padded_index(id.z, i32(id.x), i32(id.y), mirror.cells);
     if (x.z >= mirror.rim_z) {
-        with_image[at] = zeta[at];
+        with_mirror[at] = zeta[at];
         return;
     }
     let cap = Cap(mirror.rim_z, mirror.inversion);
     let longer = stretch(cap, x);
-    with_image[at] = -longer * longer * zeta_at(image(cap, x));
+    with_mirror[at] = -longer * longer * zeta_at(image(cap, x));
 }

@@ -1,17 +1,17 @@
-//! The path of a bubble's centre, which follows a target that jumps from place to place.
+//! The path of a bubble's center, which follows a target that jumps from place to place.
 
 use glam::DVec3;
 
 use crate::physics::timeline::Prefix;
 
-/// Time constant τ of the critically damped motion `c″ = (target − c)/τ² − 2c′/τ`, s: a hand's. The centre comes within 4 % in 5 τ, and a jump
+/// Time constant τ of the critically damped motion `c″ = (target − c)/τ² − 2c′/τ`, s: a hand's. The center comes within 4 % in 5 τ, and a jump
 /// of the target by d accelerates it by up to d/τ², which for a radius of 5 cm is half of gravity.
 pub const SETTLING_S: f64 = 0.1;
 
-/// The path of a centre: in closed form between the jumps of its target.
+/// The path of a center: in closed form between the jumps of its target.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CentrePath {
-    /// From when on, in seconds, each target holds, and where the centre is and how fast at that time.
+pub struct CenterPath {
+    /// From when on, in seconds, each target holds, and where the center is and how fast at that time.
     legs: Prefix<Leg>,
 }
 
@@ -22,7 +22,7 @@ struct Leg {
     start: State,
 }
 
-/// How a centre moves on a leg: with `(start + slope s) e^(−s)` m/s, s the time since `from_s` over `settling_s`.
+/// How a center moves on a leg: with `(start + slope s) e^(−s)` m/s, s the time since `from_s` over `settling_s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LegMotion {
     pub from_s: f64,
@@ -31,7 +31,7 @@ pub(super) struct LegMotion {
     pub settling_s: f64,
 }
 
-/// Where a centre is and how fast it moves.
+/// Where a center is and how fast it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
     /// Place, m.
@@ -40,15 +40,15 @@ pub struct State {
     pub velocity_m_s: DVec3,
 }
 
-impl Default for CentrePath {
+impl Default for CenterPath {
     /// Rest at the origin.
     fn default() -> Self {
         Self::new(DVec3::ZERO, [])
     }
 }
 
-impl CentrePath {
-    /// The path of a centre that rests at a place until its target jumps, at times in seconds in their order.
+impl CenterPath {
+    /// The path of a center that rests at a place until its target jumps, at times in seconds in their order.
     #[must_use]
     pub fn new(rest_m: DVec3, jumps: impl IntoIterator<Item = (f64, DVec3)>) -> Self {
         let start = State { place_m: rest_m, velocity_m_s: DVec3::ZERO };
@@ -61,7 +61,7 @@ impl CentrePath {
         Self { legs: legs.into_iter().collect() }
     }
 
-    /// Where the centre is and how fast it moves at a time in seconds.
+    /// Where the center is and how fast it moves at a time in seconds.
     #[must_use]
     pub fn at(&self, time_s: f64) -> State {
         let begun = self.legs.partition_point(|leg| leg.from_s <= time_s);
@@ -80,13 +80,13 @@ impl CentrePath {
         self.legs.shares(&other.legs)
     }
 
-    /// Whether the centre never moves.
+    /// Whether the center never moves.
     #[must_use]
     pub fn is_still(&self) -> bool {
         self.legs.iter().all(|leg| leg.target_m == leg.start.place_m)
     }
 
-    /// How the centre moves from each jump on.
+    /// How the center moves from each jump on.
     pub(super) fn motions(&self) -> impl Iterator<Item = LegMotion> {
         self.legs.iter().map(|leg| {
             let a = leg.start.place_m - leg.target_m;
@@ -118,8 +118,8 @@ impl Leg {
 mod tests {
     use super::*;
 
-    fn path() -> CentrePath {
-        CentrePath::new(DVec3::Y, [(0.5, DVec3::X), (0.6, DVec3::new(1.0, 2.0, 3.0)), (0.63, DVec3::ZERO)])
+    fn path() -> CenterPath {
+        CenterPath::new(DVec3::Y, [(0.5, DVec3::X), (0.6, DVec3::new(1.0, 2.0, 3.0)), (0.63, DVec3::ZERO)])
     }
 
     #[test]
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn it_rests_before_and_arrives_without_passing() {
-        let path = CentrePath::new(DVec3::Y, [(0.5, DVec3::X)]);
+        let path = CenterPath::new(DVec3::Y, [(0.5, DVec3::X)]);
         assert_eq!(path.at(0.4), State { place_m: DVec3::Y, velocity_m_s: DVec3::ZERO });
         let way = |time: f64| (path.at(time).place_m - DVec3::Y).dot(DVec3::X - DVec3::Y) / 2.0;
         let ways: Vec<f64> = (0..200).map(|k| way(0.5 + 0.01 * f64::from(k))).collect();

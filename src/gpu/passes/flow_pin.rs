@@ -3,8 +3,8 @@
 use crate::gpu::kernel::{Read, ReadWrite, Uniform, kernels, shader_struct};
 
 shader_struct! {
-    /// The drop: see `shaders/pass/flow_hold.wgsl`.
-    pub struct HoldUniform {
+    /// The drop: see `shaders/pass/flow_pin.wgsl`.
+    pub struct PinUniform {
         /// Cells along a panel's edge.
         pub cells: u32,
         /// Angle from the bottom at which the drop begins, radians.
@@ -17,14 +17,14 @@ shader_struct! {
 }
 
 kernels! {
-    pass flow_hold;
+    pass flow_pin;
 
     /// Stops what flows in the drop.
-    struct FlowHold {
-        @0 hold: Uniform<HoldUniform>;
+    struct FlowPin {
+        @0 pin: Uniform<PinUniform>;
         @1 tangents: Read<[f32]>;
         @2 zeta: ReadWrite<[f32]>;
         @3 psi: ReadWrite<[f32]>;
     }
-    compute flow_hold;
+    compute flow_pin;
 }

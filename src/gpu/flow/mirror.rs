@@ -5,7 +5,7 @@ use crate::{
     gpu::{
         device::{Gpu, GpuError},
         grid::rim_numbers,
-        passes::flow_image::{FlowImage, ImageUniform},
+        passes::flow_mirror::{FlowMirror, MirrorUniform},
         timing::{Recorder, STEP_FLOW},
         uniform_buffer::UniformBuffer,
     },
@@ -13,20 +13,20 @@ use crate::{
 };
 
 /// What makes the image.
-pub(super) struct RimImage {
+pub(super) struct RimMirror {
     pub(super) cap: Cap,
-    uniform: UniformBuffer<ImageUniform>,
-    with_image: wgpu::Buffer,
+    uniform: UniformBuffer<MirrorUniform>,
+    with_mirror: wgpu::Buffer,
 }
 
-impl RimImage {
+impl RimMirror {
     pub(super) fn new(gpu: &Gpu, grid: &FlowGrid, cap: Cap) -> Self {
         let [rim_z, inversion] = rim_numbers(Some(cap));
-        let uniform = ImageUniform { rim_z, inversion, cells: grid.sphere.n() as u32, padding: 0 };
+        let uniform = MirrorUniform { rim_z, inversion, cells: grid.sphere.n() as u32, padding: 0 };
         Self {
             cap,
-            uniform: gpu.uniform("image", &uniform),
-            with_image: buffer(gpu, "vorticity with its image", grid.sphere.padded_len() as u64 * 4),
+            uniform: gpu.uniform("mirror", &uniform),
+            with_mirror: buffer(gpu, "vorticity with its mirror image", grid.sphere.padded_len() as u64 * 4),
         }
     }
 
@@ -38,10 +38,10 @@ impl RimImage {
         zeta: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
         grid.fill_halo(recorder, zeta)?;
-        let Self { uniform: mirror, with_image, .. } = self;
-        let kernel = FlowImage { mirror, tangents: &grid.tangents, zeta, with_image };
-        kernel.flow_image(recorder, STEP_FLOW, grid.groups())?;
-        recorder.encoder().copy_buffer_to_buffer(with_image, 0, zeta, 0, zeta.size());
+        let Self { uniform: mirror, with_mirror, .. } = self;
+        let kernel = FlowMirror { mirror, tangents: &grid.tangents, zeta, with_mirror };
+        kernel.flow_mirror(recorder, STEP_FLOW, grid.groups())?;
+        recorder.encoder().copy_buffer_to_buffer(with_mirror, 0, zeta, 0, zeta.size());
         Ok(())
     }
 }

@@ -1,12 +1,12 @@
-//! From a scene and a shot of it to what the picture needs.
+//! From a scene and a shot of it to a frame request: all that the picture needs.
 
 use std::{collections::BTreeMap, sync::Arc};
 
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    BackdropKey, BandsKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, LightKey, Lighting, Moment,
-    OpticsKey, Pace, Story, TableKey, TonemapKey, Want, exposed_ev,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, FrameRequest, LightKey, Lighting, Moment,
+    OpticsKey, Pace, QuadratureKey, Story, TableKey, TonemapKey, exposed_ev,
     films::{cap, has_field},
     range_nm,
 };
@@ -28,15 +28,15 @@ pub struct Resources {
     pub environment: Arc<CubeMap>,
     /// The light's spectrum.
     pub illuminant: Arc<Illuminant>,
-    /// Lamps of other spectra, which the environment lacks.
-    pub lamps: Vec<Lamp>,
+    /// Light of other illuminants, which the environment lacks.
+    pub spectral_lights: Vec<SpectralLight>,
     /// Liquids from files, by the paths that the scene gives them.
     pub liquids: BTreeMap<String, FilmIndex>,
 }
 
-/// All light of one spectrum that is not the scene's own.
+/// All light of one illuminant other than the scene's own.
 #[derive(Clone, Debug)]
-pub struct Lamp {
+pub struct SpectralLight {
     /// Where it comes from, in linear BT.2020.
     pub environment: Arc<CubeMap>,
     /// Its spectrum.
@@ -56,26 +56,26 @@ pub struct Shot {
     pub gamut: Gamut,
     /// Whether films are replaced by the yardstick of the frame's cost.
     pub yardstick: bool,
-    /// How much may be done at once.
+    /// How much work may be done at once.
     pub pace: Pace,
 }
 
-/// What a single shot of a scene needs. Whoever takes several has a [`Story`].
+/// The frame request for a single shot of a scene. For several shots, make a [`Story`] once.
 ///
 /// # Errors
 ///
-/// As [`Story::want`].
-pub fn want(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<Want, Fault> {
-    Story::new(scene.clone()).want(resources, shot)
+/// As [`Story::request`].
+pub fn request(scene: &Scene, resources: &Resources, shot: &Shot) -> Result<FrameRequest, Fault> {
+    Story::new(scene.clone()).request(resources, shot)
 }
 
 impl Story {
-    /// What a shot of the scene needs.
+    /// The frame request for a shot of the scene.
     ///
     /// # Errors
     ///
     /// The key of a scene that cannot be drawn: a camera below the bath, films of different liquids in one picture, an index that no film has.
-    pub fn want(&self, resources: &Resources, shot: &Shot) -> Result<Want, Fault> {
+    pub fn request(&self, resources: &Resources, shot: &Shot) -> Result<FrameRequest, Fault> {
         let scene: &Scene = self;
         let camera = camera(scene, shot.size);
         let bath_m =
@@ -90,12 +90,13 @@ impl Story {
             .enumerate()
             .filter_map(|(index, bubble)| visible(self, &camera, shot, index, bubble))
             .collect();
-        let distance = |bubble: &BubbleKey| bubble.centre_m.distance_squared(camera.eye_m);
+        let distance = |bubble: &BubbleKey| bubble.center_m.distance_squared(camera.eye_m);
         bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
         let film = material(scene, resources, &bubbles)?;
         let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
-        let own = Lamp { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
-        let lighting = |lamp: &Lamp, light: LightKey| lighting(scene, lamp, light, &film, range_nm);
+        let own =
+            SpectralLight { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
+        let lighting = |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &film, range_nm);
         let light = light(scene, resources, &camera);
         let draw = DrawKey {
             size: shot.size,
@@ -104,7 +105,11 @@ impl Story {
             yardstick: shot.yardstick,
             camera,
             lighting: lighting(&own, light),
-            lamps: resources.lamps.iter().map(|lamp| lighting(lamp, lamp_light(scene, lamp, light))).collect(),
+            spectral_lights: resources
+                .spectral_lights
+                .iter()
+                .map(|source| lighting(source, light_of(scene, source, light)))
+                .collect(),
             bubbles,
             on_bath: bath_m.is_some(),
         };
@@ -113,7 +118,7 @@ impl Story {
         let balance = if balances { white_balance(&resources.illuminant) } else { DMat3::IDENTITY };
         let exposure_ev = scene.view.exposure_ev;
         let picture = TonemapKey { draw, exposure_ev, balance, gamut: shot.gamut, dither };
-        Ok(Want { picture, has_field: scene.bubbles.iter().map(has_field).collect(), pace: shot.pace })
+        Ok(FrameRequest { picture, has_field: scene.bubbles.iter().map(has_field).collect(), pace: shot.pace })
     }
 }
 
@@ -149,42 +154,42 @@ fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     }
 }
 
-/// What a lamp's light is beside the scene's own.
-fn lamp_light(scene: &Scene, lamp: &Lamp, own: LightKey) -> LightKey {
+/// The light of another illuminant, given the scene's own light.
+fn light_of(scene: &Scene, source: &SpectralLight, own: LightKey) -> LightKey {
     let backdrop = match own.backdrop {
         BackdropKey::Environment => BackdropKey::Environment,
         // A colour behind the bubbles is seen by the scene's own light.
         BackdropKey::Colour(_) => BackdropKey::Colour(DVec3::ZERO),
     };
-    LightKey { gain: DVec3::splat(scene.light.intensity), seen: seen_light(&lamp.illuminant), backdrop, ..own }
+    LightKey { gain: DVec3::splat(scene.light.intensity), seen: seen_light(&source.illuminant), backdrop, ..own }
 }
 
-fn lighting(scene: &Scene, lamp: &Lamp, light: LightKey, film: &FilmMaterial, range_nm: f64) -> Lighting {
-    let optics = OpticsKey { film: film.clone(), illuminant: lamp.illuminant.clone() };
-    let bands = BandsKey { optics, range_nm, quality: scene.view.quality };
-    let table = bands.needs_table().then(|| table(scene, lamp, &light, &bands));
-    Lighting { light, environment: EnvironmentKey(lamp.environment.clone()), table, bands }
+fn lighting(scene: &Scene, source: &SpectralLight, light: LightKey, film: &FilmMaterial, range_nm: f64) -> Lighting {
+    let optics = OpticsKey { film: film.clone(), illuminant: source.illuminant.clone() };
+    let quadrature = QuadratureKey { optics, range_nm, quality: scene.view.quality };
+    let table = quadrature.needs_table().then(|| table(scene, source, &light, &quadrature));
+    Lighting { light, environment: EnvironmentKey(source.environment.clone()), table, quadrature }
 }
 
-fn table(scene: &Scene, lamp: &Lamp, light: &LightKey, bands: &BandsKey) -> TableKey {
-    let full = TableKey::full(bands.optics.clone(), bands.range_nm);
+fn table(scene: &Scene, source: &SpectralLight, light: &LightKey, quadrature: &QuadratureKey) -> TableKey {
+    let full = TableKey::full(quadrature.optics.clone(), quadrature.range_nm);
     let is_grey = |rgb: DVec3| rgb.max_element() - rgb.min_element() <= 1e-12 * rgb.max_element();
     let backdrop = match light.backdrop {
         BackdropKey::Colour(rgb) => is_grey(rgb),
         BackdropKey::Environment => true,
     };
-    let neutral = lamp.environment.is_neutral() && is_grey(light.gain) && backdrop;
+    let neutral = source.environment.is_neutral() && is_grey(light.gain) && backdrop;
     TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full }
 }
 
-/// Whether all films are made of the same. If not, it depends on the moment, by what is seen then, whether a shot is refused.
+/// Whether all films are made of the same material. If not, the films in sight at the moment decide whether a shot is refused.
 #[must_use]
 pub fn has_one_film(scene: &Scene) -> bool {
     let mut films = scene.bubbles.iter().map(|bubble| (&bubble.film.index, bubble.film.skin_nm));
     films.next().is_none_or(|first| films.all(|film| film == first))
 }
 
-/// What all visible films are made of.
+/// The material of all visible films.
 fn material(scene: &Scene, resources: &Resources, bubbles: &[BubbleKey]) -> Result<FilmMaterial, Fault> {
     let Some(first) = bubbles.iter().map(|bubble| bubble.index).min() else { return Ok(FilmMaterial::default()) };
     let film = &scene.bubbles[first].film;
@@ -192,10 +197,7 @@ fn material(scene: &Scene, resources: &Resources, bubbles: &[BubbleKey]) -> Resu
         let other = &scene.bubbles[bubble.index].film;
         let different = [("index", other.index != film.index), ("skin_nm", other.skin_nm != film.skin_nm)];
         if let Some((key, _)) = different.into_iter().find(|(_, differs)| *differs) {
-            let reason = format!(
-                "is another than that of [[bubble]] number {}; films in one picture must have the same",
-                first + 1
-            );
+            let reason = format!("differs from [[bubble]] number {}; all films in one picture must agree", first + 1);
             return Err(Fault::new(key, reason).inside("film").inside_item("bubble", bubble.index));
         }
     }
@@ -226,14 +228,14 @@ const SMALLEST_FIELD_PIXELS: f64 = 0.75;
 
 /// A bubble as the picture sees it, if any pixel can.
 fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
-    let centre_m = story.centre_m(index, shot.moment.ticks() * story.motion.tick_s);
+    let center_m = story.center_m(index, shot.moment.ticks() * story.motion.tick_s);
     let radius_m = bubble.radius_mm * 1e-3;
     let age = story.age(index, shot.moment)?;
-    // The bath holds a bubble's foot, and its oscillation is that of no sphere.
+    // The bath holds a bubble's foot, and it does not oscillate as a sphere does.
     let is_held = bubble.boundary == Boundary::Bath;
     let stretch = if is_held { DMat3::IDENTITY } else { age.life.shape(age.moment).stretch() };
-    let bounds = bounds(camera, shot.size, centre_m, radius_m * reach(stretch))?;
-    let distance = centre_m.distance(camera.eye_m).max(radius_m);
+    let bounds = bounds(camera, shot.size, center_m, radius_m * reach(stretch))?;
+    let distance = center_m.distance(camera.eye_m).max(radius_m);
     let radius_pixels = radius_m / distance / camera.pixel_height_m;
     let film = match story.film_of_age(index, &age) {
         FilmKey::Field(_) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(bubble.film.thickness_nm),
@@ -242,7 +244,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     let ticks = age.moment.ticks();
     Some(BubbleKey {
         index,
-        centre_m,
+        center_m,
         radius_m,
         stretch,
         bounds,
@@ -251,11 +253,11 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
             FilmKey::Uniform(_) => DMat3::IDENTITY,
             FilmKey::Field(_) => DMat3::from_quat(story.film_turn(age.life.born as f64 + ticks).inverse()),
         },
-        thinned_nm: age.life.evaporation.nm(ticks),
+        evaporated_nm: age.life.evaporation.nm(ticks),
         samples: samples(radius_pixels).max(if bubble.boundary == Boundary::Ring { RING_SAMPLES } else { 1 }),
         // The edge of a hole is no thickness between others.
         filtered: age.hole.is_none() && is_filtered(&film, radius_pixels),
-        magnified: is_magnified(&film, radius_m, radius_pixels, centre_m.distance(camera.eye_m)),
+        magnified: is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m)),
         film,
         hole: age.hole,
         cap: cap(bubble),
@@ -267,13 +269,13 @@ const MAGNIFIED_CELL_PIXELS: f64 = 3.0;
 
 fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f64) -> bool {
     let FilmKey::Field(field) = film else { return false };
-    // From inside, and for the nearest point from outside, the film is nearer than the centre.
+    // From inside, and for the nearest point from outside, the film is nearer than the center.
     let nearest_m = (distance_m - radius_m).abs().max(1e-3 * radius_m);
     let magnification = (distance_m.max(radius_m) / nearest_m).min(16.0);
     field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
 }
 
-/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples a pixel
+/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples per pixel
 /// see that better than a filter which takes the film to change evenly from pixel to pixel.
 fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
     let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < 1.0);
@@ -298,9 +300,9 @@ fn samples(radius_pixels: f64) -> u32 {
     }
 }
 
-/// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; nothing if it is outside.
-fn bounds(camera: &CameraKey, size: [u32; 2], centre_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
-    let offset = centre_m - camera.eye_m;
+/// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; `None` if it is outside.
+fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
+    let offset = center_m - camera.eye_m;
     let depth = offset.dot(camera.forward);
     if depth < -radius_m {
         return None;

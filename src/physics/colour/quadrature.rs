@@ -13,18 +13,18 @@ use crate::physics::optics::Polarised;
 
 /// One wavelength of a fitted sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Band {
+pub struct QuadratureWavelength {
     /// Its wavelength.
     pub wavelength_nm: f64,
     /// Refractive index of the film's liquid there.
     pub index: f64,
-    /// From the light, linear BT.2020, to what is seen of it where the film reflects 1 at this wavelength, linear BT.2020.
+    /// Matrix from the light, linear BT.2020, to its colour where the film reflects 1 at this wavelength, linear BT.2020.
     pub response: DMat3,
 }
 
-/// What a sum over bands is for.
+/// What a quadrature is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BandTask {
+pub enum QuadratureTask {
     /// Only the products of two and more walls' reflectances; single walls come from a table.
     CrossTerms,
     /// Single walls too.
@@ -33,9 +33,9 @@ pub enum BandTask {
 
 /// Films that the fit is trained on; each gives a row for each of three products.
 const FILMS: usize = 1500;
-/// Wavelengths that a band may have, nm: beyond them the observer sees too little for one to be worth having.
+/// Candidate wavelengths, nm: beyond them the observer sees too little.
 const CANDIDATES: std::ops::RangeInclusive<u32> = 384..=716;
-/// Bands from which on they stand as close as their candidates: all of those are then tried that there are, and moving single ones no longer
+/// Wavelengths from which on they stand as close as their candidates: all of those are then tried that there are, and moving single ones no longer
 /// helps.
 const MANY: usize = 120;
 /// Smallest cosine of the angle of incidence in training.
@@ -43,30 +43,37 @@ const MIN_COS: f64 = 0.04;
 /// Weight of a solution's size against its error, relative to the mean square of the films' reflectance: keeps weights small enough for f32.
 const RIDGE: f64 = 1e-9;
 
-/// Fits `count` bands for films up to `range_nm`. A light with no more wavelengths than that is summed exactly.
-pub fn fit_bands(optics: &FilmOptics, task: BandTask, count: usize, range_nm: f64) -> Vec<Band> {
+/// Fits `count` wavelengths for films up to `range_nm`. A light with no more wavelengths than that is summed exactly.
+pub fn fit_quadrature(
+    optics: &FilmOptics,
+    task: QuadratureTask,
+    count: usize,
+    range_nm: f64,
+) -> Vec<QuadratureWavelength> {
     let responses = responses(optics);
     let wavelengths = optics.weights().wavelengths_nm();
     if wavelengths.len() <= count {
-        let bands = wavelengths.iter().zip(optics.indices()).zip(responses);
-        return bands.map(|((nm, n), response)| Band { wavelength_nm: *nm, index: *n, response }).collect();
+        let fitted = wavelengths.iter().zip(optics.indices()).zip(responses);
+        return fitted
+            .map(|((nm, n), response)| QuadratureWavelength { wavelength_nm: *nm, index: *n, response })
+            .collect();
     }
-    // Finer places change the errors of fewer bands by less than a tenth.
+    // Finer places change the errors of fewer wavelengths by less than a tenth.
     let step_nm = if count > MANY { 1 } else { 2 };
     let candidates: Vec<f64> = CANDIDATES.step_by(step_nm).map(f64::from).collect();
     let fit = Fit::new(&training(optics, task, range_nm, &candidates, &responses), candidates.len());
     let start = fit.start(&candidates, count);
     let chosen = if count > MANY { start } else { fit.exchanged(start) };
     let weights = fit.solve(&chosen);
-    let band = |(k, at): (usize, &usize)| Band {
+    let wavelength = |(k, at): (usize, &usize)| QuadratureWavelength {
         wavelength_nm: candidates[*at],
         index: optics.film().index.n(candidates[*at]),
         response: DMat3::from_cols_array(&std::array::from_fn(|target| weights[k][target])),
     };
-    chosen.iter().enumerate().map(band).collect()
+    chosen.iter().enumerate().map(wavelength).collect()
 }
 
-/// For each wavelength of the light, the matrix from BT.2020 light to what is seen of it, where everything is reflected.
+/// For each wavelength of the light, the matrix from BT.2020 light to its colour, where everything is reflected.
 pub fn responses(optics: &FilmOptics) -> Vec<DMat3> {
     let (to_bt2020, to_bt709) = (BT2020.from_xyz(), bt2020_to_bt709());
     let weights = optics.weights();
@@ -89,15 +96,21 @@ struct Row {
 }
 
 /// Three products for each of many films: those that stand before the light from different directions, and so must each be right.
-fn training(optics: &FilmOptics, task: BandTask, range_nm: f64, candidates: &[f64], responses: &[DMat3]) -> Vec<Row> {
+fn training(
+    optics: &FilmOptics,
+    task: QuadratureTask,
+    range_nm: f64,
+    candidates: &[f64],
+    responses: &[DMat3],
+) -> Vec<Row> {
     let film = |k: usize| {
         // An additive recurrence (the generalised golden ratio of four dimensions) fills the box of films evenly.
         let part = |step: f64| (0.5 + step * (k + 1) as f64).fract();
         let angle = part(0.8566748838545029);
         let cos_theta = match task {
             // As on a disk: the eye meets few pixels at the rim.
-            BandTask::CrossTerms => (MIN_COS * MIN_COS + (1.0 - MIN_COS * MIN_COS) * angle).sqrt(),
-            BandTask::Everything => MIN_COS + (1.0 - MIN_COS) * angle,
+            QuadratureTask::CrossTerms => (MIN_COS * MIN_COS + (1.0 - MIN_COS * MIN_COS) * angle).sqrt(),
+            QuadratureTask::Everything => MIN_COS + (1.0 - MIN_COS) * angle,
         };
         let walls_nm = [0.733891856627126, 0.6287067210378087, 0.5385972572236101].map(|step| range_nm * part(step));
         film_rows(optics, task, cos_theta, walls_nm, candidates, responses)
@@ -107,7 +120,7 @@ fn training(optics: &FilmOptics, task: BandTask, range_nm: f64, candidates: &[f6
 
 fn film_rows(
     optics: &FilmOptics,
-    task: BandTask,
+    task: QuadratureTask,
     cos_theta: f64,
     walls_nm: [f64; 3],
     candidates: &[f64],
@@ -136,13 +149,17 @@ fn film_rows(
     })
 }
 
-/// The products that a sum over bands is asked for, unpolarised: see `shaders/optics/walls.wgsl`.
-fn products(task: BandTask, [front, back, second]: [Polarised; 3]) -> [f64; 3] {
+/// The products that a quadrature must give, unpolarised: see `shaders/optics/walls.wgsl`.
+fn products(task: QuadratureTask, [front, back, second]: [Polarised; 3]) -> [f64; 3] {
     let mean = |f: &dyn Fn(f64, f64, f64) -> f64| 0.5 * (f(front.s, back.s, second.s) + f(front.p, back.p, second.p));
     let deep = mean(&|r0, r1, r2| (1.0 - r0) * r1 * r2);
     match task {
-        BandTask::CrossTerms => [mean(&|r0, r1, _| r0 * r1), mean(&|r0, r1, r2| r0 * r1 - (1.0 - r0) * r1 * r2), deep],
-        BandTask::Everything => [mean(&|r0, _, _| r0), mean(&|r0, r1, r2| r0 + (1.0 - r0) * r1 * (1.0 - r2)), deep],
+        QuadratureTask::CrossTerms => {
+            [mean(&|r0, r1, _| r0 * r1), mean(&|r0, r1, r2| r0 * r1 - (1.0 - r0) * r1 * r2), deep]
+        }
+        QuadratureTask::Everything => {
+            [mean(&|r0, _, _| r0), mean(&|r0, r1, r2| r0 + (1.0 - r0) * r1 * (1.0 - r2)), deep]
+        }
     }
 }
 
@@ -153,7 +170,7 @@ struct Fit {
     gram: Vec<f64>,
     /// Products of candidates and targets.
     mixed: Vec<[f64; TARGETS]>,
-    /// Sum over the columns of a response: what is seen of white light, by which wavelengths are chosen.
+    /// Sum over the columns of a response: the response to white light, by which wavelengths are chosen.
     white: Vec<[f64; 3]>,
 }
 
@@ -214,7 +231,7 @@ impl Fit {
             };
             let nearest = |nm: f64| ((nm - candidates[0]) / (candidates[1] - candidates[0])).round() as usize;
             let mut chosen: Vec<usize> = (0..count).map(|k| nearest(nm(k)).min(candidates.len() - 1)).collect();
-            // Many bands stand closer than the candidates at the short end.
+            // Many wavelengths stand closer than the candidates at the short end.
             for k in 1..count {
                 chosen[k] = chosen[k].max(chosen[k - 1] + 1);
             }
@@ -288,22 +305,22 @@ mod tests {
         FilmOptics::new(FilmIndex::Water, &light.parse().expect("built in"))
     }
 
-    /// Largest and mean error of the sum over bands at films that the fit did not see, cos θ ≥ 0.26.
+    /// Largest and mean error of the quadrature at films that the fit did not see, cos θ ≥ 0.26.
     fn errors(light: &str, count: usize, range_nm: f64, two_walls: bool) -> [f64; 2] {
         let optics = optics(light);
-        let bands = fit_bands(&optics, BandTask::Everything, count, range_nm);
+        let fitted = fit_quadrature(&optics, QuadratureTask::Everything, count, range_nm);
         let part = |k: u32, step: f64| (0.1 + step * f64::from(k)).fract();
         let error = |k: u32| {
             let cos_theta = (0.0676 + 0.9324 * part(k, 0.618_033_988_7)).sqrt();
             let [front_nm, back_nm, exit_nm] =
                 [0.414_213_6, 0.732_050_8, 0.236_068].map(|step| range_nm * part(k, step));
-            let one = Walls::One { thickness_nm: front_nm };
-            let walls = if two_walls { Walls::Two { front_nm, back_nm, exit_nm } } else { one };
-            let seen = |band: &Band| {
-                let wall = optics.film().wall(band.index, cos_theta, band.wavelength_nm);
-                band.response * DVec3::splat(walls.reflectance(&wall))
+            let wavelength = Walls::One { thickness_nm: front_nm };
+            let walls = if two_walls { Walls::Two { front_nm, back_nm, exit_nm } } else { wavelength };
+            let seen = |wavelength: &QuadratureWavelength| {
+                let wall = optics.film().wall(wavelength.index, cos_theta, wavelength.wavelength_nm);
+                wavelength.response * DVec3::splat(walls.reflectance(&wall))
             };
-            let sum = BT2020.to_xyz() * bands.iter().map(seen).sum::<DVec3>();
+            let sum = BT2020.to_xyz() * fitted.iter().map(seen).sum::<DVec3>();
             let truth = optics.xyz(cos_theta, walls);
             m2_delta_e(sum, truth, optics.film(), cos_theta, walls.count(), optics.weights().white())
         };
@@ -312,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn thirty_two_bands_stand_for_the_spectrum() {
+    fn thirty_two_wavelengths_stand_for_the_spectrum() {
         for (light, two_walls) in [("D65", false), ("D65", true), ("FL11", true)] {
             let [max, mean] = errors(light, 32, 1500.0, two_walls);
             eprintln!("measured: 32 bands, {light}, two walls {two_walls}: max {max:.4}, mean {mean:.5}");
@@ -321,15 +338,15 @@ mod tests {
     }
 
     #[test]
-    fn more_bands_are_better() {
+    fn more_wavelengths_are_better() {
         let [few, more] = [8, 16].map(|count| errors("D65", count, 1500.0, true)[1]);
         assert!(more < 0.3 * few, "{few} {more}");
     }
 
     #[test]
     fn the_two_lines_of_sodium_are_summed_as_they_are() {
-        let bands = fit_bands(&optics("sodium"), BandTask::Everything, 32, 1500.0);
-        assert_eq!(bands.iter().map(|band| band.wavelength_nm).collect::<Vec<_>>(), [588.995, 589.592]);
+        let fitted = fit_quadrature(&optics("sodium"), QuadratureTask::Everything, 32, 1500.0);
+        assert_eq!(fitted.iter().map(|wavelength| wavelength.wavelength_nm).collect::<Vec<_>>(), [588.995, 589.592]);
         assert!(errors("sodium", 32, 1500.0, true)[0] < 1e-9);
     }
 
