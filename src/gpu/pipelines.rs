@@ -15,7 +15,6 @@ use std::{
 #[cfg(not(target_arch = "wasm32"))]
 use super::specialise::specialised;
 use super::{
-    device::Gpu,
     late_errors::LateErrors,
     shaders::{Composed, Library, ShaderError},
 };
@@ -62,18 +61,14 @@ pub struct Ready<P> {
 
 impl<P> Ready<P> {
     /// Binds resources by their numbers, but for those that the pipeline has no use for.
-    pub fn bind(&self, gpu: &Gpu, resources: &[(u32, wgpu::BindingResource<'_>)]) -> wgpu::BindGroup {
+    pub fn bind(&self, device: &wgpu::Device, resources: &[(u32, wgpu::BindingResource<'_>)]) -> wgpu::BindGroup {
         let is_used = |number: &u32| self.bindings.as_ref().is_none_or(|bindings| bindings.contains(number));
         let entry = |(binding, resource): &(u32, _)| wgpu::BindGroupEntry {
             binding: *binding,
             resource: wgpu::BindingResource::clone(resource),
         };
         let entries: Vec<_> = resources.iter().filter(|(number, _)| is_used(number)).map(entry).collect();
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &self.layout,
-            entries: &entries,
-        })
+        device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &self.layout, entries: &entries })
     }
 }
 

@@ -112,7 +112,7 @@ impl<'g> Recorder<'g> {
     ) -> Result<(), GpuError> {
         let gpu = self.gpu;
         let ready = gpu.pipelines.compute(&gpu.device, key)?;
-        let bindings = ready.bind(gpu, resources);
+        let bindings = ready.bind(&gpu.device, resources);
         self.dispatch(name, &ready.pipeline, &bindings, groups);
         Ok(())
     }

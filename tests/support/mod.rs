@@ -5,7 +5,7 @@ pub mod page;
 
 use std::{
     process::{Command, Stdio},
-    sync::OnceLock,
+    sync::{Mutex, PoisonError},
 };
 
 use cpu_time::ProcessTime;
@@ -50,11 +50,31 @@ pub fn has_tools(tools: &[&str], required_by: &str) -> bool {
     false
 }
 
-/// The device to test on, the same one for all tests of a binary: what one test compiled another need not. `None` where no adapter is required
-/// and none is there. A test that loses a device, or leaves errors on it, opens its own.
+/// Devices that no test uses at the moment. There are as many as tests that run at once: two tests on one device would wait for each other's
+/// work, and what one test has compiled the next one on its device need not.
+static IDLE: Mutex<Vec<Gpu>> = Mutex::new(Vec::new());
+
+/// A test's device, which goes to another test when the test's thread ends.
+struct Lease(Option<Gpu>);
+
+impl Drop for Lease {
+    fn drop(&mut self) {
+        IDLE.lock().unwrap_or_else(PoisonError::into_inner).extend(self.0.take());
+    }
+}
+
+impl Lease {
+    fn new() -> Self {
+        let idle = IDLE.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        Self(idle.or_else(open))
+    }
+}
+
+/// The device to test on, the same one throughout a test. Nothing where no adapter is required and none is there. A test that loses a device, or
+/// leaves errors on it, opens its own.
 pub fn gpu() -> Option<Gpu> {
-    static SHARED: OnceLock<Option<Gpu>> = OnceLock::new();
-    SHARED.get_or_init(open).clone()
+    thread_local!(static LEASE: Lease = Lease::new());
+    LEASE.with(|lease| lease.0.clone())
 }
 
 fn open() -> Option<Gpu> {

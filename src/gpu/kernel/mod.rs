@@ -121,7 +121,7 @@ impl Drawable {
     ) -> Result<Self, GpuError> {
         let key = RenderKey { pass: pass_of(kernel), vertex, fragment, format, constants: kernel.constants() };
         let ready = gpu.pipelines.render(&gpu.device, &key)?;
-        let bindings = ready.bind(gpu, &kernel.resources());
+        let bindings = ready.bind(&gpu.device, &kernel.resources());
         Ok(Self { pipeline: ready.pipeline, bindings })
     }
 

@@ -226,8 +226,13 @@ pub fn sample(gpu: &Gpu, shader: &str, layers: &[Vec<Vec3>; 3], layer: usize) ->
         (2, wgpu::BindingResource::Sampler(&sampler)),
         (3, films.as_entire_binding()),
         (4, colours.as_entire_binding()),
-    ];
-    let bindings = gpu.bind(&pipeline.get_bind_group_layout(0), &resources);
+    ]
+    .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource });
+    let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &resources,
+    });
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let mut pass = encoder.begin_compute_pass(&Default::default());
     pass.set_pipeline(&pipeline);
