@@ -2,13 +2,15 @@
 // greatest reflectance at its angle so that half floats and filtering spend their precision where the eye does. Layers: what is seen of
 // white light, or of each primary; of s and p light together, or first of s and then of p.
 
-import package::optics::airy::{damped_reflectance, film_reflectance, max_reflectance, n_cos_refracted};
+import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, max_reflectance, n_cos_refracted};
 import package::optics::quadrature::QuadratureSample;
 import package::optics::table::{FilmPoint, TableAxes, film_of_texel};
 
 // As in optics/film_colour.wgsl.
 override COLOURED: u32;
 override POLARISED: u32;
+// 1: some film of the table has fringes too narrow for the samples of the spectrum.
+override FADES: u32;
 
 // Mirrors `BakeUniform` in src/gpu/passes/bake_table.rs.
 struct Bake {
@@ -22,55 +24,91 @@ struct Bake {
 
 const TAU: f32 = 6.2831853;
 
-// Response to each primary, or to all three together.
-fn store(texel: vec2u, first: u32, seen: mat3x3f) {
+// Rows that an invocation bakes. They share their angle, and so most of the work.
+const ROWS: u32 = 4u;
+
+// What is seen of light that the films of these rows reflect, a column each: of each primary, or of white light as `red`.
+struct Seen {
+    red: mat4x3f,
+    green: mat4x3f,
+    blue: mat4x3f,
+}
+
+fn add(seen: ptr<function, Seen>, response: mat3x3f, reflectances: vec4f) {
     if (COLOURED == 0u) {
-        textureStore(table, texel, first, vec4f(seen[0] + seen[1] + seen[2], 1.0));
+        (*seen).red += outer(response[0] + response[1] + response[2], reflectances);
         return;
     }
-    for (var k = 0u; k < 3u; k++) {
-        textureStore(table, texel, first + k, vec4f(seen[k], 1.0));
+    (*seen).red += outer(response[0], reflectances);
+    (*seen).green += outer(response[1], reflectances);
+    (*seen).blue += outer(response[2], reflectances);
+}
+
+fn outer(colour: vec3f, factors: vec4f) -> mat4x3f {
+    return mat4x3f(colour * factors.x, colour * factors.y, colour * factors.z, colour * factors.w);
+}
+
+fn store(texel: vec2u, first: u32, seen: mat4x3f) {
+    textureStore(table, texel, first, vec4f(seen[0], 1.0));
+    textureStore(table, texel + vec2u(0u, 1u), first, vec4f(seen[1], 1.0));
+    textureStore(table, texel + vec2u(0u, 2u), first, vec4f(seen[2], 1.0));
+    textureStore(table, texel + vec2u(0u, 3u), first, vec4f(seen[3], 1.0));
+}
+
+fn store_all(texel: vec2u, first: u32, scale: f32, seen: Seen) {
+    store(texel, first, scale * seen.red);
+    if (COLOURED == 1u) {
+        store(texel, first + 1u, scale * seen.green);
+        store(texel, first + 2u, scale * seen.blue);
     }
 }
 
-// Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast: films of 1.5 um.
+// Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast: films of 1.5 um. The
+// same constant stands in src/gpu/passes/bake_table.rs.
 const RESOLVED_STEP: f32 = 0.2;
 
-// (R_s, R_p) of the part of the spectrum that a sample stands for. Fringes that move by much of a turn within it fade to their mean before
+// Reflectances of the part of the spectrum that a sample stands for. Fringes that move by much of a turn within it fade to their mean before
 // sums over samples would show them as colours that are not there.
-fn sample_reflectance(sample: QuadratureSample, film: FilmPoint) -> vec2f {
-    let path_nm = 2.0 * n_cos_refracted(sample.index, film.cos_theta) * film.thickness_nm;
-    let step = TAU * path_nm / sample.wavelength_nm * (sample.width_nm / sample.wavelength_nm);
-    if (step <= RESOLVED_STEP) {
-        return film_reflectance(sample.index, film.cos_theta, film.thickness_nm, sample.wavelength_nm);
+fn sample_reflectances(sample: QuadratureSample, cos_theta: f32, thickness_nm: vec4f) -> Reflectances {
+    if (FADES == 0u) {
+        return film_reflectances(sample.index, cos_theta, thickness_nm, sample.wavelength_nm);
     }
-    let excess = (step - RESOLVED_STEP) * (step - RESOLVED_STEP);
+    let turns = 2.0 * n_cos_refracted(sample.index, cos_theta) / sample.wavelength_nm * thickness_nm;
+    let excess = max(TAU * sample.width_nm / sample.wavelength_nm * turns - RESOLVED_STEP, vec4f(0.0));
     let coherence = exp(-excess * excess);
-    return damped_reflectance(sample.index, film.cos_theta, film.thickness_nm, sample.wavelength_nm, coherence);
+    return damped_reflectances(sample.index, cos_theta, thickness_nm, sample.wavelength_nm, coherence);
 }
 
 @compute @workgroup_size(64)
 fn bake_table(@builtin(global_invocation_id) id: vec3u) {
-    let texel = vec2u(id.x, bake.first_row + id.y);
+    let texel = vec2u(id.x, bake.first_row + ROWS * id.y);
     if (any(texel >= vec2u(bake.axes.size))) {
         return;
     }
+    // Rows beyond the last are stored nowhere.
+    let row = vec2f(0.0, 1.0);
     let film = film_of_texel(bake.axes, vec2f(texel));
-    var s = mat3x3f();
-    var p = mat3x3f();
+    let thickness_nm = vec4f(
+        film.thickness_nm,
+        film_of_texel(bake.axes, vec2f(texel) + row).thickness_nm,
+        film_of_texel(bake.axes, vec2f(texel) + 2.0 * row).thickness_nm,
+        film_of_texel(bake.axes, vec2f(texel) + 3.0 * row).thickness_nm,
+    );
+    var s: Seen;
+    var p: Seen;
     for (var k = 0u; k < arrayLength(&samples); k++) {
-        let r = sample_reflectance(samples[k], film);
+        let r = sample_reflectances(samples[k], film.cos_theta, thickness_nm);
         if (POLARISED == 1u) {
-            s += r.x * samples[k].response;
-            p += r.y * samples[k].response;
+            add(&s, samples[k].response, r.s);
+            add(&p, samples[k].response, r.p);
         } else {
-            s += (0.5 * (r.x + r.y)) * samples[k].response;
+            add(&s, samples[k].response, 0.5 * (r.s + r.p));
         }
     }
     // A film of index 1 reflects nothing, and nothing divided by the floor stays nothing.
     let scale = 1.0 / max(max_reflectance(bake.axes.index, film.cos_theta), 1e-30);
-    store(texel, 0u, scale * s);
+    store_all(texel, 0u, scale, s);
     if (POLARISED == 1u) {
-        store(texel, select(1u, 3u, COLOURED == 1u), scale * p);
+        store_all(texel, select(1u, 3u, COLOURED == 1u), scale, p);
     }
 }

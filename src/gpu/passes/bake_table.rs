@@ -1,5 +1,7 @@
 //! Bakes the lookup table (√cosθ × path in the film → what is seen of light that one wall reflects) from all wavelengths.
 
+use std::f64::consts::TAU;
+
 use crate::{
     gpu::{
         device::{Gpu, GpuError},
@@ -13,6 +15,10 @@ use crate::{
 
 /// Rows of one dispatch, so that none runs long.
 const ROWS_PER_DISPATCH: usize = 512;
+/// Rows that an invocation bakes: as in the shader.
+const ROWS_PER_INVOCATION: u32 = 4;
+/// Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast: as in the shader.
+const RESOLVED_STEP: f64 = 0.2;
 
 shader_struct! {
     /// What a table spans: see `shaders/optics/table.wgsl`.
@@ -65,6 +71,7 @@ kernels! {
 
     /// Some rows of a table.
     struct BakeTable {
+        override FADES: bool;
         overrides table_kind: TableOverrides;
         @0 bake: Uniform<BakeUniform>;
         @1 samples: Read<[QuadratureSample]>;
@@ -81,6 +88,17 @@ pub struct Table {
     /// View of all layers.
     pub view: wgpu::TextureView,
     samples: wgpu::Buffer,
+    /// Whether the samples are too few for the fringes of some film.
+    fades: bool,
+}
+
+/// Whether fringes of films up to a thickness move by more than is resolved from one sample to the next.
+fn fades(samples: &[QuadratureSample], max_thickness_nm: f64) -> bool {
+    let step = |sample: &QuadratureSample| {
+        let [index, wavelength_nm, width_nm] = [sample.index, sample.wavelength_nm, sample.width_nm].map(f64::from);
+        TAU * 2.0 * index * max_thickness_nm / wavelength_nm * width_nm / wavelength_nm
+    };
+    samples.iter().any(|sample| step(sample) > RESOLVED_STEP)
 }
 
 impl Table {
@@ -106,7 +124,8 @@ impl Table {
             ..Default::default()
         });
         let axes = gpu.uniform("table axes", &TableAxes::of(key));
-        Self { axes, view, samples: gpu.storage("spectra", &spectrum_samples(&key.optics)) }
+        let samples = spectrum_samples(&key.optics);
+        Self { axes, view, samples: gpu.storage("spectra", &samples), fades: fades(&samples, key.max_thickness_nm) }
     }
 
     /// A whole table.
@@ -135,12 +154,13 @@ impl Table {
     ) -> Result<(), GpuError> {
         let uniform = BakeUniform { axes: TableAxes::of(key), first_row: rows.start, pad: [0; 3] };
         let kernel = BakeTable {
+            FADES: self.fades,
             table_kind: TableOverrides { COLOURED: key.coloured, POLARISED: key.polarised },
             bake: &recorder.gpu.uniform("bake", &uniform),
             samples: &self.samples,
             table: &self.view,
         };
-        kernel.bake_table(recorder, "bake_table", [key.columns.div_ceil(64), rows.len() as u32, 1])
+        kernel.bake_table(recorder, "bake_table", [key.columns.div_ceil(64), (rows.len() as u32).div_ceil(ROWS_PER_INVOCATION), 1])
     }
 }
 
