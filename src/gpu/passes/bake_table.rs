@@ -160,7 +160,11 @@ impl Table {
             samples: &self.samples,
             table: &self.view,
         };
-        kernel.bake_table(recorder, "bake_table", [key.columns.div_ceil(64), (rows.len() as u32).div_ceil(ROWS_PER_INVOCATION), 1])
+        kernel.bake_table(
+            recorder,
+            "bake_table",
+            [key.columns.div_ceil(64), (rows.len() as u32).div_ceil(ROWS_PER_INVOCATION), 1],
+        )
     }
 }
 
