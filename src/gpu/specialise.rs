@@ -126,10 +126,10 @@ mod tests {
     #[test]
     fn bindings_without_a_use_are_left_out() {
         let wgsl = "override READS: bool;\n\
-            @group(0) @binding(0) var<storage, read_write> to: array<u32>;\n\
-            @group(0) @binding(7) var<storage, read> from: array<u32>;\n\
-            fn value() -> u32 { if (!READS) { return 1u; } let read = from[0]; return read; }\n\
-            @compute @workgroup_size(1) fn main() { to[0] = value(); }";
+            @group(0) @binding(0) var<storage, read_write> result: array<u32>;\n\
+            @group(0) @binding(7) var<storage, read> source: array<u32>;\n\
+            fn value_of() -> u32 { if (!READS) { return 1u; } let value = source[0]; return value; }\n\
+            @compute @workgroup_size(1) fn main() { result[0] = value_of(); }";
         let folder = tempfile::tempdir().unwrap();
         std::fs::create_dir(folder.path().join("pass")).unwrap();
         std::fs::write(folder.path().join("pass/some.wgsl"), wgsl).unwrap();

@@ -1,6 +1,8 @@
 //! The program from outside. The command line as scripts see it: exit codes, one clear line on stderr, no file left behind, columns and keys;
 //! and the window as people see it.
 
+#[cfg(target_os = "linux")]
+mod app;
 mod colour;
 mod files;
 mod film;
@@ -11,8 +13,6 @@ mod sequence;
 mod streams;
 #[path = "../support/mod.rs"]
 mod support;
-#[cfg(target_os = "linux")]
-mod window;
 
 use std::{
     path::{Path, PathBuf},
@@ -231,9 +231,9 @@ fn adapters_that_are_not_there_are_refused() {
 fn the_reference_works_without_any_adapter() {
     let desk = Desk::new();
     let nowhere = [("WGPU_BACKEND", "dx12"), ("WGPU_ADAPTER_NAME", "nonesuch")];
-    let run = desk.run_with(&nowhere, "render furnace -o a.png --size 48x27 --quality reference");
+    let run = desk.run_with(&nowhere, "render furnace -o a.png --size 24x14 --quality reference");
     assert!(run.success, "{}", run.err);
-    let run = desk.run_with(&nowhere, "render furnace -o a.exr --size 48x27 --quality reference");
+    let run = desk.run_with(&nowhere, "render furnace -o a.exr --size 24x14 --quality reference");
     assert!(run.success, "{}", run.err);
     let picture = read_exr(&desk.path("a.exr")).unwrap();
     // The furnace: 0.5 everywhere, to the rounding of f32.

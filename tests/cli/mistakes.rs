@@ -46,7 +46,7 @@ fn mistakes_are_answered_with_what_was_meant() {
 fn settings_change_the_picture() {
     let desk = Desk::new();
     let render = |name: &str, settings: &str| {
-        let run = desk.run(&format!("render furnace -o {name} --size 32x18 --quality reference {settings}"));
+        let run = desk.run(&format!("render furnace -o {name} --size 16x9 --quality reference {settings}"));
         assert!(run.success, "{}", run.err);
         soapfilm::output::read_back::read_exr(&desk.path(name)).unwrap().channel("G").unwrap().to_vec()
     };

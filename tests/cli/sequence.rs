@@ -8,7 +8,7 @@ use super::*;
 #[test]
 fn a_frame_alone_is_the_frame_of_a_run() {
     let desk = Desk::new();
-    let size = "--size 64x36 --fps 7";
+    let size = "--size 64x36 --fps 7 --set bubble.0.film.cells=64";
     if desk.done(&format!("sequence default -o run --frames 0..5 {size}")).is_none() {
         return;
     }
@@ -33,14 +33,13 @@ fn sequences_take_the_options_of_pictures() {
     let frame = read_exr(&desk.path("run/frame_000001.exr")).unwrap();
     assert_eq!((frame.frames_per_second, frame.time_code), (Some([24000, 1001]), Some([0, 0, 0, 1])));
     assert_eq!(frame.metadata.get("Time"), Some(format!("{} s", 1001.0 / 24000.0).as_str()));
+    let small = "--size 32x18 --set bubble.0.film.cells=64";
     for options in ["--quality spectral", "--gamut p3", "--quality fast"] {
-        if desk
-            .done(&format!("sequence default -o run --frames 3..3 --fps 10 --overwrite --size 32x18 {options}"))
-            .is_none()
+        if desk.done(&format!("sequence default -o run --frames 3..3 --fps 10 --overwrite {small} {options}")).is_none()
         {
             return;
         }
-        desk.done(&format!("render default -o once.png --time 0.3 --size 32x18 {options}")).unwrap();
+        desk.done(&format!("render default -o once.png --time 0.3 {small} {options}")).unwrap();
         let pixels = |path: &str| read_png(&desk.path(path)).unwrap().rgba;
         assert_eq!(pixels("run/frame_000003.png"), pixels("once.png"), "{options}");
     }

@@ -121,6 +121,8 @@ pub fn max_reflectance(n: f64, cos_theta: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
     use crate::physics::optics::{FilmIndex, REFERENCE_NM};
 
@@ -251,5 +253,55 @@ mod tests {
             }
         }
         assert!((max_reflectance(FilmIndex::Water.n(REFERENCE_NM), 1.0) - 0.0784).abs() < 5e-5);
+    }
+
+    proptest! {
+        #[test]
+        fn reflectance_is_a_share_below_its_maximum(
+            n in 1.0..=4.0, cos_theta in 0.0..=1.0, thickness_nm in 0.0..30_000.0, nm in 360.0..780.0
+        ) {
+            let incidence = Incidence::new(n, cos_theta);
+            let film = incidence.reflectance(thickness_nm, nm);
+            let max = amplitudes(n, cos_theta).map(|r| (2.0 * r / (1.0 + r * r)).powi(2));
+            prop_assert!((0.0..=max.s + 1e-14).contains(&film.s), "{:?} above {:?}", film, max);
+            prop_assert!((0.0..=max.p + 1e-14).contains(&film.p), "{:?} above {:?}", film, max);
+        }
+
+        #[test]
+        fn reflectance_repeats_with_each_half_wavelength_of_path(
+            n in 1.01..=4.0, cos_theta in 0.01..=1.0, thickness_nm in 0.0..1500.0, nm in 360.0..780.0
+        ) {
+            let period_nm = nm / (2.0 * n_cos_refracted(n, cos_theta));
+            let [thin, thick] = [0.0, period_nm].map(|more_nm| reflectance(n, cos_theta, thickness_nm + more_nm, nm));
+            // Rounding of the phase, magnified by the finesse of a film that mirrors.
+            prop_assert!((thin.s - thick.s).abs() + (thin.p - thick.p).abs() < 1e-9, "{:?} {:?}", thin, thick);
+        }
+
+        #[test]
+        fn less_coherence_never_leaves_more_contrast(
+            n in 1.01..=4.0, cos_theta in 0.01..=1.0, nm in 360.0..780.0, part in 0.0..=1.0, coherence in 0.0..=1.0
+        ) {
+            let incidence = Incidence::new(n, cos_theta);
+            let quarter_nm = nm / (4.0 * incidence.n_cos_refracted);
+            let contrast = |coherence| {
+                let [bright, dark] = [quarter_nm, 0.0].map(|d| incidence.damped_reflectance(d, nm, coherence).s);
+                bright - dark
+            };
+            prop_assert!(contrast(part * coherence) <= contrast(coherence) + 1e-14);
+        }
+
+        #[test]
+        fn the_characteristic_matrix_gives_the_same(
+            n in 1.0..=4.0, cos_theta in 0.02..=1.0, thickness_nm in 0.0..3000.0, nm in 360.0..780.0
+        ) {
+            let cos_t = cos_refracted(n, cos_theta);
+            let film = reflectance(n, cos_theta, thickness_nm, nm);
+            let phase = TAU * n * thickness_nm * cos_t / nm;
+            for (r, eta_air, eta_film) in [(film.s, cos_theta, n * cos_t), (film.p, 1.0 / cos_theta, n / cos_t)] {
+                let (r_matrix, t_matrix) = characteristic_matrix(eta_air, eta_film, phase);
+                prop_assert!((r - r_matrix).abs() < 1e-10, "R {} {}", r, r_matrix);
+                prop_assert!((r + t_matrix - 1.0).abs() < 1e-10, "R + T {} {}", r, t_matrix);
+            }
+        }
     }
 }

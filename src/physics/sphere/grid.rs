@@ -174,6 +174,8 @@ fn pyramid(x: f64, y: f64) -> f64 {
 mod tests {
     use std::f64::consts::PI;
 
+    use proptest::prelude::*;
+
     use super::*;
 
     #[test]
@@ -207,19 +209,6 @@ mod tests {
     }
 
     #[test]
-    fn locate_inverts_direction() {
-        for n in [8, 33] {
-            let grid = CubedSphere::new(n).unwrap();
-            for index in 0..grid.cells() {
-                let (panel, i, j) = grid.cell(index);
-                let found = grid.locate(3.0 * grid.cell_direction(index));
-                assert_eq!(found.panel, panel);
-                assert!((found.x - i as f64).abs() < 1e-12 && (found.y - j as f64).abs() < 1e-12);
-            }
-        }
-    }
-
-    #[test]
     fn locate_accepts_the_corners_and_edges() {
         let grid = CubedSphere::new(16).unwrap();
         for v in [DVec3::ONE, -DVec3::ONE, DVec3::new(1.0, -1.0, 0.3), DVec3::NEG_Z] {
@@ -232,5 +221,28 @@ mod tests {
     fn sizes_out_of_range_are_refused() {
         assert_eq!(CubedSphere::new(7), Err(GridError(7)));
         assert!(CubedSphere::new(8193).unwrap_err().to_string().contains("use 8 to 8192"));
+    }
+
+    proptest! {
+        #[test]
+        fn locate_inverts_direction(n in 8_usize..=8192, v in prop::array::uniform3(-1.0..1.0), length in 1e-3..1e3) {
+            let v = DVec3::from(v);
+            prop_assume!(v.length() > 1e-3);
+            let grid = CubedSphere::new(n).unwrap();
+            let place = grid.locate(length * v);
+            prop_assert!(grid.direction(place).distance(v.normalize()) < 1e-14);
+            let edge = n as f64 - 0.5 + 1e-9;
+            prop_assert!(place.panel < 6 && [place.x, place.y].iter().all(|k| (-0.5 - 1e-9..=edge).contains(k)));
+        }
+
+        #[test]
+        fn a_cells_center_is_located_in_the_cell(n in 8_usize..=500, at in 0.0..1.0) {
+            let grid = CubedSphere::new(n).unwrap();
+            let index = (at * grid.cells() as f64) as usize;
+            let (panel, i, j) = grid.cell(index);
+            let found = grid.locate(grid.cell_direction(index));
+            prop_assert_eq!(found.panel, panel);
+            prop_assert!((found.x - i as f64).abs() < 1e-10 && (found.y - j as f64).abs() < 1e-10);
+        }
     }
 }

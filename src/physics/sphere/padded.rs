@@ -169,6 +169,8 @@ fn weighted<T: FieldValue>(terms: impl Iterator<Item = (f64, T)>) -> T {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     fn smooth(x: DVec3) -> f64 {
@@ -267,5 +269,46 @@ mod tests {
         let identity = PaddedField::from_cells(grid, &halo, |cell| grid.cell_direction(cell));
         let x = DVec3::new(0.99, 1.0, 0.98).normalize();
         assert!(identity.bicubic(x).distance(x) < 1e-4);
+    }
+
+    /// Any values in the cells of a grid.
+    fn rough(n: std::ops::Range<usize>) -> impl Strategy<Value = PaddedField<f64>> {
+        let values = n.prop_flat_map(|n| (Just(n), prop::collection::vec(-1.0..1.0, 6 * n * n)));
+        values.prop_map(|(n, values)| {
+            let grid = CubedSphere::new(n).unwrap();
+            let halo = HaloTable::new(grid);
+            PaddedField::from_cells(grid, &halo, |cell| values[cell]).with_bounded_halo(&halo)
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
+        #[test]
+        fn limited_lookups_stay_within_the_field(field in rough(8..14), x in prop::array::uniform3(-1.0..1.0)) {
+            let x = DVec3::from(x);
+            prop_assume!(x.length() > 1e-3);
+            let cells = field.cells();
+            let [low, high] = [cells.iter().fold(1.0, |a: f64, b| a.min(*b)), cells.iter().fold(-1.0, |a: f64, b| a.max(*b))];
+            for value in [field.bilinear(x), field.bicubic_limited(x), field.biquintic_limited(x)] {
+                prop_assert!((low..=high).contains(&value), "{} outside {} to {}", value, low, high);
+            }
+        }
+
+        #[test]
+        fn lookups_are_linear_in_the_field(
+            field in rough(8..11), x in prop::array::uniform3(-1.0..1.0), factor in -10.0..10.0_f64
+        ) {
+            let x = DVec3::from(x);
+            prop_assume!(x.length() > 1e-3);
+            let values = field.padded().iter().map(|value| factor * value).collect();
+            let scaled: PaddedField<f64> = PaddedField::from_padded(field.grid(), values);
+            let lookups: [fn(&PaddedField<f64>, DVec3) -> f64; 3] =
+                [PaddedField::bilinear, PaddedField::bicubic, PaddedField::biquintic];
+            for lookup in lookups {
+                let difference: f64 = lookup(&scaled, x) - factor * lookup(&field, x);
+                prop_assert!(difference.abs() < 1e-12);
+            }
+        }
     }
 }
