@@ -1,4 +1,4 @@
-// What pushes a film from outside, added to what stirs it: a source of vorticity for each push. One invocation per cell. The f64 truth is
+// Stirs and jets of the user: adds the source of vorticity of each push to the draught's (flow_gusts). One invocation per cell. The f64 truth is
 // `Push::source` in src/physics/film/push.rs.
 
 import package::sphere::cubed::{HALO, padded_index, panel_direction};

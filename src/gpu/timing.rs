@@ -63,7 +63,8 @@ pub struct Recorder<'g> {
     /// Counts so far.
     pub counts: Counts,
     encoder: wgpu::CommandEncoder,
-    /// The compute pass that is still open: dispatches of one name in a row share it, for opening a pass costs more than a small dispatch.
+    /// The compute pass that is still open. Dispatches of one name in a row share it: in each pass, wgpu makes room to track every resource of the
+    /// device.
     open: Option<(&'static str, wgpu::ComputePass<'static>)>,
     queries: Vec<wgpu::QuerySet>,
     names: Vec<&'static str>,

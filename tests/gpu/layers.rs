@@ -82,6 +82,26 @@ fn rust_files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
     }
 }
 
+/// Paths in backticks that a document names in the folders of the program, but for patterns.
+fn named_paths(document: &str) -> Vec<&str> {
+    let folders = ["src/", "shaders/", "tests/", "assets/", "benches/", "examples/"];
+    let is_path =
+        |text: &&str| folders.iter().any(|folder| text.starts_with(folder)) && !text.contains([' ', '*', '<']);
+    document.split('`').skip(1).step_by(2).filter(is_path).filter(|path| !path.contains("NAME")).collect()
+}
+
+#[test]
+fn documents_name_files_that_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    assert_eq!(named_paths("in `src/a.rs` and `b`, not `src/NAME.rs`"), ["src/a.rs"]);
+    for name in ["ARCHITECTURE.md", "CONTRIBUTING.md", "GLOSSARY.md", "README.md"] {
+        let document = std::fs::read_to_string(root.join(name)).unwrap();
+        let missing = |path: &&str| !root.join(path).exists() && !root.join(path).with_extension("rs").exists();
+        let missing: Vec<_> = named_paths(&document).into_iter().filter(missing).collect();
+        assert!(missing.is_empty(), "{name} names what is not there: {missing:?}");
+    }
+}
+
 #[test]
 fn uses_go_downwards() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");

@@ -1,5 +1,5 @@
 //! The built-in illuminants: one table, which names, parsing, the light panel, the help and the tests follow. A new illuminant is a row here, its
-//! data, and its name in the scene's README, which a test compares with the table.
+//! data, and its name in the help of `illuminant` in `scene/light.rs`, from which the page of the scene format is written.
 
 use crate::physics::spectra::Spectrum;
 
@@ -110,7 +110,10 @@ mod tests {
         let readme = include_str!("../../../assets/scenes/README.md");
         let row = readme.lines().find(|line| line.starts_with("| `illuminant` |")).expect("the key has a row");
         let listed = BUILT_IN.iter().map(|light| format!("`\"{}\"`", light.name)).collect::<Vec<_>>().join(", ");
-        assert!(row.contains(&format!("has: {listed}, a black body")), "write {listed} in assets/scenes/README.md");
+        assert!(
+            row.contains(&format!("has: {listed}, a black body")),
+            "name {listed} in the help of `illuminant`, src/scene/light.rs"
+        );
     }
 
     #[test]

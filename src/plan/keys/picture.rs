@@ -53,7 +53,7 @@ pub struct BubbleKey {
     pub film: FilmKey,
     /// The hole in it, while it bursts.
     pub hole: Option<Opening>,
-    /// Where the film ends, if it does: on a bath, beside its image in the bath.
+    /// The part of the sphere that has film, above a bath or within a ring; none for a whole sphere. On a bath its image is seen too.
     pub cap: Option<Cap>,
 }
 
