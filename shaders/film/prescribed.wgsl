@@ -22,7 +22,7 @@ fn wave_gradient(wave: Wave, x: vec3f) -> vec3f {
     return wave.amplitude * cos(dot(wave.k, x) + wave.phase) * wave.k;
 }
 
-// The same for a vortex.
+// Gradient in space of a vortex's stream function at x.
 fn vortex_gradient(vortex: Vortex, x: vec3f) -> vec3f {
     let center = vortex.center;
     let sharpness = vortex.sharpness;
@@ -38,7 +38,7 @@ fn wave_vorticity(wave: Wave, x: vec3f) -> f32 {
     return -wave.amplitude * ((dot(k, k) - along * along) * sin(phase) + 2.0 * along * cos(phase));
 }
 
-// The same for a vortex.
+// Vorticity of a vortex at unit vector x.
 fn vortex_vorticity(vortex: Vortex, x: vec3f) -> f32 {
     let sharpness = vortex.sharpness;
     let along = dot(vortex.center, x);

@@ -30,44 +30,29 @@ fn max_reflectance(n: f32, cos_theta: f32) -> f32 {
     return 0.5 * dot(r2 * peak, peak);
 }
 
-// sin(pi x) for |x| <= 1/2; absolute error below 7e-9 before rounding (Chebyshev fit).
-fn sin_pi(x: f32) -> f32 {
-    let y = x * x;
-    return x * (3.14159264 + y * (-5.16771008 + y * (2.55007752 + y * (-0.598291286 + y * 0.0776576603))));
-}
-
-// Airy reflectance (R_s, R_p) of the film. With s = sin(delta/2), R = 4 r^2 s^2 / ((1 - r^2)^2 + 4 r^2 s^2): this form has no
-// cancellation, so that a black film comes out right by itself.
-fn film_reflectance(n: f32, cos_theta: f32, thickness_nm: f32, wavelength_nm: f32) -> vec2f {
-    let r2 = surface_reflectance(n, cos_theta);
-    let half_turns = 2.0 * n_cos_refracted(n, cos_theta) * thickness_nm / wavelength_nm;
-    let s = sin_pi(half_turns - round(half_turns));
-    let interference = 4.0 * r2 * s * s;
-    let gap = 1.0 - r2;
-    // The floor only matters at exactly grazing incidence on no film, where 0/0 stands for "nothing there".
-    return interference / max(gap * gap + interference, vec2f(1e-30));
-}
-
 // Reflectances of four films for s and p light.
 struct Reflectances {
     s: vec4f,
     p: vec4f,
 }
 
-fn sin_pi4(x: vec4f) -> vec4f {
+// sin(pi x) for |x| <= 1/2; absolute error below 7e-9 before rounding (Chebyshev fit).
+fn sin_pi(x: vec4f) -> vec4f {
     let y = x * x;
     return x * (3.14159264 + y * (-5.16771008 + y * (2.55007752 + y * (-0.598291286 + y * 0.0776576603))));
 }
 
-// film_reflectance() for four films that light of one wavelength meets at one angle.
+// Airy reflectance of four films that light of one wavelength meets at one angle. With s = sin(delta/2),
+// R = 4 r^2 s^2 / ((1 - r^2)^2 + 4 r^2 s^2): this form has no cancellation, so that a black film comes out right by itself.
 fn film_reflectances(n: f32, cos_theta: f32, thickness_nm: vec4f, wavelength_nm: f32) -> Reflectances {
     let r2 = surface_reflectance(n, cos_theta);
     let half_turns = (2.0 * n_cos_refracted(n, cos_theta) / wavelength_nm) * thickness_nm;
-    let sine = sin_pi4(half_turns - round(half_turns));
+    let sine = sin_pi(half_turns - round(half_turns));
     let interference = 4.0 * sine * sine;
     let gap = (1.0 - r2) * (1.0 - r2);
     let s = r2.x * interference;
     let p = r2.y * interference;
+    // The floor only matters at exactly grazing incidence on no film, where 0/0 stands for "nothing there".
     return Reflectances(s / max(gap.x + s, vec4f(1e-30)), p / max(gap.y + p, vec4f(1e-30)));
 }
 
@@ -82,15 +67,9 @@ fn damped_reflectances(
 ) -> Reflectances {
     let r2 = surface_reflectance(n, cos_theta);
     let half_turns = (2.0 * n_cos_refracted(n, cos_theta) / wavelength_nm) * thickness_nm;
-    let sine = sin_pi4(half_turns - round(half_turns));
+    let sine = sin_pi(half_turns - round(half_turns));
     let interference = 4.0 * sine * sine;
     return Reflectances(damped(r2.x, interference, coherence), damped(r2.y, interference, coherence));
-}
-
-// damped_reflectances() for one film.
-fn damped_reflectance(n: f32, cos_theta: f32, thickness_nm: f32, wavelength_nm: f32, coherence: f32) -> vec2f {
-    let film = damped_reflectances(n, cos_theta, vec4f(thickness_nm), wavelength_nm, vec4f(coherence));
-    return vec2f(film.s.x, film.p.x);
 }
 
 fn damped(r2: f32, interference: vec4f, coherence: vec4f) -> vec4f {

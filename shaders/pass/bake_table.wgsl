@@ -4,7 +4,7 @@
 
 import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, max_reflectance, n_cos_refracted};
 import package::optics::quadrature::QuadratureSample;
-import package::optics::table::{FilmPoint, TableAxes, film_of_texel};
+import package::optics::table::{TableAxes, film_of_texel};
 
 // As in optics/film_colour.wgsl.
 override COLOURED: u32;
@@ -16,6 +16,8 @@ override FADES: u32;
 struct Bake {
     axes: TableAxes,
     first_row: u32,
+    // Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast.
+    resolved_step: f32,
 }
 
 @group(0) @binding(0) var<uniform> bake: Bake;
@@ -24,8 +26,8 @@ struct Bake {
 
 const TAU: f32 = 6.2831853;
 
-// Rows that an invocation bakes. They share their angle, and so most of the work.
-const ROWS: u32 = 4u;
+// Rows that an invocation bakes: four, as vectors have it. They share their angle, and so most of the work.
+override ROWS: u32;
 
 // What is seen of light that the films of these rows reflect, a column each: of each primary, or of white light as `red`.
 struct Seen {
@@ -63,10 +65,6 @@ fn store_all(texel: vec2u, first: u32, scale: f32, seen: Seen) {
     }
 }
 
-// Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast: films of 1.5 um. The
-// same constant stands in src/gpu/passes/bake_table.rs.
-const RESOLVED_STEP: f32 = 0.2;
-
 // Reflectances of the part of the spectrum that a sample stands for. Fringes that move by much of a turn within it fade to their mean before
 // sums over samples would show them as colours that are not there.
 fn sample_reflectances(sample: QuadratureSample, cos_theta: f32, thickness_nm: vec4f) -> Reflectances {
@@ -74,7 +72,7 @@ fn sample_reflectances(sample: QuadratureSample, cos_theta: f32, thickness_nm: v
         return film_reflectances(sample.index, cos_theta, thickness_nm, sample.wavelength_nm);
     }
     let turns = 2.0 * n_cos_refracted(sample.index, cos_theta) / sample.wavelength_nm * thickness_nm;
-    let excess = max(TAU * sample.width_nm / sample.wavelength_nm * turns - RESOLVED_STEP, vec4f(0.0));
+    let excess = max(TAU * sample.width_nm / sample.wavelength_nm * turns - bake.resolved_step, vec4f(0.0));
     let coherence = exp(-excess * excess);
     return damped_reflectances(sample.index, cos_theta, thickness_nm, sample.wavelength_nm, coherence);
 }

@@ -1,6 +1,6 @@
 //! Shader sources: embedded, composed by their imports, and reloaded from disk in debug builds.
 //!
-//! A pass in `shaders/pass/` names what it needs by lines like `import package::optics::airy::film_reflectance;`. Composition is
+//! A pass in `shaders/pass/` names what it needs by lines like `import package::optics::airy::film_reflectances;`. Composition is
 //! textual: each module that is reached stands once, whole, and import lines become blank. So a line of the composed text is a line of a
 //! file, and an error of the compiler is reported with the file and line that a person can open. (A parser that prints its own syntax tree
 //! loses that, and pulling one in cost a third of the build.) Names are therefore global: a test composes every pass.

@@ -34,7 +34,7 @@ pub fn specialised(
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::all());
     let info = validator.validate(&module).map_err(|error| {
         let line = error.location(wgsl).map(|at| at.line_number);
-        refused(line, one_line_of(&error))
+        refused(line, with_causes(&error))
     })?;
     let point = module.entry_points.iter().find(|point| point.name == entry);
     let point = point.ok_or_else(|| refused(None, format!("there is no entry point `{entry}`")))?;
@@ -54,7 +54,7 @@ pub fn specialised(
 }
 
 /// An error with all of its causes.
-fn one_line_of(error: &WithSpan<impl std::error::Error>) -> String {
+fn with_causes(error: &WithSpan<impl std::error::Error>) -> String {
     let causes = std::iter::successors(Some(error.as_inner() as &dyn std::error::Error), |error| error.source());
     causes.map(ToString::to_string).collect::<Vec<_>>().join(": ")
 }

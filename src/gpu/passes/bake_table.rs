@@ -15,9 +15,9 @@ use crate::{
 
 /// Rows of one dispatch, so that none runs long.
 const ROWS_PER_DISPATCH: usize = 512;
-/// Rows that an invocation bakes: as in the shader.
+/// Rows that an invocation bakes.
 const ROWS_PER_INVOCATION: u32 = 4;
-/// Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast: as in the shader.
+/// Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast: those of water to 1.5 µm.
 const RESOLVED_STEP: f64 = 0.2;
 
 shader_struct! {
@@ -52,7 +52,9 @@ shader_struct! {
         pub axes: TableAxes,
         /// First row to bake.
         pub first_row: u32,
-        pad: [u32; 3],
+        /// Phase by which fringes may move from sample to sample, in radians.
+        pub resolved_step: f32,
+        pad: [u32; 2],
     }
 }
 
@@ -71,6 +73,7 @@ kernels! {
 
     /// Some rows of a table.
     struct BakeTable {
+        const ROWS: u32 = ROWS_PER_INVOCATION;
         override FADES: bool;
         overrides table_kind: TableOverrides;
         @0 bake: Uniform<BakeUniform>;
@@ -152,7 +155,12 @@ impl Table {
         key: &TableKey,
         rows: std::ops::Range<u32>,
     ) -> Result<(), GpuError> {
-        let uniform = BakeUniform { axes: TableAxes::of(key), first_row: rows.start, pad: [0; 3] };
+        let uniform = BakeUniform {
+            axes: TableAxes::of(key),
+            first_row: rows.start,
+            resolved_step: RESOLVED_STEP as f32,
+            pad: [0; 2],
+        };
         let kernel = BakeTable {
             FADES: self.fades,
             table_kind: TableOverrides { COLOURED: key.coloured, POLARISED: key.polarised },

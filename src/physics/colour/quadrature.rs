@@ -332,7 +332,7 @@ mod tests {
     fn thirty_two_wavelengths_stand_for_the_spectrum() {
         for (light, two_walls) in [("D65", false), ("D65", true), ("FL11", true)] {
             let [max, mean] = errors(light, 32, 1500.0, two_walls);
-            eprintln!("measured: 32 bands, {light}, two walls {two_walls}: max {max:.4}, mean {mean:.5}");
+            eprintln!("measured: 32 wavelengths, {light}, two walls {two_walls}: max {max:.4}, mean {mean:.5}");
             assert!(max <= 0.12 && mean <= 0.012, "{light} {two_walls}: {max} {mean}");
         }
     }
