@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::{ColourWeights, Illuminant, Uplift, Walls, ciede2000, xyz_to_lab};
-use crate::physics::optics::{FilmMaterial, Polarised, Wall};
+use crate::physics::optics::{FilmMaterial, SpectralWall, Wall};
 use crate::physics::spectra::{SAMPLES, wavelength_nm};
 
 /// The thickest film of water whose fringes samples 1 nm apart resolve at every angle, nm.
@@ -61,22 +61,26 @@ impl FilmOptics {
         self.film.wall(self.indices[i], cos_theta, self.weights.wavelengths_nm()[i])
     }
 
+    /// As [`Self::wall`], at all wavelengths of the weights.
+    pub fn spectral_wall(&self, cos_theta: f64) -> SpectralWall {
+        self.film.spectral_wall(&self.indices, cos_theta, self.weights.wavelengths_nm())
+    }
+
     /// XYZ of white light after reflection, unpolarised; a perfect mirror has Y = 1. `cos_theta` is the cosine of the angle in air, 0 to 1.
     pub fn xyz(&self, cos_theta: f64, walls: Walls) -> DVec3 {
-        self.weights.integrate(|i| walls.reflectance(&self.wall(i, cos_theta)))
+        let reflectances = walls.reflectances(&self.spectral_wall(cos_theta));
+        self.weights.integrate(|i| reflectances[i])
     }
 
     /// As [`FilmOptics::xyz`] of one wall, in light that is all s, and in light that is all p.
     pub fn xyz_of_polarisations(&self, cos_theta: f64, thickness_nm: f64) -> [DVec3; 2] {
-        let wall = |i| self.wall(i, cos_theta).reflectance(thickness_nm);
-        let reflectances: Vec<Polarised> = (0..self.indices.len()).map(wall).collect();
+        let reflectances = self.spectral_wall(cos_theta).reflectances(thickness_nm);
         [self.weights.integrate(|i| reflectances[i].s), self.weights.integrate(|i| reflectances[i].p)]
     }
 
     /// The matrix from linear BT.709 light to the XYZ of its reflection; see [`Uplift`].
     pub fn light_matrix(&self, cos_theta: f64, walls: Walls) -> DMat3 {
-        let reflectance = |i| walls.reflectance(&self.wall(i, cos_theta));
-        Uplift::bt709().light_matrix(&self.weights, &(0..self.indices.len()).map(reflectance).collect::<Vec<_>>())
+        Uplift::bt709().light_matrix(&self.weights, &walls.reflectances(&self.spectral_wall(cos_theta)))
     }
 
     /// What the walls do with unpolarised light, every 5 nm from 360 to 780 nm.

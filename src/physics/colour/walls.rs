@@ -1,6 +1,6 @@
 //! The walls of film that a ray meets, and what they reflect of one wavelength.
 
-use crate::physics::optics::{Polarised, Wall};
+use crate::physics::optics::{Polarised, SpectralWall, Wall};
 
 /// The film that a ray meets: one wall, or both walls of a bubble. Thickness along the normal, nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +60,18 @@ impl Walls {
             Self::Two { front_nm, back_nm, exit_nm } => front_and_back(at(front_nm), at(back_nm), at(exit_nm)),
         }
         .mean()
+    }
+
+    /// As [`Self::reflectance`], at several wavelengths.
+    pub fn reflectances(&self, wall: &SpectralWall) -> Vec<f64> {
+        let at = |thickness_nm| wall.reflectances(thickness_nm);
+        match *self {
+            Self::One { thickness_nm } => at(thickness_nm).into_iter().map(Polarised::mean).collect(),
+            Self::Two { front_nm, back_nm, exit_nm } => {
+                let hits = at(front_nm).into_iter().zip(at(back_nm)).zip(at(exit_nm));
+                hits.map(|((front, back), exit)| front_and_back(front, back, exit).mean()).collect()
+            }
+        }
     }
 
     /// Transmittance of unpolarised light of one wavelength: what passes all walls straight, T₀ or T₀ T₁. With one wall it is all that is not

@@ -3,7 +3,7 @@
 //! Everywhere `n` is the film's index, 1 to 4, `cos_theta` the cosine of the angle of incidence in air, 0 (grazing) to 1 (normal), and
 //! `thickness_nm` the thickness along the normal.
 
-use std::f64::consts::TAU;
+use std::f64::consts::PI;
 
 /// A quantity for the two linear polarisations: `s` with its electric field across the plane of incidence, `p` with it inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +18,16 @@ impl Polarised {
     /// The value for unpolarised light, which is half of each.
     pub fn mean(self) -> f64 {
         0.5 * (self.s + self.p)
+    }
+
+    /// What a reflectance leaves to pass.
+    pub fn rest(self) -> Self {
+        self.map(|r| 1.0 - r)
+    }
+
+    /// The product for each polarisation.
+    pub fn times(self, other: Self) -> Self {
+        Self { s: self.s * other.s, p: self.p * other.p }
     }
 
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
@@ -49,9 +59,13 @@ impl Incidence {
     /// It is even in the thickness, and exactly 0 for thickness 0 or n = 1.
     /// Right at grazing, `cos_theta` = 0, it is 1 for every thickness but 0: the limit, save at the single wavelengths with sin(δ/2) = 0.
     pub fn reflectance(&self, thickness_nm: f64, wavelength_nm: f64) -> Polarised {
-        let half_phase = TAU * self.n_cos_refracted * thickness_nm / wavelength_nm;
-        let sin2 = half_phase.sin().powi(2);
+        let sin2 = sin2_half_turns(self.order(thickness_nm, wavelength_nm));
         self.face.map(|r2| airy(r2, sin2, thickness_nm))
+    }
+
+    /// Order of interference: the path in the film, there and back, in wavelengths, δ / 2π.
+    fn order(&self, thickness_nm: f64, wavelength_nm: f64) -> f64 {
+        2.0 * self.n_cos_refracted * thickness_nm / wavelength_nm
     }
 
     /// The mean reflectance where thickness, angle or wavelength are spread, so that only a part of the fringes' contrast is left:
@@ -60,7 +74,7 @@ impl Incidence {
     /// Airy's T is (1 − r²) / (1 + r²) · (1 + 2 Σ r²ᵏ cos kδ). With coherenceᵏ on its k-th harmonic, as a Lorentz distribution of δ has it,
     /// the sum is closed: with q = coherence · r², T = (1 − r²) / (1 + r²) · (1 − q²) / (1 + q² − 2q cos δ).
     pub fn damped_reflectance(&self, thickness_nm: f64, wavelength_nm: f64, coherence: f64) -> Polarised {
-        let sin2 = (TAU * self.n_cos_refracted * thickness_nm / wavelength_nm).sin().powi(2);
+        let sin2 = sin2_half_turns(self.order(thickness_nm, wavelength_nm));
         self.face.map(|r2| {
             let q = coherence * r2;
             let fringes = 4.0 * q * sin2;
@@ -69,6 +83,56 @@ impl Incidence {
             // As in `airy`.
             if all > 0.0 { reflected / all } else { f64::from(thickness_nm != 0.0) }
         })
+    }
+}
+
+/// Coefficients of sin(πx) / x in powers of x², (−1)ᵏ π²ᵏ⁺¹ / (2k + 1)!, up to the 23rd power of x: at x = ½ the next term is 2e-20.
+const SINE: [f64; 12] = {
+    let mut series = [PI; 12];
+    let mut k = 1;
+    while k < series.len() {
+        series[k] = -series[k - 1] * (PI * PI) / (2 * k * (2 * k + 1)) as f64;
+        k += 1;
+    }
+    series
+};
+
+/// sin²(πx), for |x| below 2⁵¹. The sine of the standard library took a third of the time of a spectrum.
+fn sin2_half_turns(x: f64) -> f64 {
+    // A sum as large as this has no digits behind the point: adding it rounds.
+    const ROUNDER: f64 = 6_755_399_441_055_744.0; // 1.5 · 2⁵²
+    let x = x - ((x + ROUNDER) - ROUNDER);
+    let x2 = x * x;
+    let sine = x * SINE.iter().rev().fold(0.0, |sum, coefficient| sum * x2 + coefficient);
+    sine * sine
+}
+
+/// Light of several wavelengths that meets a film at one angle: an [`Incidence`] for each, laid out for loops that compilers turn into
+/// vector instructions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpectralIncidence {
+    /// Fresnel reflectance r² of one face.
+    faces: Vec<Polarised>,
+    /// Order of interference of a film of 1 nm.
+    orders_per_nm: Vec<f64>,
+}
+
+impl SpectralIncidence {
+    /// The light that meets a film at `cos_theta`, from the film's index at each wavelength in nm.
+    pub fn new(indices: &[f64], wavelengths_nm: &[f64], cos_theta: f64) -> Self {
+        let incidence = |(n, nm): (&f64, &f64)| {
+            let incidence = Incidence::new(*n, cos_theta);
+            (incidence.face, incidence.order(1.0, *nm))
+        };
+        let (faces, orders_per_nm) = indices.iter().zip(wavelengths_nm).map(incidence).unzip();
+        Self { faces, orders_per_nm }
+    }
+
+    /// As [`Incidence::reflectance`], at each wavelength.
+    #[must_use]
+    pub fn reflectances(&self, thickness_nm: f64) -> Vec<Polarised> {
+        let sin2: Vec<f64> = self.orders_per_nm.iter().map(|order| sin2_half_turns(order * thickness_nm)).collect();
+        self.faces.iter().zip(sin2).map(|(face, sin2)| face.map(|r2| airy(r2, sin2, thickness_nm))).collect()
     }
 }
 
@@ -121,10 +185,36 @@ pub fn max_reflectance(n: f64, cos_theta: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use proptest::prelude::*;
 
     use super::*;
     use crate::physics::optics::{FilmIndex, REFERENCE_NM};
+
+    #[test]
+    fn a_spectrum_is_its_wavelengths() {
+        for_all_cases(|n, cos_theta, thickness_nm, nm| {
+            let spectral = SpectralIncidence::new(&[1.4, n], &[500.0, nm], cos_theta).reflectances(thickness_nm);
+            let single = reflectance(n, cos_theta, thickness_nm, nm);
+            // The phase is rounded elsewhere, which resonance near grazing magnifies.
+            let tolerance = if cos_theta < 0.01 { 1e-8 } else { 1e-13 };
+            assert!((spectral[1].s - single.s).abs() < tolerance && (spectral[1].p - single.p).abs() < tolerance);
+        });
+    }
+
+    #[test]
+    fn the_sine_is_that_of_the_standard_library() {
+        for k in -40_000..40_000 {
+            let x = 0.001_25 * f64::from(k);
+            let expected = (PI * x).sin().powi(2);
+            // π x itself is rounded, by up to half an ulp of 50 π.
+            assert!((sin2_half_turns(x) - expected).abs() < 3e-14, "{x}");
+            assert!((0.0..=1.0).contains(&sin2_half_turns(x)), "{x}");
+        }
+        assert_eq!([0.0, 1.0, -7.0, 0.5, 1e9 + 0.5].map(sin2_half_turns), [0.0, 0.0, 0.0, 1.0, 1.0]);
+        assert!(sin2_half_turns(f64::NAN).is_nan());
+    }
 
     const INDICES: [f64; 4] = [1.0, 1.33, 1.5, 4.0];
     const COSINES: [f64; 7] = [1e-6, 0.05, 0.2, 0.5, 0.6, 0.9, 1.0];

@@ -1,6 +1,9 @@
 //! What a film is made of: its liquid, and the skins of soap on both faces.
 
-use super::{FilmIndex, Incidence, Polarised, REFERENCE_NM, coated_reflectance, equivalent_extra_nm, max_reflectance};
+use super::{
+    FilmIndex, Incidence, Polarised, REFERENCE_NM, SpectralIncidence, coated_reflectance, equivalent_extra_nm,
+    max_reflectance,
+};
 
 /// Index of water at the sodium line, at any temperature at most.
 pub const WATER_INDEX: f64 = 1.334;
@@ -35,6 +38,16 @@ impl FilmMaterial {
     pub fn wall(&self, n: f64, cos_theta: f64, wavelength_nm: f64) -> Wall {
         let skin = (self.skin_nm > 0.0).then_some(Skin { n, cos_theta, skin_nm: self.skin_nm });
         Wall { incidence: Incidence::new(n, cos_theta), skin, wavelength_nm }
+    }
+
+    /// As [`Self::wall`], for light of several wavelengths in nm, with the liquid's index at each.
+    pub fn spectral_wall(&self, indices: &[f64], cos_theta: f64, wavelengths_nm: &[f64]) -> SpectralWall {
+        if self.skin_nm > 0.0 {
+            let wall = |(n, nm): (&f64, &f64)| self.wall(*n, cos_theta, *nm);
+            SpectralWall::Coated(indices.iter().zip(wavelengths_nm).map(wall).collect())
+        } else {
+            SpectralWall::Plain(SpectralIncidence::new(indices, wavelengths_nm, cos_theta))
+        }
     }
 
     /// What the skins add to the thickness of a plain film that looks nearly the same, nm; see [`equivalent_extra_nm`].
@@ -78,6 +91,26 @@ impl Wall {
             Some(Skin { n, cos_theta, skin_nm }) => {
                 coated_reflectance(n, skin_nm, cos_theta, thickness_nm, self.wavelength_nm)
             }
+        }
+    }
+}
+
+/// Light of several wavelengths at one angle, for films of any thickness.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SpectralWall {
+    /// A film without skins.
+    Plain(SpectralIncidence),
+    /// A film with skins, at each wavelength.
+    Coated(Vec<Wall>),
+}
+
+impl SpectralWall {
+    /// Reflectance of a film of that total thickness at each wavelength.
+    #[must_use]
+    pub fn reflectances(&self, thickness_nm: f64) -> Vec<Polarised> {
+        match self {
+            Self::Plain(incidence) => incidence.reflectances(thickness_nm),
+            Self::Coated(walls) => walls.iter().map(|wall| wall.reflectance(thickness_nm)).collect(),
         }
     }
 }

@@ -41,7 +41,7 @@ mod liquids;
 mod material;
 mod skins;
 
-pub use airy::{Incidence, Polarised, amplitudes, cos_refracted, max_reflectance, reflectance};
+pub use airy::{Incidence, Polarised, SpectralIncidence, amplitudes, cos_refracted, max_reflectance, reflectance};
 pub use index::{FilmIndex, FilmIndexError, REFERENCE_NM};
-pub use material::{FilmMaterial, WATER_INDEX, Wall};
+pub use material::{FilmMaterial, SpectralWall, WATER_INDEX, Wall};
 pub use skins::{SKIN_INDEX, coated_reflectance, equivalent_extra_nm};

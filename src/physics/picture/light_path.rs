@@ -99,14 +99,34 @@ impl<'a> LightPath<'a> {
 
     /// With the cosine at each hit, or one for all.
     fn factors(&self, cosines: &[f64], thickness_nm: &[f64], inside: bool, polarisation: Polarised) -> Factors {
-        let mut factors = Factors { straight: DMat3::ZERO, reflected: vec![DMat3::ZERO; thickness_nm.len()] };
-        for (i, response) in self.responses.iter().enumerate() {
-            let walls: Vec<_> = cosines.iter().map(|cos_theta| self.optics.wall(i, *cos_theta)).collect();
-            let wall = |k: usize| &walls[k.min(walls.len() - 1)];
-            let walls = thickness_nm.iter().enumerate().map(|(k, nm)| wall(k).reflectance(*nm));
-            factors.add(*response, walls, inside, polarisation);
-        }
-        factors
+        let first = self.optics.spectral_wall(cosines[0]);
+        let reflectances = |k: usize| match cosines.get(k) {
+            Some(cos_theta) if k > 0 => self.optics.spectral_wall(*cos_theta).reflectances(thickness_nm[k]),
+            _ => first.reflectances(thickness_nm[k]),
+        };
+        let front = reflectances(0);
+        let outer = self.colour(front.iter().map(|r| polarisation.times(*r)));
+        // What is inside and heads for the next wall.
+        let entered = |r: &Polarised| if inside { polarisation } else { polarisation.times(r.rest()) };
+        let mut left: Vec<Polarised> = front.iter().map(entered).collect();
+        let mut leave = |k: usize| {
+            let reflectances = reflectances(k);
+            let colour = self.colour(left.iter().zip(&reflectances).map(|(left, r)| left.times(r.rest())));
+            left.iter_mut().zip(reflectances).for_each(|(left, r)| *left = left.times(r));
+            colour
+        };
+        let straight = leave(1);
+        let last = thickness_nm.len() - 1;
+        let mut reflected = vec![outer];
+        reflected.extend((2..=last).map(&mut leave));
+        // The last direction followed keeps all that is left.
+        reflected.push(self.colour(left.into_iter()));
+        Factors { straight, reflected }
+    }
+
+    /// The matrix from light to its colour, by the part of each wavelength that is seen, both polarisations together.
+    fn colour(&self, seen: impl Iterator<Item = Polarised>) -> DMat3 {
+        self.responses.iter().zip(seen).fold(DMat3::ZERO, |sum, (response, seen)| sum + *response * (seen.s + seen.p))
     }
 }
 
@@ -115,33 +135,6 @@ struct Factors {
     straight: DMat3,
     /// Outer reflection first, then each inner one.
     reflected: Vec<DMat3>,
-}
-
-impl Factors {
-    /// Adds one wavelength, by the reflectances of its hits in order.
-    fn add(
-        &mut self,
-        response: DMat3,
-        mut walls: impl Iterator<Item = Polarised>,
-        inside: bool,
-        polarisation: Polarised,
-    ) {
-        let [front, back] = [walls.next(), walls.next()].map(|wall| wall.unwrap_or(Polarised { s: 0.0, p: 0.0 }));
-        let Polarised { s: share_s, p: share_p } = polarisation;
-        self.reflected[0] += response * (share_s * front.s + share_p * front.p);
-        // What is inside and heads for the back wall.
-        let entered = if inside { [1.0, 1.0] } else { [1.0 - front.s, 1.0 - front.p] };
-        let [s, p] = [share_s * entered[0], share_p * entered[1]];
-        self.straight += response * (s * (1.0 - back.s) + p * (1.0 - back.p));
-        let (mut s, mut p) = (s * back.s, p * back.p);
-        let last = self.reflected.len() - 1;
-        for (k, factor) in self.reflected.iter_mut().enumerate().skip(1) {
-            // The last direction followed keeps all that is left.
-            let exit = if k == last { None } else { walls.next() }.unwrap_or(Polarised { s: 0.0, p: 0.0 });
-            *factor += response * (s * (1.0 - exit.s) + p * (1.0 - exit.p));
-            (s, p) = (s * exit.s, p * exit.p);
-        }
-    }
 }
 
 impl Factors {
