@@ -52,14 +52,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(print(format_args!("{}\n{}", summary(&cells), viscosity(&scene.scene, arguments.bubble)))?)
 }
 
-/// A line with the viscosity of a film that moves by itself, beside the viscosity of soapy water with mobile surfaces.
+/// A line with the viscosity of a film that moves by itself, beside the viscosity of a film of soapy water with mobile surfaces.
 fn viscosity(scene: &Scene, bubble: usize) -> String {
     let Some(bubble) = scene.bubbles.get(bubble).filter(|_| scene.motion.flow == Flow::Free) else {
         return String::new();
     };
-    let of_water = kinematic_viscosity(VISCOSITY, SURFACE_VISCOSITY, 1e-9 * bubble.film.thickness_nm);
-    let here = scene.motion.viscosity_mm2_s;
-    format!("viscosity {here} mm²/s; soapy water with mobile surfaces has {:.0} mm²/s\n", 1e6 * of_water)
+    let thickness_m = 1e-9 * bubble.film.thickness_nm;
+    let here = scene.motion.film_viscosity_m2_s(thickness_m);
+    let of_water = kinematic_viscosity(VISCOSITY, SURFACE_VISCOSITY, thickness_m);
+    let [here, of_water] = [here, of_water].map(|viscosity_m2_s| 1e6 * viscosity_m2_s);
+    format!("viscosity {here:.0} mm²/s; soapy water with mobile surfaces has {of_water:.0} mm²/s\n")
 }
 
 fn cells(arguments: &Arguments, scene: &LoadedScene) -> anyhow::Result<Vec<FilmCell>> {

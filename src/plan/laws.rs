@@ -39,19 +39,22 @@ fn course(
     turns: &Turns,
 ) -> Course {
     let (radius_m, film) = (bubble.radius_mm * 1e-3, initial_film(bubble));
-    let oscillator = Oscillator::new(radius_m, 1e-9 * film.mean_nm());
+    let thickness_m = 1e-9 * film.mean_nm();
+    let oscillator = Oscillator::new(radius_m, thickness_m);
     Course {
         tick_s: turns.tick_s(),
         radius_m,
         film,
         seed: bubble.film.seed,
         stream: index as u32,
-        flows: Timeline::of_changes(motions.iter().map(|(tick, motion)| (tick, flow_law(motion, radius_m)))),
+        flows: Timeline::of_changes(
+            motions.iter().map(|(tick, motion)| (tick, flow_law(motion, radius_m, thickness_m))),
+        ),
         evaporation_nm_s: Timeline::of_changes(
             motions.iter().map(|(tick, motion)| (tick, evaporation_nm_s(motion, radius_m))),
         ),
         // In other pieces it would round to other ticks.
-        thinning: motions.iter().map(|(tick, motion)| (tick, thinning(motion, radius_m))).collect(),
+        thinning: motions.iter().map(|(tick, motion)| (tick, thinning(motion, radius_m, thickness_m))).collect(),
         bursting: Timeline::of_changes(motions.iter().map(|(tick, motion)| (tick, bursting(motion)))),
         pushes: pushes(bubble, changes, turns.tick_s()),
         jets: jets(oscillator, changes, turns),
@@ -79,8 +82,8 @@ fn evaporation_nm_s(motion: &Motion, radius_m: f64) -> f64 {
 }
 
 /// What the top of a bubble's film thins by once it is sorted.
-fn thinning(motion: &Motion, radius_m: f64) -> Thinning {
-    let free = free_flow(motion, radius_m);
+fn thinning(motion: &Motion, radius_m: f64, thickness_m: f64) -> Thinning {
+    let free = free_flow(motion, radius_m, thickness_m);
     let drains = motion.flow == Flow::Free;
     Thinning {
         evaporation_nm_s: evaporation_nm_s(motion, radius_m),
@@ -95,24 +98,24 @@ fn bursting(motion: &Motion) -> Bursting {
 }
 
 /// The law that drives the film of a bubble.
-fn flow_law(motion: &Motion, radius_m: f64) -> FlowLaw {
+fn flow_law(motion: &Motion, radius_m: f64, thickness_m: f64) -> FlowLaw {
     let (strength, seed) = (motion.strength, fold_seed(motion.seed));
     match motion.flow {
-        Flow::Free => FlowLaw::Free(free_flow(motion, radius_m)),
+        Flow::Free => FlowLaw::Free(free_flow(motion, radius_m, thickness_m)),
         _ if strength == 0.0 => FlowLaw::Rest,
         Flow::Rest => FlowLaw::Rest,
         flow => FlowLaw::Prescribed { flow, strength, seed },
     }
 }
 
-/// What a free film is subject to, with the radius as the unit of length.
-fn free_flow(motion: &Motion, radius_m: f64) -> FreeFlow {
+/// What a free film is subject to that is blown with a mean thickness, with the radius as the unit of length.
+fn free_flow(motion: &Motion, radius_m: f64, thickness_m: f64) -> FreeFlow {
     FreeFlow {
         forces: FlowForces {
             gravity: DVec3::from(motion.gravity_m_s2) / radius_m,
             drag: motion.drag_1_s,
             air_drag: AIR_DRAG * motion.air_drag,
-            viscosity: 1e-6 * motion.viscosity_mm2_s / radius_m.powi(2),
+            viscosity: motion.film_viscosity_m2_s(thickness_m) / radius_m.powi(2),
         },
         diffusion: 1e-6 * motion.diffusion_mm2_s / radius_m.powi(2),
         // ρ/12μ, for thickness in nm.

@@ -7,7 +7,13 @@ use super::{
     check::{Checked, Fault},
     section::section,
 };
-use crate::physics::{film::Flow, transport::Scheme};
+use crate::physics::{
+    film::{
+        Flow,
+        properties::{VISCOSITY, kinematic_viscosity},
+    },
+    transport::Scheme,
+};
 
 /// Hands the keys of `[motion]` that events may change to a macro, after what is given.
 macro_rules! with_changing_keys {
@@ -17,10 +23,11 @@ macro_rules! with_changing_keys {
             flow: Flow = Flow::Free, [word], "Flow", "", "what moves the film";
             strength: f64 = 1.0, [0.0 ..= 10.0], "Strength", "", "factor on the speed of the flow; for a free film, on the speed of the draught around it";
             seed: u64 = 1, [whole], "Flow seed", "", "random seed of the flow";
-            gravity_m_s2: [f64; 3] = [0.0, 0.0, -9.81], [-1000.0 ..= 1000.0], "Gravity", " m/s²", "gravity minus the acceleration of the bubble, m/s²; this and the next five act on `flow = \"free\"`";
+            gravity_m_s2: [f64; 3] = [0.0, 0.0, -9.81], [-1000.0 ..= 1000.0], "Gravity", " m/s²", "gravity minus the acceleration of the bubble, m/s²; this and the next six act on `flow = \"free\"`";
             drag_1_s: f64 = 2.0, [0.0 ..= 1000.0], "Drag", " 1/s", "rate at which the flow decays at any thickness, 1/s";
             air_drag: f64 = 0.0, [0.0 ..= 10.0], "Air drag", "", "factor on the drag of the air's boundary layer; at 1 it stops a film of 1 µm in a tenth of a second";
             viscosity_mm2_s: f64 = 100.0, [0.0 ..= 1000000.0], "Viscosity", " mm²/s", "kinematic viscosity of the film, mm²/s; real films have 20 to 2000";
+            surface_viscosity_upa_s_m: f64 = 0.0, [0.0 ..= 1000.0], "Surface viscosity", " µPa s m", "shear viscosity of each of the film's two surfaces, µPa s m; above 0, the film's viscosity follows from it and from the thickness that the film is blown with, in place of `viscosity_mm2_s`; layers of soap have 0.01 to 10";
             diffusion_mm2_s: f64 = 0.5, [0.0 ..= 1000.0], "Diffusion", " mm²/s", "diffusivity of the thickness within the film, mm²/s";
             drainage: f64 = 0.0, [0.0 ..= 10000.0], "Drainage", "", "factor on the drainage between immobile surfaces, which takes hours at 1; the liquid is counted in the drop, the ring or the bath";
             spin_deg_s: [f64; 3] = [0.0; 3], [-3600.0 ..= 3600.0], "Spin", " °/s", "rotation of all films as a whole, degrees per second about the three axes of the world; gravity turns with a free film";
@@ -86,6 +93,17 @@ macro_rules! change {
 with_changing_keys!(change! {});
 
 impl Motion {
+    /// Kinematic viscosity of a film that is blown with a mean thickness, m²/s: what is given, or what follows from the viscosity of its
+    /// surfaces, up to the largest value that can be given.
+    #[must_use]
+    pub fn film_viscosity_m2_s(&self, thickness_m: f64) -> f64 {
+        if self.surface_viscosity_upa_s_m > 0.0 {
+            kinematic_viscosity(VISCOSITY, 1e-6 * self.surface_viscosity_upa_s_m, thickness_m).min(1.0)
+        } else {
+            1e-6 * self.viscosity_mm2_s
+        }
+    }
+
     pub(super) fn check(&self) -> Checked {
         self.check_ranges()
     }

@@ -99,6 +99,9 @@ fn film(ui: &mut Ui, motion: &mut Motion) -> bool {
             number(ui, &keys.viscosity_mm2_s, &mut motion.viscosity_mm2_s, |s| {
                 s.logarithmic(true).smallest_positive(1.0).max_decimals(0)
             }),
+            number(ui, &keys.surface_viscosity_upa_s_m, &mut motion.surface_viscosity_upa_s_m, |s| {
+                s.logarithmic(true).smallest_positive(0.001).max_decimals(3)
+            }),
             number(ui, &keys.diffusion_mm2_s, &mut motion.diffusion_mm2_s, |s| {
                 s.logarithmic(true).smallest_positive(0.1).max_decimals(1)
             }),

@@ -20,7 +20,7 @@ use crate::{
     physics::{
         film::{
             FrozenFlow, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Push,
-            model::{FreePart, air_rate},
+            model::{FREE_STEP, FreePart, Operation, air_rate},
         },
         flow::{FOLLOWED_TURN, FlowForces},
     },
@@ -84,18 +84,25 @@ impl FreeMotion {
         around: &Surroundings<'_>,
         ticks: u32,
     ) -> Result<(), GpuError> {
-        self.feel(recorder, field, around)?;
-        self.blow(recorder, field, around)?;
-        self.push(recorder, field, &around.part.pushes)?;
+        FREE_STEP.into_iter().try_for_each(|operation| match operation {
+            Operation::FeelThickness => self.feel(recorder, field, around),
+            Operation::BlowAir => self.blow(recorder, field, around),
+            Operation::Push => self.push(recorder, field, &around.part.pushes),
+            Operation::StepFlow => self.step_flow(recorder, around),
+            of_any_film => field.run(of_any_film, recorder, &self.ahead(around.part.dt_s), ticks),
+        })
+    }
+
+    /// Moves the flow by a step; what turns too fast for one is tried first.
+    fn step_flow(&mut self, recorder: &mut Recorder<'_>, around: &Surroundings<'_>) -> Result<(), GpuError> {
         let FreePart { dt_s, strain, forces, .. } = *around.part;
         // The flow knows thicknesses relative to a reference.
         let forces = FlowForces { air_drag: forces.air_drag / around.reference_nm(), ..forces };
         if strain * dt_s > FOLLOWED_TURN {
-            self.solver.step_corrected(recorder, dt_s, &forces)?;
+            self.solver.step_corrected(recorder, dt_s, &forces)
         } else {
-            self.solver.step(recorder, dt_s, &forces)?;
+            self.solver.step(recorder, dt_s, &forces)
         }
-        field.advance(recorder, &self.ahead(dt_s), ticks)
     }
 
     /// A step of the film in the velocity of now.

@@ -43,7 +43,10 @@ use super::{
     timing::{Groups, Recorder, STEP_FIELD},
 };
 use crate::physics::{
-    film::{Cap, model::DrainLaw},
+    film::{
+        Cap,
+        model::{DrainLaw, Operation, PRESCRIBED_STEP},
+    },
     sphere::{CubedSphere, GridError},
     transport::Scheme,
 };
@@ -250,25 +253,55 @@ impl Field {
 
     /// Moves the liquid by one step that lasts some ticks. Steps back, and those whose times are no numbers, are refused.
     pub fn advance(&mut self, recorder: &mut Recorder<'_>, step: &Step, ticks: u32) -> Result<(), GpuError> {
-        if !step.is_forward() {
-            return Err(GpuError::Refused("a step of the film needs finite times, the later one last".to_owned()));
-        }
-        recorder.counts.cells_stepped += self.film.sphere.cells() as u64;
-        if !self.rules.scheme.keeps_map() {
-            return self.advance_and_remap(recorder, step);
-        }
-        self.compose(recorder, STEP_FIELD, step, self.map_so_far(), 1)?;
-        self.map.swap(0, 1);
-        self.map_is_identity = false;
-        self.ticks_since_decision += ticks;
-        if self.ticks_since_decision >= self.remap_rule().decision_ticks() {
-            self.remap_if_due(recorder)?;
-        }
-        Ok(())
+        PRESCRIBED_STEP.into_iter().try_for_each(|operation| self.run(operation, recorder, step, ticks))
     }
 
-    /// Traces a step and composes it with a map, into one of the two. Where there is none and the grid is the map's own, that is the trace.
-    fn compose(
+    /// Records one operation of a step that moves the liquid; what only the flow of a free film does is not done here.
+    fn run(
+        &mut self,
+        operation: Operation,
+        recorder: &mut Recorder<'_>,
+        step: &Step,
+        ticks: u32,
+    ) -> Result<(), GpuError> {
+        let keeps_map = self.rules.scheme.keeps_map();
+        match operation {
+            Operation::TraceStep => {
+                if !step.is_forward() {
+                    let reason = "a step of the film needs finite times, the later one last";
+                    return Err(GpuError::Refused(reason.to_owned()));
+                }
+                recorder.counts.cells_stepped += self.film.sphere.cells() as u64;
+                if keeps_map {
+                    self.trace(recorder, STEP_FIELD, step, self.map_so_far(), 1)
+                } else {
+                    self.advance_and_remap(recorder, step)
+                }
+            }
+            Operation::ComposeMap if keeps_map => {
+                self.compose(recorder, STEP_FIELD, self.map_so_far(), 1)?;
+                self.map.swap(0, 1);
+                self.map_is_identity = false;
+                Ok(())
+            }
+            Operation::DecideRemap if keeps_map => {
+                self.ticks_since_decision += ticks;
+                if self.ticks_since_decision >= self.remap_rule().decision_ticks() {
+                    self.remap_if_due(recorder)?;
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether the trace of a step is its composition with a map: where there is no map, and the grids are the same.
+    fn trace_is_map(&self, before: Option<&wgpu::Buffer>) -> bool {
+        before.is_none() && self.flow_grid().cells == self.map_grid().cells
+    }
+
+    /// Traces a step that is then composed with a map into one of the two.
+    fn trace(
         &self,
         recorder: &mut Recorder<'_>,
         name: &'static str,
@@ -276,14 +309,24 @@ impl Field {
         before: Option<&wgpu::Buffer>,
         into: usize,
     ) -> Result<(), GpuError> {
-        let flow = self.flow_grid();
-        if before.is_none() && flow.cells == self.map_grid().cells {
-            return trace_step(recorder, name, step, flow, &self.map[into]);
+        let traced = if self.trace_is_map(before) { &self.map[into] } else { &self.step_map };
+        trace_step(recorder, name, step, self.flow_grid(), traced)
+    }
+
+    /// Composes the step that was traced with a map, into one of the two.
+    fn compose(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &'static str,
+        before: Option<&wgpu::Buffer>,
+        into: usize,
+    ) -> Result<(), GpuError> {
+        if self.trace_is_map(before) {
+            return Ok(());
         }
-        trace_step(recorder, name, step, flow, &self.step_map)?;
         let composition = Composition {
             grid: self.map_grid(),
-            step_cells: flow.cells,
+            step_cells: self.flow_grid().cells,
             step_map: &self.step_map,
             before,
             gathers: self.rules.gathered != Gathered::Nothing,
@@ -293,15 +336,28 @@ impl Field {
         compose_map(recorder, name, &composition)
     }
 
+    /// Traces a step, and composes it with a map into one of the two.
+    fn trace_and_compose(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &'static str,
+        step: &Step,
+        before: Option<&wgpu::Buffer>,
+        into: usize,
+    ) -> Result<(), GpuError> {
+        self.trace(recorder, name, step, before, into)?;
+        self.compose(recorder, name, before, into)
+    }
+
     /// One step of a scheme that keeps no map.
     fn advance_and_remap(&mut self, recorder: &mut Recorder<'_>, step: &Step) -> Result<(), GpuError> {
         let grid = &self.film;
         let (all, everywhere) = (grid.padded_groups().into(), self.all_cells());
-        self.compose(recorder, STEP_FIELD, step, None, 0)?;
+        self.trace_and_compose(recorder, STEP_FIELD, step, None, 0)?;
         let back = Some(&self.map[0]);
         self.sample(recorder, STEP_FIELD, grid, back, [&self.tracer, &self.sampled], everywhere)?;
         if let Some(corrected) = &self.corrected {
-            self.compose(recorder, STEP_FIELD, &step.reversed(), None, 1)?;
+            self.trace_and_compose(recorder, STEP_FIELD, &step.reversed(), None, 1)?;
             let forth = Some(&self.map[1]);
             self.sample(recorder, STEP_FIELD, grid, forth, [&self.sampled, &self.shown], everywhere)?;
             let kernel = CorrectError { tracer: &self.tracer, returned: &self.shown, corrected };

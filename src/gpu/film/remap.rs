@@ -14,7 +14,7 @@ use crate::gpu::{
     },
     timing::{Groups, Recorder, STEP_FIELD},
 };
-use crate::physics::film::model::{BlackeningLaw, DrainLaw};
+use crate::physics::film::model::{BlackeningLaw, DrainLaw, REMAP, RemapOperation};
 
 impl Field {
     /// Sets the diffusivity of the thickness from now on, rad²/s, for ticks of a length in seconds. Schemes without a map do not spread it.
@@ -54,25 +54,27 @@ impl Field {
         let grids = (self.map_grid(), self.tracer_grid());
         decide_remap(recorder, STEP_FIELD, grids, &self.map[0], &self.control, (ticks, rule))?;
         let due = &self.control;
-        let tracers = [&self.tracer, &self.sampled];
-        let groups = [due.tracer_groups(), due.quad_groups()];
-        self.sample(recorder, STEP_FIELD, self.tracer_grid(), self.kept_map(), tracers, groups)?;
-        if let Some(diffusion) = &self.diffusion {
-            diffusion.record(recorder, self.tracer_grid(), &self.control, &self.sampled, &self.tracer)?;
-        }
-        self.settle(recorder, self.groups_due())?;
-        if let Some((law, _)) = &self.drain {
-            self.lose(recorder, law)?;
-        }
-        if let Some(black) = &self.black {
-            self.blacken(recorder, black)?;
-        }
-        if rule.is_due_after(ticks) {
-            self.map_is_identity = true;
-            return Ok(());
-        }
-        let kernel = ResetMap { tangents: &self.map_grid().tangents, map: &self.map[0] };
-        kernel.reset_map(recorder, STEP_FIELD, due.map_groups())
+        REMAP.into_iter().try_for_each(|operation| match operation {
+            RemapOperation::SampleTracer => {
+                let tracers = [&self.tracer, &self.sampled];
+                let groups = [due.tracer_groups(), due.quad_groups()];
+                self.sample(recorder, STEP_FIELD, self.tracer_grid(), self.kept_map(), tracers, groups)
+            }
+            RemapOperation::Diffuse => self.diffusion.iter().try_for_each(|diffusion| {
+                diffusion.record(recorder, self.tracer_grid(), due, &self.sampled, &self.tracer)
+            }),
+            RemapOperation::Settle => self.settle(recorder, self.groups_due()),
+            RemapOperation::Drain => self.drain.iter().try_for_each(|(law, _)| self.lose(recorder, law)),
+            RemapOperation::Blacken => self.black.iter().try_for_each(|black| self.blacken(recorder, black)),
+            // A map that is known to be the identity is not read.
+            RemapOperation::ResetMap if rule.is_due_after(ticks) => Ok(()),
+            RemapOperation::ResetMap => {
+                let kernel = ResetMap { tangents: &self.map_grid().tangents, map: &self.map[0] };
+                kernel.reset_map(recorder, STEP_FIELD, due.map_groups())
+            }
+        })?;
+        self.map_is_identity = rule.is_due_after(ticks);
+        Ok(())
     }
 
     /// Workgroups, if a remap is due, of the sum over the tracer, of its end, and of a pass over the tracer.

@@ -19,7 +19,7 @@ impl Field {
     pub fn show(&mut self, recorder: &mut Recorder<'_>, ahead: Option<&Step>) -> Result<(), GpuError> {
         self.shown_map = usize::from(ahead.is_some());
         if let Some(step) = ahead {
-            self.compose(recorder, SHOW_FIELD, step, self.map_so_far(), 1)?;
+            self.trace_and_compose(recorder, SHOW_FIELD, step, self.map_so_far(), 1)?;
         }
         let map = ahead.map_or(self.map_so_far(), |_| Some(&self.map[1]));
         if map.is_none() && self.rules.scheme.keeps_map() {

@@ -39,7 +39,8 @@
 //! α = α₀ + A √|u| / h                                                                                (4)
 //! ```
 //!
-//! The numerics of (2) to (4) are in [`flow`](crate::physics::flow), equations (F1) to (F10). In (3) a film has one ν for all of its thicknesses, and
+//! The numerics of (2) to (4) are in [`flow`](crate::physics::flow), equations (F1) to (F10). A film has one ν, by (3) with its mean thickness at the
+//! start where a scene gives μ_s (`surface_viscosity_upa_s_m`), or as the scene gives it (`viscosity_mm2_s`), and
 //! in (2) the air's own motion acts by a mean α₀.
 //!
 //! Thickness goes with the liquid, and evaporates, spreads by what the cells do not resolve, drains between still surfaces, leaves at rims, and turns

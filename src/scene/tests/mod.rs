@@ -329,3 +329,20 @@ fn words_and_values_share_a_key() {
     assert_eq!(backdrop("\"environment\""), Backdrop::Environment);
     assert_eq!(backdrop("[0, 0.5, 1]"), Backdrop::Radiance([0.0, 0.5, 1.0]));
 }
+
+#[test]
+fn the_viscosity_of_a_film_is_given_or_follows_from_its_surfaces() {
+    let given = Motion { viscosity_mm2_s: 70.0, ..Motion::default() };
+    let surfaces = Motion { surface_viscosity_upa_s_m: 0.03, ..given };
+    let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
+    assert!(close(given.film_viscosity_m2_s(1e-6), 7e-5));
+    assert!(close(surfaces.film_viscosity_m2_s(1e-6), 6.11e-5), "μ/ρ + 2 μ_s / ρh");
+    assert!(
+        close(surfaces.film_viscosity_m2_s(5e-7), 1.211e-4),
+        "twice as much for half of the thickness, but for the liquid"
+    );
+    let stiff = Motion { surface_viscosity_upa_s_m: 1000.0, ..given };
+    for thickness_m in [0.0, 1e-9] {
+        assert_eq!(stiff.film_viscosity_m2_s(thickness_m), 1.0, "no more than can be given");
+    }
+}

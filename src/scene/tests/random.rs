@@ -109,7 +109,7 @@ fn any_of<T: Words + std::fmt::Debug>() -> impl Strategy<Value = T> {
 fn motion() -> impl Strategy<Value = Motion> {
     let spins = (spin(), 0.0..1000.0, any_of());
     let ends = (0.0..1.0, 0.0..10.0, 0.0..1e6, 1.0..1e4, 0.0..1e6);
-    let forces = (gravity(), 0.0..1000.0, 0.0..10.0, 0.0..1e6, 0.0..1000.0, 0.0..1e4);
+    let forces = (gravity(), 0.0..1000.0, 0.0..10.0, 0.0..1e6, 0.0..1000.0, 0.0..1e4, 0.0..1000.0);
     (1e-4..0.1, any_of(), 0.0..10.0, any::<u64>(), spins, forces, ends, 1u32..=1000, 0.01..100.0).prop_map(
         |(tick_s, flow, strength, seed, (spin_deg_s, evaporation_nm_s, scheme), forces, ends, remap_ticks, speed)| {
             Motion {
@@ -123,6 +123,7 @@ fn motion() -> impl Strategy<Value = Motion> {
                 viscosity_mm2_s: forces.3,
                 diffusion_mm2_s: forces.4,
                 drainage: forces.5,
+                surface_viscosity_upa_s_m: forces.6,
                 spin_deg_s,
                 evaporation_nm_s,
                 humidity: ends.0,

@@ -1,7 +1,7 @@
 //! The film model as a list: the operations of a step, in order.
 //!
-//! Each operation is a pass on the device, with the shader's name, and a function in f64 here. `Film` executes these lists; the device records the same
-//! passes in the same order, and `tests/gpu/film_model.rs` compares the two.
+//! Each operation is a pass on the device, with the shader's name, and a function in f64 here. [`Film`](super::Film) and `gpu::film` both go through
+//! these lists, and `tests/gpu/film_model.rs` compares what comes out.
 
 /// What is done to a film in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
