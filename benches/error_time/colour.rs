@@ -11,7 +11,7 @@ use soapfilm::{
     },
     input::load_scene,
     physics::{
-        colour::{BT2020, Gamut, Illuminant, QuadratureTask, Walls, m2_delta_e},
+        colour::{BT2020, Gamut, Illuminant, QuadratureTask, Walls, m2_delta_e, seen_light},
         optics::FilmMaterial,
     },
     plan::{Moment, OpticsKey, Pace, QuadratureKey, Shot, TableKey, request},
@@ -65,7 +65,8 @@ pub fn tables(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     for (columns, rows, max_nm) in TABLES.into_iter().take(if smoke { 1 } else { TABLES.len() }) {
         let key = TableKey { columns, rows, ..TableKey::full(water(), max_nm) };
         let (table, cpu_ms, wall_ms) = timed(|| bake(gpu, &key))?;
-        let quadrature = QuadratureKey { optics: water(), range_nm: max_nm, quality: Quality::Standard };
+        let quadrature =
+            QuadratureKey::new(water(), max_nm, Quality::Standard, &seen_light(&Illuminant::default()), true);
         let points = points(if smoke { 500 } else { FILMS }, max_nm, false);
         let probe = ColourProbe::with_table(table, Quadrature::fit(gpu, &quadrature));
         let [worst, mean] = colour_error(&points, &probe.measure(gpu, &probes(&points))?);
@@ -138,7 +139,8 @@ pub fn qualities(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
             let (probe, cpu_ms, _) = timed(|| ColourProbe::new(&renderer.gpu, &water(), quality, max_nm))?;
             let [worst, mean] = colour_error(&points, &probe.measure(&renderer.gpu, &probes(&points))?);
             let ns = nanoseconds_per_point(&renderer.gpu, &probe, if smoke { 500 } else { TIMED_FILMS })?;
-            let quadrature = QuadratureKey { optics: water(), range_nm: max_nm, quality }.count() as f64;
+            let quadrature =
+                QuadratureKey::new(water(), max_nm, quality, &seen_light(&Illuminant::default()), true).count() as f64;
             let ratio = frame_over_mirror(&mut renderer, quality, if smoke { 1 } else { 9 })?;
             report.row(&[quadrature, max_nm, cpu_ms, ns, worst, mean, ratio]);
             places.push([ratio, mean]);

@@ -49,9 +49,15 @@ const HALVINGS: u32 = 12u;
 // Bleaches a colour, in the display's linear RGB, towards its grey, and brings it back into [0, 1] by lowering its chroma just as far as
 // needed: both in CIELAB, whose hue stays. The matrices lead from the display's linear RGB to XYZ relative to white, and back.
 fn into_gamut(toned: Toned, to_xyz: mat3x3f, from_xyz: mat3x3f) -> vec3f {
-    if (toned.bleach == 0.0 && is_inside(toned.linear)) {
-        return toned.linear;
+    var mapped = toned.linear;
+    // A loop of one round at most: software rasterisers skip those that no pixel of a group enters, and go through both sides of an `if`.
+    for (var is_done = toned.bleach == 0.0 && is_inside(mapped); !is_done; is_done = true) {
+        mapped = with_less_chroma(toned, to_xyz, from_xyz);
     }
+    return mapped;
+}
+
+fn with_less_chroma(toned: Toned, to_xyz: mat3x3f, from_xyz: mat3x3f) -> vec3f {
     let response = lightness_curve(to_xyz * toned.linear);
     let grey = lightness_curve(vec3f(toned.grey)).y;
     let lightness = clamp(mix(response.y, grey, toned.bleach), 4.0 / 29.0, 1.0);

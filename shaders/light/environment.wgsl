@@ -9,8 +9,6 @@ struct Light {
     texel_angle: f32,
     // Radiance of the backdrop where it is a colour.
     backdrop: vec3f,
-    // 1 where the backdrop is the environment.
-    backdrop_is_environment: f32,
     // Factor that makes daylight's white (1, 1, 1), exposed as the linear picture is.
     scale: vec3f,
     // cos and sin of the environment's turn about the vertical are turn_cos here and turn_sin below.
@@ -21,6 +19,9 @@ struct Light {
     // Matrix from light to its colour under the illuminant, where daylight's white is (1, 1, 1), exposed like the linear picture.
     seen: mat3x3f,
 }
+
+// 1: the environment is seen behind the bubbles. 0: one colour.
+override BACKDROP_IS_ENVIRONMENT: u32;
 
 // Light from a direction, filtered over a cone of the given angle.
 fn environment_radiance(
@@ -47,7 +48,7 @@ fn backdrop_radiance(
     direction: vec3f,
     footprint: f32,
 ) -> vec3f {
-    if (light.backdrop_is_environment == 0.0) {
+    if (BACKDROP_IS_ENVIRONMENT == 0u) {
         return light.backdrop;
     }
     return environment_radiance(environment, environment_sampler, light, direction, footprint);

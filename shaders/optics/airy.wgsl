@@ -23,11 +23,17 @@ fn surface_reflectance(n: f32, cos_theta: f32) -> vec2f {
     return r * r;
 }
 
-// Greatest reflectance that interference can give at this angle, mean of s and p: 1 at grazing, 0.08 at the normal for water.
-fn max_reflectance(n: f32, cos_theta: f32) -> f32 {
+// Greatest reflectances of s and p light that interference can give at this angle.
+fn peak_reflectances(n: f32, cos_theta: f32) -> vec2f {
     let r2 = surface_reflectance(n, cos_theta);
     let peak = 2.0 / (1.0 + r2);
-    return 0.5 * dot(r2 * peak, peak);
+    return r2 * peak * peak;
+}
+
+// Their mean: 1 at grazing, 0.08 at the normal for water.
+fn max_reflectance(n: f32, cos_theta: f32) -> f32 {
+    let peak = peak_reflectances(n, cos_theta);
+    return 0.5 * (peak.x + peak.y);
 }
 
 // Reflectances of four films for s and p light.

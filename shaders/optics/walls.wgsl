@@ -9,15 +9,15 @@
 // the bubble vanishes exactly. R0 (E0 - B) and R1 (E1 - B) are single walls, which a table can hold; the rest are products of
 // reflectances, which must be formed wavelength by wavelength.
 
-import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, n_cos_refracted};
+import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, n_cos_refracted, peak_reflectances};
 import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::FILTERED;
 
 // 1: the quadrature gives everything. 0: it gives the products, and single walls come from the table.
 override EVERYTHING: u32;
-// How many wavelengths there are.
+// How many wavelengths there are. 0: products are products of the table's colours.
 override WAVELENGTHS: u32;
-// Inner reflections that are followed: 3, 7 or 11.
+// Inner reflections that are followed: 1, 3, 7 or 11.
 override INNER: u32;
 // 1: there are films that the wavelengths are too few for.
 override THICK: u32;
@@ -40,6 +40,27 @@ struct Walls {
     third: Hits,
     // Steps of light at further hits, where the film is taken to be as thick as at the last one: at grazing they lie close together.
     further: array<vec3f, 12>,
+}
+
+// L - B from colours: an approximation for films that reflect little, white light and no polariser. `colours` are those of the first four
+// walls over white, in BT.2020's primaries, mean of s and p: columns that multiply light as the reflectances of one wavelength do. How much of
+// them is s and how much p follows from the angle, alike for films of any thickness.
+fn product_of_colours(n: f32, cos_theta: f32, colours: mat4x3f, steps: mat4x3f) -> vec3f {
+    let peak = peak_reflectances(n, cos_theta);
+    // Neither exists at normal incidence on index 1.
+    let share = 2.0 * peak / max(peak.x + peak.y, 1e-30);
+    var s = max(1.0 - share.x * colours[0], vec3f(0.0)) * share.x * colours[1];
+    var p = max(1.0 - share.y * colours[0], vec3f(0.0)) * share.y * colours[1];
+    var light = steps[0] * colours[0] + 0.5 * steps[1] * (s + p);
+    if (INNER > 1u) {
+        s *= share.x * colours[2];
+        p *= share.y * colours[2];
+        light += 0.5 * steps[2] * (s + p);
+        s *= share.x * colours[3];
+        p *= share.y * colours[3];
+        light += 0.5 * steps[3] * (s + p);
+    }
+    return light;
 }
 
 // Factors on the first four steps, from the reflectances at the first four hits.

@@ -12,7 +12,8 @@ import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::{FILTERED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls, resolved, wavelength_radiance};
+import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls};
+import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
 import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::path::{Path, footprint, polarisation_along};
@@ -277,14 +278,21 @@ fn four_hits(path: Path, at: Followed) -> FourHits {
     return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), d);
 }
 
-// The first four hits: the front wall, which there is none of from inside the bubble, and three inside.
+// The first four hits: the front wall, which there is none of from inside the bubble, and three inside, or one.
 fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
     let behind = at.light;
-    let a = followed(path, at);
-    let b = followed(path, a);
-    let c = followed(path, b);
-    var walls_nm = vec4f(0.0, optical_nm(at.hop.point), optical_nm(a.hop.point), optical_nm(b.hop.point));
-    var steps = mat4x3f(vec3f(0.0), a.light - behind, b.light - a.light, c.light - b.light);
+    var last = followed(path, at);
+    var walls_nm = vec4f(0.0, optical_nm(at.hop.point), 0.0, 0.0);
+    var steps = mat4x3f(vec3f(0.0), last.light - behind, vec3f(0.0), vec3f(0.0));
+    if (INNER > 1u) {
+        let a = last;
+        let b = followed(path, a);
+        last = followed(path, b);
+        walls_nm.z = optical_nm(a.hop.point);
+        walls_nm.w = optical_nm(b.hop.point);
+        steps[2] = b.light - a.light;
+        steps[3] = last.light - b.light;
+    }
     if (!is_inside) {
         let front = path.foot - path.half_chord * path.round;
         let direction = mirrored(path, front);
@@ -292,7 +300,7 @@ fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
         let left = left_before(path) * crossing(front.z, direction.z, direction);
         steps[0] = left * surroundings(direction, footprint(path, direction, 2.0)) - behind;
     }
-    return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), c);
+    return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), last);
 }
 
 // What is seen along a ray: see optics/walls.wgsl.
@@ -322,12 +330,17 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     // One reflection more, by the mean reflectance over all thicknesses, of s light, which outlasts p: no lookup of a film.
     let r2 = surface_reflectance(axes.index, path.cos_theta).x;
     let more = 2.0 * r2 / (1.0 + r2) * (followed(path, last).light - last.light);
-    if (INNER == 3u) {
+    if (INNER == 1u) {
+        walls.first.steps[1] += more;
+    } else if (INNER == 3u) {
         walls.first.steps[3] += more;
     } else if (INNER == 7u) {
         walls.second.steps[3] += more;
     } else {
         walls.further[FURTHER - 1u] += more;
+    }
+    if (WAVELENGTHS == 0u) {
+        return light.seen * behind + light.scale * colour_products(path, walls.first);
     }
     var seen = vec3f(0.0);
     let products = resolved(walls, quadrature[0].gap_nm);
@@ -341,6 +354,20 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
             + wall_reflection(path, nm.y, spread.y, polarisation, walls.first.steps[1]);
     }
     return light.seen * behind + light.scale * seen;
+}
+
+// The part of L - B by the table's colours of the first walls.
+fn colour_products(path: Path, hits: Hits) -> vec3f {
+    let white = quadrature[0].response * vec3f(1.0);
+    let unpolarised = vec2f(0.5);
+    var colours = mat4x3f();
+    colours[0] = wall_reflection(path, hits.walls_nm.x, hits.spread_nm.x, unpolarised, vec3f(1.0)) / white;
+    colours[1] = wall_reflection(path, hits.walls_nm.y, hits.spread_nm.y, unpolarised, vec3f(1.0)) / white;
+    if (INNER > 1u) {
+        colours[2] = wall_reflection(path, hits.walls_nm.z, hits.spread_nm.z, unpolarised, vec3f(1.0)) / white;
+        colours[3] = wall_reflection(path, hits.walls_nm.w, hits.spread_nm.w, unpolarised, vec3f(1.0)) / white;
+    }
+    return white * product_of_colours(axes.index, path.cos_theta, colours, hits.steps);
 }
 
 fn wall_reflection(path: Path, nm: f32, spread_nm: f32, polarisation: vec2f, step: vec3f) -> vec3f {

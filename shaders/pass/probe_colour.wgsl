@@ -3,7 +3,7 @@
 import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::film_reflection;
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{EVERYTHING, Hits, INNER, WAVELENGTHS, Walls, resolved, wavelength_radiance};
+import package::optics::walls::{EVERYTHING, Hits, INNER, WAVELENGTHS, Walls, product_of_colours, resolved, wavelength_radiance};
 
 // Front, back and exit wall of one ray. Mirrors `ProbePoint` in src/gpu/passes/probe_colour.rs.
 struct ProbePoint {
@@ -37,6 +37,13 @@ fn probe_colour(@builtin(global_invocation_id) id: vec3u) {
     let at = points[id.x];
     let both = f32(at.walls == 2u);
     let steps = mat4x3f(vec3f(1.0), vec3f(both), vec3f(-both), vec3f(0.0));
+    if (WAVELENGTHS == 0u) {
+        let white = quadrature[0].response * vec3f(1.0);
+        let exit = wall(at.cos_theta, at.exit_nm) / white;
+        let walls = mat4x3f(wall(at.cos_theta, at.front_nm) / white, wall(at.cos_theta, at.back_nm) / white, exit, exit);
+        colours[id.x] = vec4f(white * product_of_colours(axes.index, at.cos_theta, walls, steps), 1.0);
+        return;
+    }
     var seen = vec3f(0.0);
     if (EVERYTHING == 0u) {
         seen = wall(at.cos_theta, at.front_nm) + both * wall(at.cos_theta, at.back_nm);

@@ -35,6 +35,9 @@ pub struct DrawInputs<'a> {
     pub hole: &'a dyn Fn(usize) -> Option<&'a OpenHole>,
 }
 
+/// The largest half float: the twin of `storable` in `shaders/light/stored.wgsl`.
+const MAX_HALF: f64 = 65504.0;
+
 /// Pixels that one submission draws at most, so that none runs long.
 const PIXELS_PER_SUBMISSION: u32 = 2_000_000;
 
@@ -46,10 +49,18 @@ pub fn strips([width, height]: [u32; 2]) -> impl Iterator<Item = std::ops::Range
 
 /// The uniforms and bind groups of one picture, made once and used for each of its strips.
 pub struct DrawPass {
-    backdrop: Drawable,
+    behind: Behind,
     /// The rings of all bubbles, each with its number of vertices.
     rings: Vec<(Drawable, u32)>,
     width: u32,
+}
+
+/// What stands behind all bubbles.
+enum Behind {
+    /// The environment, or what a bath mirrors, at each pixel.
+    Drawn(Drawable),
+    /// One colour everywhere.
+    Colour(wgpu::Color),
 }
 
 /// What all bubbles of a picture are drawn with.
@@ -70,16 +81,21 @@ impl DrawPass {
         let view = gpu.uniform("view", &view_uniform(key));
         let light = gpu.uniform("light", &light_uniform(lighting, key.exposed_ev));
         let DrawInputs { environment, .. } = *inputs;
-        let backdrop = Backdrop {
-            ON_BATH: key.on_bath,
-            FULL_PRECISION: key.full_precision,
-            view: &view,
-            light: &light,
-            environment: &environment.view,
-            environment_sampler: &environment.sampler,
+        let behind = if let (BackdropKey::Colour(radiance), false) = (&lighting.light.backdrop, key.on_bath) {
+            Behind::Colour(backdrop_colour(key, lighting, *radiance))
+        } else {
+            let backdrop = Backdrop {
+                ON_BATH: key.on_bath,
+                FULL_PRECISION: key.full_precision,
+                BACKDROP_IS_ENVIRONMENT: lighting.light.backdrop == BackdropKey::Environment,
+                view: &view,
+                light: &light,
+                environment: &environment.view,
+                environment_sampler: &environment.sampler,
+            };
+            Behind::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?)
         };
-        let backdrop = backdrop.cover(gpu, radiance_format(key.full_precision))?;
-        let mut pass = Self { backdrop, rings: Vec::new(), width: key.size[0] };
+        let mut pass = Self { behind, rings: Vec::new(), width: key.size[0] };
         let Some(quadrature) = inputs.quadrature else { return Ok(pass) };
         let unread = lighting.table.is_none().then(|| Table::unread(gpu, &lighting.quadrature.optics));
         let Some(table) = unread.as_ref().or(inputs.table) else { return Ok(pass) };
@@ -99,12 +115,17 @@ impl DrawPass {
 
     /// Records some rows of the picture.
     pub fn record(&self, recorder: &mut Recorder<'_>, target: &wgpu::TextureView, rows: std::ops::Range<u32>) {
-        recorder.render("draw", target, |pass| {
+        let (backdrop, colour) = match &self.behind {
+            Behind::Drawn(backdrop) => (Some(backdrop), None),
+            // The first rows clear the whole picture.
+            Behind::Colour(colour) => (None, (rows.start == 0).then_some(*colour)),
+        };
+        recorder.render("draw", target, colour, |pass| {
             pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
-            self.backdrop.draw(pass, 3);
+            backdrop.into_iter().for_each(|backdrop| backdrop.draw(pass, 3));
             self.rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
         });
-        recorder.counts.draws += 1 + self.rings.len() as u64;
+        recorder.counts.draws += u64::from(backdrop.is_some()) + self.rings.len() as u64;
     }
 }
 
@@ -122,7 +143,7 @@ impl Shared<'_> {
         let uniform = &gpu.uniform("bubble", &bubble_uniform(key, lighting, bubble, ring, film));
         let coloured = lighting.table.as_ref().is_some_and(|table| table.coloured);
         let shade = Shade {
-            shape: ring_overrides(key, bubble, ring, quadrature),
+            shape: ring_overrides(key, lighting, bubble, ring, quadrature),
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: lighting.light.polariser.is_some() },
             summed: quadrature.overrides(),
             view,
@@ -190,7 +211,13 @@ fn max_samples(quadrature: &Quadrature) -> u32 {
     (MAX_ITERATIONS / (quadrature.count + ITERATIONS_BESIDE_QUADRATURE)).isqrt()
 }
 
-fn ring_overrides(key: &DrawKey, bubble: &BubbleKey, ring: &Ring, quadrature: &Quadrature) -> RingOverrides {
+fn ring_overrides(
+    key: &DrawKey,
+    lighting: &Lighting,
+    bubble: &BubbleKey,
+    ring: &Ring,
+    quadrature: &Quadrature,
+) -> RingOverrides {
     RingOverrides {
         UNIFORM_FILM: matches!(bubble.film, FilmKey::Uniform(_)),
         MAGNIFIED: bubble.magnified,
@@ -200,10 +227,18 @@ fn ring_overrides(key: &DrawKey, bubble: &BubbleKey, ring: &Ring, quadrature: &Q
         STRETCHED: bubble.stretch != DMat3::IDENTITY,
         BURST: bubble.hole.is_some(),
         FULL_PRECISION: key.full_precision,
+        BACKDROP_IS_ENVIRONMENT: lighting.light.backdrop == BackdropKey::Environment,
         ON_BATH: key.on_bath,
         ON_RING: bubble.cap.is_some() && !key.on_bath,
         INNER: ring.inner_reflections,
     }
+}
+
+/// What the linear picture holds where one colour is seen and no bubble.
+fn backdrop_colour(key: &DrawKey, lighting: &Lighting, radiance: DVec3) -> wgpu::Color {
+    let seen = f64::from(key.exposed_ev).exp2() * lighting.light.seen * radiance;
+    let stored = if key.full_precision { seen } else { seen * (MAX_HALF / seen.max_element().max(1.0)).min(1.0) };
+    wgpu::Color { r: stored.x, g: stored.y, b: stored.z, a: 1.0 }
 }
 
 fn floats(vector: DVec3) -> [f32; 3] {
@@ -225,15 +260,15 @@ fn view_uniform(key: &DrawKey) -> ViewUniform {
 fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUniform {
     let light = &lighting.light;
     let exposure = f64::from(exposed_ev).exp2();
-    let (backdrop, is_environment) = match light.backdrop {
-        BackdropKey::Environment => (DVec3::ZERO, 1.0),
-        BackdropKey::Colour(colour) => (colour, 0.0),
+    let backdrop = match light.backdrop {
+        BackdropKey::Environment => DVec3::ZERO,
+        BackdropKey::Colour(colour) => colour,
     };
     LightUniform {
         gain: floats(light.gain),
         texel_angle: texel_angle(lighting.environment.size()),
         backdrop: floats(backdrop),
-        backdrop_is_environment: is_environment,
+        padding: 0.0,
         scale: floats(exposure * light.scale),
         turn_cos: light.rotation_rad.cos() as f32,
         polariser: floats(light.polariser.unwrap_or(DVec3::ZERO)),

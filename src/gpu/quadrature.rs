@@ -61,7 +61,7 @@ pub(super) fn spectrum_samples(key: &OpticsKey) -> Vec<QuadratureSample> {
 pub struct Quadrature {
     /// [`MAX_WAVELENGTHS`] samples, zero beyond the count. A uniform, for all lanes of a processor read the same one at once.
     pub buffer: UniformBuffer<[QuadratureSample; MAX_WAVELENGTHS]>,
-    /// Number of wavelengths.
+    /// Number of wavelengths. Where it is 0, the first sample has the response to the whole spectrum.
     pub count: u32,
     /// Whether there are films that they are too few for.
     pub thick: bool,
@@ -81,11 +81,23 @@ impl Quadrature {
     /// Fits and sends them.
     #[must_use]
     pub fn fit(gpu: &Gpu, key: &QuadratureKey) -> Self {
+        if key.from_table {
+            return Self::white(gpu, &key.optics);
+        }
         let resolved_nm = key.resolved_nm();
         let quadrature = Self::of_count(gpu, &key.optics, key.task(), key.count(), resolved_nm.min(key.range_nm));
         // A light of few lines is summed exactly, whatever the film.
         let is_fitted = key.optics.spectra().indices().len() > key.count();
         Self { thick: resolved_nm < key.range_nm && is_fitted, ..quadrature }
+    }
+
+    /// No wavelengths, but what a mirror shows of white light, in the place of the first.
+    fn white(gpu: &Gpu, optics: &OpticsKey) -> Self {
+        let mut samples = [QuadratureSample::zeroed(); MAX_WAVELENGTHS];
+        samples[0].response =
+            responses(&optics.spectra()).into_iter().fold(DMat3::ZERO, |sum, response| sum + response).into();
+        let buffer = gpu.uniform("quadrature", &samples);
+        Self { buffer, count: 0, thick: false, task: QuadratureTask::CrossTerms }
     }
 
     /// `count` wavelengths, or all wavelengths of the light if they are fewer, that resolve films up to a thickness.
@@ -115,8 +127,8 @@ overrides! {
     pub struct QuadratureOverrides {
         /// Whether wavelengths stand for all that is seen, and no table is read.
         override EVERYTHING: bool;
-        /// How many count.
-        override WAVELENGTHS: u32 in [13];
+        /// How many count: none where products come from the table's colours.
+        override WAVELENGTHS: u32 in [0, 13];
         /// Whether there are films that they are too few for.
         override THICK: bool;
     }

@@ -18,7 +18,7 @@ pub const SIDES: u32 = 96;
 pub struct Ring {
     /// Inner and outer edge: angle from the direction of the bubble's center, in radians, where the bubble is round. None: the whole picture.
     pub edges_rad: Option<[f64; 2]>,
-    /// Inner reflections whose films are looked up: 3, 7 or 11. After eleven, light is followed on: see `shaders/optics/walls.wgsl`.
+    /// Inner reflections whose films are looked up: 1, 3, 7 or 11. After eleven, light is followed on: see `shaders/optics/walls.wgsl`.
     pub inner_reflections: u32,
     /// Samples along each side of a pixel.
     pub samples: u32,
@@ -31,7 +31,9 @@ const MIRROR_COS: f64 = 0.35;
 
 /// How accurately a quality treats what is near the limb.
 struct Care {
-    /// Cosine of incidence below which more inner reflections are followed than three.
+    /// Inner reflections that are followed in the middle.
+    middle_reflections: u32,
+    /// Cosine of incidence below which more inner reflections are followed.
     deep_cos: f64,
     /// How many there.
     deep_reflections: u32,
@@ -60,11 +62,16 @@ impl Care {
         Self { deep_cos, ..care }
     }
 
+    /// So many inner reflections in the middle, beyond an angle of incidence, and at the limb.
+    fn following([middle, deep, limb]: [u32; 3], deep_cos: f64, limb_samples: u32) -> Self {
+        Self { middle_reflections: middle, deep_cos, deep_reflections: deep, limb_reflections: limb, limb_samples }
+    }
+
     fn of_water(quality: Quality) -> Self {
         match quality {
-            Quality::Fast => Self { deep_cos: 0.0, deep_reflections: 3, limb_reflections: 3, limb_samples: 2 },
-            Quality::Standard => Self { deep_cos: 0.35, deep_reflections: 7, limb_reflections: 7, limb_samples: 2 },
-            Quality::Spectral => Self { deep_cos: 0.7, deep_reflections: 7, limb_reflections: 11, limb_samples: 4 },
+            Quality::Fast => Self::following([1, 3, 3], 0.5, 2),
+            Quality::Standard => Self::following([3, 7, 7], 0.35, 2),
+            Quality::Spectral => Self::following([3, 7, 11], 0.7, 4),
         }
     }
 }
@@ -106,7 +113,10 @@ pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality, film: &Fi
     let deep_sin = (1.0 - care.deep_cos * care.deep_cos).sqrt();
     let Some(limb_rad) = limb_rad(camera, bubble) else {
         let is_deep = eye_radii(camera, bubble) > deep_sin;
-        return vec![Ring::everywhere(if is_deep { care.deep_reflections } else { 3 }, bubble.samples)];
+        return vec![Ring::everywhere(
+            if is_deep { care.deep_reflections } else { care.middle_reflections },
+            bubble.samples,
+        )];
     };
     let pixel_rad = pixel_rad(camera, bubble);
     let ring_rad = (limb_rad - LIMB_PIXELS * pixel_rad).max(0.0);
@@ -119,7 +129,8 @@ pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality, film: &Fi
     };
     let limb = ring([ring_rad, limb_rad + MARGIN_PIXELS * pixel_rad], care.limb_reflections);
     let limb = Ring { samples: bubble.samples.max(care.limb_samples), outline: true, ..limb };
-    let rings = [ring([0.0, deep_rad], 3), ring([deep_rad, ring_rad], care.deep_reflections), limb];
+    let rings =
+        [ring([0.0, deep_rad], care.middle_reflections), ring([deep_rad, ring_rad], care.deep_reflections), limb];
     rings.into_iter().filter(|ring| ring.edges_rad.is_some_and(|[inner, outer]| outer > inner)).collect()
 }
 

@@ -158,11 +158,12 @@ impl<'g> Recorder<'g> {
         self.encoder.begin_compute_pass(&descriptor).forget_lifetime()
     }
 
-    /// A render pass into one target, which keeps what it holds.
+    /// A render pass into one target, which keeps what it holds, or is set to a colour first.
     pub fn render(
         &mut self,
         name: &'static str,
         target: &wgpu::TextureView,
+        clear: Option<wgpu::Color>,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) {
         let timestamps = self.next_timestamps(name);
@@ -175,7 +176,10 @@ impl<'g> Recorder<'g> {
             view: target,
             depth_slice: None,
             resolve_target: None,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+            ops: wgpu::Operations {
+                load: clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear),
+                store: wgpu::StoreOp::Store,
+            },
         };
         let mut pass = self.encoder().begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(name),

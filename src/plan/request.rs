@@ -166,13 +166,14 @@ fn light_of(scene: &Scene, source: &SpectralLight, own: LightKey) -> LightKey {
 
 fn lighting(scene: &Scene, source: &SpectralLight, light: LightKey, film: &FilmMaterial, range_nm: f64) -> Lighting {
     let optics = OpticsKey { film: film.clone(), illuminant: source.illuminant.clone() };
-    let quadrature = QuadratureKey { optics, range_nm, quality: scene.view.quality };
-    let table = quadrature.needs_table().then(|| table(scene, source, &light, &quadrature));
+    let table = table(scene, source, &light, TableKey::full(optics.clone(), range_nm));
+    let is_plain = !table.coloured && !table.polarised;
+    let quadrature = QuadratureKey::new(optics, range_nm, scene.view.quality, &light.seen, is_plain);
+    let table = quadrature.needs_table().then_some(table);
     Lighting { light, environment: EnvironmentKey(source.environment.clone()), table, quadrature }
 }
 
-fn table(scene: &Scene, source: &SpectralLight, light: &LightKey, quadrature: &QuadratureKey) -> TableKey {
-    let full = TableKey::full(quadrature.optics.clone(), quadrature.range_nm);
+fn table(scene: &Scene, source: &SpectralLight, light: &LightKey, full: TableKey) -> TableKey {
     let is_grey = |rgb: DVec3| rgb.max_element() - rgb.min_element() <= 1e-12 * rgb.max_element();
     let backdrop = match light.backdrop {
         BackdropKey::Colour(rgb) => is_grey(rgb),

@@ -29,8 +29,8 @@ shader_struct! {
         pub texel_angle: f32,
         /// Radiance of the backdrop where it is a colour.
         pub backdrop: [f32; 3],
-        /// 1 where the backdrop is the environment.
-        pub backdrop_is_environment: f32,
+        /// Fills 16 bytes.
+        pub padding: f32,
         /// Factor that makes daylight's white (1, 1, 1), exposed as the linear picture is.
         pub scale: [f32; 3],
         /// Cosine of the environment's turn.
@@ -51,6 +51,7 @@ kernels! {
     struct Backdrop {
         override ON_BATH: bool;
         override FULL_PRECISION: bool;
+        override BACKDROP_IS_ENVIRONMENT: bool;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;

@@ -78,12 +78,14 @@ overrides! {
         override BURST: bool;
         /// Whether the linear picture is made in full precision.
         override FULL_PRECISION: bool;
+        /// Whether the environment is seen behind the bubbles.
+        override BACKDROP_IS_ENVIRONMENT: bool;
         /// Whether the bubble sits on a bath.
         override ON_BATH: bool;
         /// Whether the film ends at a ring.
         override ON_RING: bool;
         /// Inner reflections whose films are looked up.
-        override INNER: u32 in [3, 7, 11];
+        override INNER: u32 in [1, 3, 7, 11];
     }
 }
 

@@ -11,7 +11,7 @@ use crate::{
         readback::Readback,
         timing::Recorder,
     },
-    physics::colour::Walls,
+    physics::colour::{Walls, seen_light},
     plan::{OpticsKey, QuadratureKey, TableKey, range_nm},
     scene::Quality,
 };
@@ -83,7 +83,7 @@ impl ColourProbe {
     /// Bakes and fits for films up to a thickness, in white light.
     pub fn new(gpu: &Gpu, optics: &OpticsKey, quality: Quality, thickest_nm: f64) -> Result<Self, GpuError> {
         let range_nm = range_nm(thickest_nm);
-        let quadrature = QuadratureKey { optics: optics.clone(), range_nm, quality };
+        let quadrature = QuadratureKey::new(optics.clone(), range_nm, quality, &seen_light(&optics.illuminant), true);
         let table = match quadrature.needs_table() {
             true => Table::baked(gpu, &TableKey::full(optics.clone(), range_nm))?,
             false => Table::unread(gpu, optics),

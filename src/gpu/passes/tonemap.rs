@@ -68,7 +68,7 @@ pub fn tonemap(
     let gpu = recorder.gpu;
     let uniform = &gpu.uniform("tonemap", &TonemapUniform::of(key));
     let finished = Tonemap { tonemap: uniform, radiance }.cover(gpu, PICTURE_FORMAT)?;
-    recorder.render("tonemap", picture, |pass| finished.draw(pass, 3));
+    recorder.render("tonemap", picture, None, |pass| finished.draw(pass, 3));
     recorder.counts.draws += 1;
     Ok(())
 }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::{DMat3, DVec3};
+
 use crate::{
     physics::{
         colour::{FilmOptics, Illuminant, QuadratureTask},
@@ -104,9 +106,30 @@ pub struct QuadratureKey {
     pub range_nm: f64,
     /// Which errors they may leave.
     pub quality: Quality,
+    /// Whether there are none, and products of reflectances are products of the table's colours.
+    pub from_table: bool,
 }
 
 impl QuadratureKey {
+    /// The largest index of films whose colours are factors on colours: denser ones reflect so much that products of spectra differ too much
+    /// from products of colours.
+    const MAX_FACTOR_INDEX: f64 = 1.45;
+    /// Part of a light's strongest primary that its others must have at least, for colours to be factors on them.
+    const MIN_PRIMARY: f64 = 0.25;
+
+    /// What a quality needs under a light, of which a mirror shows `seen` of white light, linear BT.2020. `is_plain`: all of it is white and none of it
+    /// polarised, so that a table has a colour for each film.
+    #[must_use]
+    pub fn new(optics: OpticsKey, range_nm: f64, quality: Quality, seen: &DMat3, is_plain: bool) -> Self {
+        let white = *seen * DVec3::ONE;
+        let from_table = quality == Quality::Fast
+            && is_plain
+            && optics.illuminant.lines().is_empty()
+            && white.min_element() >= Self::MIN_PRIMARY * white.max_element()
+            && optics.film.reference_index() <= Self::MAX_FACTOR_INDEX;
+        Self { optics, range_nm, quality, from_table }
+    }
+
     /// Maximum number of wavelengths, which the smallest uniform buffers have room for.
     pub const MAX: usize = 256;
     /// Maximum number of wavelengths without a table: with more of them, a table and fewer wavelengths are as good and cheaper.
@@ -127,6 +150,9 @@ impl QuadratureKey {
     /// How many there are.
     #[must_use]
     pub fn count(&self) -> usize {
+        if self.from_table {
+            return 0;
+        }
         let alone = self.needed(self.measured()).min(Self::MAX_ALONE);
         alone.max(self.needed(self.measured_beside_table()).min(Self::MAX))
     }
