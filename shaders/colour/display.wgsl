@@ -49,31 +49,24 @@ const HALVINGS: u32 = 12u;
 // Bleaches a colour, in the display's linear RGB, towards its grey, and brings it back into [0, 1] by lowering its chroma just as far as
 // needed: both in CIELAB, whose hue stays. The matrices lead from the display's linear RGB to XYZ relative to white, and back.
 fn into_gamut(toned: Toned, to_xyz: mat3x3f, from_xyz: mat3x3f) -> vec3f {
-    var mapped = toned.linear;
-    // A loop of one round at most: software rasterisers skip those that no pixel of a group enters, and go through both sides of an `if`.
-    for (var is_done = toned.bleach == 0.0 && is_inside(mapped); !is_done; is_done = true) {
-        mapped = with_less_chroma(toned, to_xyz, from_xyz);
-    }
-    return mapped;
-}
-
-fn with_less_chroma(toned: Toned, to_xyz: mat3x3f, from_xyz: mat3x3f) -> vec3f {
+    let stays = toned.bleach == 0.0 && is_inside(toned.linear);
     let response = lightness_curve(to_xyz * toned.linear);
     let grey = lightness_curve(vec3f(toned.grey)).y;
     let lightness = clamp(mix(response.y, grey, toned.bleach), 4.0 / 29.0, 1.0);
     let chroma = (1.0 - toned.bleach) * (response - response.y);
     let whole = from_xyz * inverse_curve(lightness + chroma);
-    if (is_inside(whole)) {
-        return whole;
-    }
+    let fits = is_inside(whole);
+    // No rounds for colours that need none. Branches around the loop would not spare them on software rasterisers, which go through both sides.
+    let rounds = select(HALVINGS, 0u, stays || fits);
     var kept = 0.0;
     var step = 0.5;
-    for (var k = 0u; k < HALVINGS; k++) {
+    for (var k = 0u; k < rounds; k++) {
         let tried = from_xyz * inverse_curve(lightness + (kept + step) * chroma);
         kept = select(kept, kept + step, is_inside(tried));
         step *= 0.5;
     }
-    return clamp(from_xyz * inverse_curve(lightness + kept * chroma), vec3f(0.0), vec3f(1.0));
+    let reduced = clamp(from_xyz * inverse_curve(lightness + kept * chroma), vec3f(0.0), vec3f(1.0));
+    return select(select(reduced, whole, fits), toned.linear, stays);
 }
 
 fn encode_srgb(linear: vec3f) -> vec3f {

@@ -9,7 +9,8 @@
 // the bubble vanishes exactly. R0 (E0 - B) and R1 (E1 - B) are single walls, which a table can hold; the rest are products of
 // reflectances, which must be formed wavelength by wavelength.
 
-import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, n_cos_refracted, peak_reflectances};
+import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, n_cos_refracted};
+import package::optics::airy::{peak_reflectances, surface_reflectance};
 import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::FILTERED;
 
@@ -42,22 +43,46 @@ struct Walls {
     further: array<vec3f, 12>,
 }
 
-// L - B from colours: an approximation for films that reflect little, white light and no polariser. `colours` are those of the first four
-// walls over white, in BT.2020's primaries, mean of s and p: columns that multiply light as the reflectances of one wavelength do. How much of
-// them is s and how much p follows from the angle, alike for films of any thickness.
-fn product_of_colours(n: f32, cos_theta: f32, colours: mat4x3f, steps: mat4x3f) -> vec3f {
+// How much of what a wall reflects is s light, as a factor on its colour: 1 for half, 2 for all. Films that reflect next to nothing and films that
+// reflect most share it differently between s and p.
+struct ShareOfS {
+    black: f32,
+    bright: f32,
+    // The most that a film reflects at this angle, mean of s and p.
+    max_reflectance: f32,
+}
+
+fn share_of_s(n: f32, cos_theta: f32) -> ShareOfS {
+    let r2 = surface_reflectance(n, cos_theta);
+    let thin = r2 * (1.0 - r2.yx) * (1.0 - r2.yx);
     let peak = peak_reflectances(n, cos_theta);
-    // Neither exists at normal incidence on index 1.
-    let share = 2.0 * peak / max(peak.x + peak.y, 1e-30);
-    var s = max(1.0 - share.x * colours[0], vec3f(0.0)) * share.x * colours[1];
-    var p = max(1.0 - share.y * colours[0], vec3f(0.0)) * share.y * colours[1];
+    // Nothing is reflected by index 1.
+    let black = 2.0 * thin.x / max(thin.x + thin.y, 1e-30);
+    return ShareOfS(black, 2.0 * peak.x / max(peak.x + peak.y, 1e-30), max(0.5 * (peak.x + peak.y), 1e-30));
+}
+
+fn s_of_colour(colour: vec3f, share: ShareOfS) -> vec3f {
+    let brightness = clamp(colour / share.max_reflectance, vec3f(0.0), vec3f(1.0));
+    return colour * mix(vec3f(share.black), vec3f(share.bright), brightness);
+}
+
+// L - B from colours: an approximation for films that reflect little, white light and no polariser. `colours` are those of the first four
+// walls over white, in BT.2020's primaries, mean of s and p: columns that multiply light as the reflectances of one wavelength do.
+fn product_of_colours(n: f32, cos_theta: f32, colours: mat4x3f, steps: mat4x3f) -> vec3f {
+    let share = share_of_s(n, cos_theta);
+    let s0 = s_of_colour(colours[0], share);
+    let s1 = s_of_colour(colours[1], share);
+    var s = max(1.0 - s0, vec3f(0.0)) * s1;
+    var p = max(1.0 - 2.0 * colours[0] + s0, vec3f(0.0)) * (2.0 * colours[1] - s1);
     var light = steps[0] * colours[0] + 0.5 * steps[1] * (s + p);
     if (INNER > 1u) {
-        s *= share.x * colours[2];
-        p *= share.y * colours[2];
+        let s2 = s_of_colour(colours[2], share);
+        s *= s2;
+        p *= 2.0 * colours[2] - s2;
         light += 0.5 * steps[2] * (s + p);
-        s *= share.x * colours[3];
-        p *= share.y * colours[3];
+        let s3 = s_of_colour(colours[3], share);
+        s *= s3;
+        p *= 2.0 * colours[3] - s3;
         light += 0.5 * steps[3] * (s + p);
     }
     return light;

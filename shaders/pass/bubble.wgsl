@@ -31,6 +31,8 @@ override OUTLINE: u32;
 override STRETCHED: u32;
 // 1: the bubble bursts, and its film has a hole.
 override BURST: u32;
+// 1: the film has skins of soap on both faces.
+override SKINS: u32;
 // 1: the film ends at a ring.
 override ON_RING: u32;
 
@@ -166,6 +168,9 @@ fn with_hole(direction: vec3f, thickness_nm: f32) -> f32 {
 // The thickness of the plain film that looks like the one at a point of the unit sphere.
 fn optical_nm(direction: vec3f) -> f32 {
     let nm = thickness_nm(direction);
+    if (SKINS == 0u) {
+        return nm;
+    }
     return nm + bubble.extra_nm * min(nm / bubble.skins_nm, 1.0);
 }
 
@@ -359,13 +364,14 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
 // The part of L - B by the table's colours of the first walls.
 fn colour_products(path: Path, hits: Hits) -> vec3f {
     let white = quadrature[0].response * vec3f(1.0);
+    let over_white = 1.0 / white;
     let unpolarised = vec2f(0.5);
     var colours = mat4x3f();
-    colours[0] = wall_reflection(path, hits.walls_nm.x, hits.spread_nm.x, unpolarised, vec3f(1.0)) / white;
-    colours[1] = wall_reflection(path, hits.walls_nm.y, hits.spread_nm.y, unpolarised, vec3f(1.0)) / white;
+    colours[0] = wall_reflection(path, hits.walls_nm.x, hits.spread_nm.x, unpolarised, over_white);
+    colours[1] = wall_reflection(path, hits.walls_nm.y, hits.spread_nm.y, unpolarised, over_white);
     if (INNER > 1u) {
-        colours[2] = wall_reflection(path, hits.walls_nm.z, hits.spread_nm.z, unpolarised, vec3f(1.0)) / white;
-        colours[3] = wall_reflection(path, hits.walls_nm.w, hits.spread_nm.w, unpolarised, vec3f(1.0)) / white;
+        colours[2] = wall_reflection(path, hits.walls_nm.z, hits.spread_nm.z, unpolarised, over_white);
+        colours[3] = wall_reflection(path, hits.walls_nm.w, hits.spread_nm.w, unpolarised, over_white);
     }
     return white * product_of_colours(axes.index, path.cos_theta, colours, hits.steps);
 }

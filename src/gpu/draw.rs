@@ -229,6 +229,7 @@ fn ring_overrides(
         FULL_PRECISION: key.full_precision,
         BACKDROP_IS_ENVIRONMENT: lighting.light.backdrop == BackdropKey::Environment,
         ON_BATH: key.on_bath,
+        SKINS: lighting.quadrature.optics.film.skin_nm > 0.0,
         ON_RING: bubble.cap.is_some() && !key.on_bath,
         INNER: ring.inner_reflections,
     }

@@ -6,7 +6,7 @@ use crate::{
         bubble::reach,
         optics::{FilmMaterial, WATER_INDEX, max_reflectance},
     },
-    plan::{BubbleKey, CameraKey},
+    plan::{BubbleKey, CameraKey, QuadratureKey},
     scene::Quality,
 };
 
@@ -51,7 +51,10 @@ const MARGIN_PIXELS: f64 = 1.0;
 impl Care {
     /// Denser films mirror more at every angle: what water leaves near the outline, they leave further inside.
     fn of(quality: Quality, film: &FilmMaterial) -> Self {
-        let care = Self::of_water(quality);
+        let mut care = Self::of_water(quality);
+        if film.reference_index() > QuadratureKey::MAX_FACTOR_INDEX {
+            care.middle_reflections = 3;
+        }
         if film.max_reflectance(1.0) >= max_reflectance(WATER_INDEX, MIRROR_COS) {
             let reflections = if quality == Quality::Fast { 7 } else { 11 };
             return Self { deep_cos: 1.0, deep_reflections: reflections, limb_reflections: reflections, ..care };

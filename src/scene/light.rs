@@ -108,7 +108,7 @@ words! {
     /// and more walls, which colours cannot be multiplied for.
     #[derive(Default)]
     pub enum Quality: "quality" {
-        Fast = "fast", "Fastest: light that meets several walls is summed over a few wavelengths";
+        Fast = "fast", "Fastest: light that meets several walls is the product of their colours, or, in coloured or polarised light, is summed over a few wavelengths";
         #[default]
         Standard = "standard", "Light that meets several walls is summed over a dozen wavelengths: the error is hardly visible";
         Spectral = "spectral", "Most accurate: all light is summed over some thirty wavelengths or more";

@@ -82,6 +82,8 @@ overrides! {
         override BACKDROP_IS_ENVIRONMENT: bool;
         /// Whether the bubble sits on a bath.
         override ON_BATH: bool;
+        /// Whether the film has skins.
+        override SKINS: bool;
         /// Whether the film ends at a ring.
         override ON_RING: bool;
         /// Inner reflections whose films are looked up.

@@ -113,7 +113,9 @@ pub struct QuadratureKey {
 impl QuadratureKey {
     /// The largest index of films whose colours are factors on colours: denser ones reflect so much that products of spectra differ too much
     /// from products of colours.
-    const MAX_FACTOR_INDEX: f64 = 1.45;
+    pub const MAX_FACTOR_INDEX: f64 = 1.45;
+    /// Thickness of the thickest films, in nm, whose colours are factors on colours: thicker ones have finer fringes, and colours know less of them.
+    const MAX_FACTOR_NM: f64 = 2000.0;
     /// Part of a light's strongest primary that its others must have at least, for colours to be factors on them.
     const MIN_PRIMARY: f64 = 0.25;
 
@@ -124,6 +126,7 @@ impl QuadratureKey {
         let white = *seen * DVec3::ONE;
         let from_table = quality == Quality::Fast
             && is_plain
+            && range_nm <= Self::MAX_FACTOR_NM
             && optics.illuminant.lines().is_empty()
             && white.min_element() >= Self::MIN_PRIMARY * white.max_element()
             && optics.film.reference_index() <= Self::MAX_FACTOR_INDEX;
