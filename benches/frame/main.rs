@@ -1,16 +1,23 @@
 //! Frame timing: the whole frame and each pass by itself, bubble 80 % of the height, on the adapter that the program would use.
+//!
+//! `cargo bench --bench frame -- parts` prints a table of what each part of a frame costs instead.
 
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+mod parts;
+
+use criterion::{BenchmarkId, Criterion, criterion_group};
 use soapfilm::{
     gpu::{AdapterChoice, Gpu, Renderer},
     input::load_scene,
     physics::colour::Gamut,
     plan::{FrameRequest, GpuState, Moment, Pace, Plan, Shot, plan, request},
+    scene::Scene,
 };
 
 const SIZES: [[u32; 2]; 2] = [[1280, 720], [1920, 1080]];
 /// A picture that shows whether the benchmark works: `cargo bench --bench frame -- --test`.
 const SMOKE: [[u32; 2]; 1] = [[320, 180]];
+/// Frames of which the table of parts is the median.
+const ROUNDS: usize = 15;
 const PASSES: [&str; 7] = ["bake_table", "fit_quadrature", "seed_field", "step_field", "show_field", "draw", "tonemap"];
 
 fn frame(criterion: &mut Criterion) {
@@ -43,7 +50,13 @@ fn frame(criterion: &mut Criterion) {
 
 /// The default scene a few ticks in, so that every pass has something to do, a whole step and the part of one included.
 fn frame_request(size: [u32; 2], yardstick: bool) -> FrameRequest {
-    let loaded = load_scene("default").expect("the preset");
+    frame_request_of(size, yardstick, |_| ())
+}
+
+/// That scene with a change.
+fn frame_request_of(size: [u32; 2], yardstick: bool, change: impl FnOnce(&mut Scene)) -> FrameRequest {
+    let mut loaded = load_scene("default").expect("the preset");
+    change(&mut loaded.scene);
     let shot = Shot {
         size,
         moment: Moment { tick: 2, fraction: 0.5 },
@@ -71,4 +84,16 @@ fn only(request: &FrameRequest, name: &str, state: &GpuState) -> Plan {
 }
 
 criterion_group!(benches, frame);
-criterion_main!(benches);
+
+fn main() {
+    let asked = |word: &str| std::env::args().any(|argument| argument == word);
+    if asked("parts") {
+        parts::print(SIZES[0], ROUNDS);
+        return;
+    }
+    if asked("--test") {
+        parts::print(SMOKE[0], 1);
+    }
+    benches();
+    Criterion::default().configure_from_args().final_summary();
+}
