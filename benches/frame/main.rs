@@ -50,21 +50,14 @@ fn frame(criterion: &mut Criterion) {
 
 /// The default scene a few ticks in, so that every pass has something to do, a whole step and the part of one included.
 fn frame_request(size: [u32; 2], yardstick: bool) -> FrameRequest {
-    frame_request_of(size, yardstick, |_| ())
+    frame_request_of(size, yardstick, Moment { tick: 2, fraction: 0.5 }, |_| ())
 }
 
-/// That scene with a change.
-fn frame_request_of(size: [u32; 2], yardstick: bool, change: impl FnOnce(&mut Scene)) -> FrameRequest {
+/// The default scene with a change, at a moment.
+fn frame_request_of(size: [u32; 2], yardstick: bool, moment: Moment, change: impl FnOnce(&mut Scene)) -> FrameRequest {
     let mut loaded = load_scene("default").expect("the preset");
     change(&mut loaded.scene);
-    let shot = Shot {
-        size,
-        moment: Moment { tick: 2, fraction: 0.5 },
-        full_precision: false,
-        gamut: Gamut::Srgb,
-        yardstick,
-        pace: Pace::Whole,
-    };
+    let shot = Shot { size, moment, full_precision: false, gamut: Gamut::Srgb, yardstick, pace: Pace::Whole };
     request(&loaded.scene, &loaded.resources, &shot).expect("a scene that can be drawn")
 }
 

@@ -1,4 +1,4 @@
-//! What each part of a frame costs: CPU time of the process, with parts of the shaders switched off one at a time. Frames with and without a part
+//! What each part of a frame costs, where the film stands as it was blown: CPU time of the process, with parts of the shaders switched off one at a time. Frames with and without a part
 //! alternate, so that what else the machine does meets both.
 
 use std::{fs, path::Path};
@@ -6,7 +6,7 @@ use std::{fs, path::Path};
 use cpu_time::ProcessTime;
 use soapfilm::{
     gpu::{AdapterChoice, Gpu, Renderer, shaders::Library},
-    plan::FrameRequest,
+    plan::{FrameRequest, Moment},
     scene::{Backdrop, Quality, Scene},
 };
 
@@ -110,19 +110,22 @@ fn frames(size: [u32; 2]) -> Vec<(String, FrameRequest)> {
             scene.bubbles.clear();
             scene.view.backdrop = backdrop;
         };
-        frame_request_of(size, false, change)
+        frame_request_of(size, false, Moment::default(), change)
     };
     let mut frames = vec![
         ("one colour, no bubble".to_owned(), empty(Backdrop::Radiance([0.2; 3]))),
         ("the environment, no bubble".to_owned(), empty(Backdrop::Environment)),
-        ("a mirror sphere".to_owned(), frame_request_of(size, true, |scene| scene.camera.distance_m = DISTANCE_M)),
+        (
+            "a mirror sphere".to_owned(),
+            frame_request_of(size, true, Moment::default(), |scene| scene.camera.distance_m = DISTANCE_M),
+        ),
     ];
     frames.extend(Quality::ALL.map(|quality| (format!("a bubble, {}", quality.name()), bubble(size, quality))));
     frames
 }
 
 fn bubble(size: [u32; 2], quality: Quality) -> FrameRequest {
-    frame_request_of(size, false, |scene| {
+    frame_request_of(size, false, Moment::default(), |scene| {
         scene.camera.distance_m = DISTANCE_M;
         scene.view.quality = quality;
     })

@@ -18,7 +18,7 @@ use crate::{
         film::fold_seed,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
     },
-    scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Scene},
+    scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Quality, Scene},
 };
 
 /// What a scene names and somebody has loaded.
@@ -173,10 +173,15 @@ fn lighting(scene: &Scene, source: &SpectralLight, light: LightKey, film: &FilmM
     Lighting { light, environment: EnvironmentKey(source.environment.clone()), table, quadrature }
 }
 
+/// How much the primaries of a backdrop may differ that `fast` takes for grey, as a part of the light's gain.
+const FAINT: f64 = 1e-3;
+
 fn table(scene: &Scene, source: &SpectralLight, light: &LightKey, full: TableKey) -> TableKey {
     let is_grey = |rgb: DVec3| rgb.max_element() - rgb.min_element() <= 1e-12 * rgb.max_element();
+    // The colour of a backdrop that is almost black is not worth two more layers of the table.
+    let is_faint = |rgb: DVec3| rgb.max_element() - rgb.min_element() <= FAINT * light.gain.max_element();
     let backdrop = match light.backdrop {
-        BackdropKey::Colour(rgb) => is_grey(rgb),
+        BackdropKey::Colour(rgb) => is_grey(rgb) || scene.view.quality == Quality::Fast && is_faint(rgb),
         BackdropKey::Environment => true,
     };
     let neutral = source.environment.is_neutral() && is_grey(light.gain) && backdrop;

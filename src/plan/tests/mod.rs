@@ -22,7 +22,8 @@ use crate::{
         film::Cap,
     },
     scene::{
-        Blow, Boundary, Bubble, Change, Detail, Drag, Event, FilmStateName, Flow, MotionChange, Scene, Stir, preset,
+        Backdrop, Blow, Boundary, Bubble, Change, Detail, Drag, Event, FilmIndexName, FilmStateName, Flow,
+        MotionChange, Quality, Scene, Stir, View, preset,
     },
 };
 
@@ -118,6 +119,25 @@ fn the_first_picture_makes_everything_once() {
 #[test]
 fn the_same_scene_again_costs_nothing() {
     assert_eq!(between((&stirred_scene(), 5), (&stirred_scene(), 5)), [] as [&str; 0]);
+}
+
+/// The fast quality needs no wavelengths where light is white, or nearly so, and films reflect little.
+#[test]
+fn colours_are_multiplied_only_where_that_is_good_enough() {
+    let multiplies = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = Scene { view: View { quality: Quality::Fast, ..View::default() }, ..Scene::default() };
+        change(&mut scene);
+        let lighting = frame_request(&scene, 0, Pace::Whole).picture.draw.lighting;
+        assert_eq!(lighting.quadrature.from_table, lighting.quadrature.count() == 0);
+        lighting.quadrature.from_table
+    };
+    assert!(multiplies(&|_| ()), "a backdrop that is almost black counts as grey");
+    assert!(!multiplies(&|scene| scene.view.quality = Quality::Standard));
+    assert!(!multiplies(&|scene| scene.view.polariser_deg = Some(0.0)));
+    assert!(!multiplies(&|scene| scene.view.backdrop = Backdrop::Radiance([0.2, 0.1, 0.1])));
+    assert!(!multiplies(&|scene| scene.light.constant = Some([1.0, 0.5, 0.2])));
+    assert!(!multiplies(&|scene| scene.bubbles[0].film.index = FilmIndexName::Constant(1.6)));
+    assert!(!multiplies(&|scene| scene.bubbles[0].film.thickness_nm = 2500.0));
 }
 
 #[test]
