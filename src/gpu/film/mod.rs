@@ -19,6 +19,7 @@ mod remap;
 mod rest;
 mod seeded;
 mod shown;
+mod step;
 
 pub use free::{FreeMotion, Surroundings};
 pub use moving::{MovingFilm, rules};
@@ -30,23 +31,17 @@ use super::{
     grid::Grid,
     passes::{
         blacken::BlackFilm,
-        compose_map::{Composition, compose_map},
-        conserve::{Target, parts},
-        correct_error::CorrectError,
+        conserve::Target,
         decide_remap::RemapRule,
         diffuse::Diffusion,
         sample_tracer::{Gathered, Sampling, sample_tracer},
-        trace_step::{Step, trace_step},
     },
     readback::Readback,
     shown_film::FilmTexture,
-    timing::{Groups, Recorder, STEP_FIELD},
+    timing::{Groups, Recorder},
 };
 use crate::physics::{
-    film::{
-        Cap,
-        model::{DrainLaw, Operation, PRESCRIBED_STEP},
-    },
+    film::{Cap, model::DrainLaw},
     sphere::{CubedSphere, GridError},
     transport::Scheme,
 };
@@ -249,122 +244,6 @@ impl Field {
     /// The map, if the scheme keeps one and it is not known to be the identity.
     fn map_so_far(&self) -> Option<&wgpu::Buffer> {
         self.kept_map().filter(|_| !self.map_is_identity)
-    }
-
-    /// Moves the liquid by one step that lasts some ticks. Steps back, and those whose times are no numbers, are refused.
-    pub fn advance(&mut self, recorder: &mut Recorder<'_>, step: &Step, ticks: u32) -> Result<(), GpuError> {
-        PRESCRIBED_STEP.into_iter().try_for_each(|operation| self.run(operation, recorder, step, ticks))
-    }
-
-    /// Records one operation of a step that moves the liquid; what only the flow of a free film does is not done here.
-    fn run(
-        &mut self,
-        operation: Operation,
-        recorder: &mut Recorder<'_>,
-        step: &Step,
-        ticks: u32,
-    ) -> Result<(), GpuError> {
-        let keeps_map = self.rules.scheme.keeps_map();
-        match operation {
-            Operation::TraceStep => {
-                if !step.is_forward() {
-                    let reason = "a step of the film needs finite times, the later one last";
-                    return Err(GpuError::Refused(reason.to_owned()));
-                }
-                recorder.counts.cells_stepped += self.film.sphere.cells() as u64;
-                if keeps_map {
-                    self.trace(recorder, STEP_FIELD, step, self.map_so_far(), 1)
-                } else {
-                    self.advance_and_remap(recorder, step)
-                }
-            }
-            Operation::ComposeMap if keeps_map => {
-                self.compose(recorder, STEP_FIELD, self.map_so_far(), 1)?;
-                self.map.swap(0, 1);
-                self.map_is_identity = false;
-                Ok(())
-            }
-            Operation::DecideRemap if keeps_map => {
-                self.ticks_since_decision += ticks;
-                if self.ticks_since_decision >= self.remap_rule().decision_ticks() {
-                    self.remap_if_due(recorder)?;
-                }
-                Ok(())
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Whether the trace of a step is its composition with a map: where there is no map, and the grids are the same.
-    fn trace_is_map(&self, before: Option<&wgpu::Buffer>) -> bool {
-        before.is_none() && self.flow_grid().cells == self.map_grid().cells
-    }
-
-    /// Traces a step that is then composed with a map into one of the two.
-    fn trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        name: &'static str,
-        step: &Step,
-        before: Option<&wgpu::Buffer>,
-        into: usize,
-    ) -> Result<(), GpuError> {
-        let traced = if self.trace_is_map(before) { &self.map[into] } else { &self.step_map };
-        trace_step(recorder, name, step, self.flow_grid(), traced)
-    }
-
-    /// Composes the step that was traced with a map, into one of the two.
-    fn compose(
-        &self,
-        recorder: &mut Recorder<'_>,
-        name: &'static str,
-        before: Option<&wgpu::Buffer>,
-        into: usize,
-    ) -> Result<(), GpuError> {
-        if self.trace_is_map(before) {
-            return Ok(());
-        }
-        let composition = Composition {
-            grid: self.map_grid(),
-            step_cells: self.flow_grid().cells,
-            step_map: &self.step_map,
-            before,
-            gathers: self.rules.gathered != Gathered::Nothing,
-            control: &self.control.block,
-            after: &self.map[into],
-        };
-        compose_map(recorder, name, &composition)
-    }
-
-    /// Traces a step, and composes it with a map into one of the two.
-    fn trace_and_compose(
-        &self,
-        recorder: &mut Recorder<'_>,
-        name: &'static str,
-        step: &Step,
-        before: Option<&wgpu::Buffer>,
-        into: usize,
-    ) -> Result<(), GpuError> {
-        self.trace(recorder, name, step, before, into)?;
-        self.compose(recorder, name, before, into)
-    }
-
-    /// One step of a scheme that keeps no map.
-    fn advance_and_remap(&mut self, recorder: &mut Recorder<'_>, step: &Step) -> Result<(), GpuError> {
-        let grid = &self.film;
-        let (all, everywhere) = (grid.padded_groups().into(), self.all_cells());
-        self.trace_and_compose(recorder, STEP_FIELD, step, None, 0)?;
-        let back = Some(&self.map[0]);
-        self.sample(recorder, STEP_FIELD, grid, back, [&self.tracer, &self.sampled], everywhere)?;
-        if let Some(corrected) = &self.corrected {
-            self.trace_and_compose(recorder, STEP_FIELD, &step.reversed(), None, 1)?;
-            let forth = Some(&self.map[1]);
-            self.sample(recorder, STEP_FIELD, grid, forth, [&self.sampled, &self.shown], everywhere)?;
-            let kernel = CorrectError { tracer: &self.tracer, returned: &self.shown, corrected };
-            kernel.correct_error(recorder, STEP_FIELD, grid.padded_groups())?;
-            self.sample(recorder, STEP_FIELD, grid, back, [corrected, &self.sampled], everywhere)?;
-        }
-        self.settle(recorder, [[parts(grid), 1, 1].into(), [1; 3].into(), all])
     }
 
     /// Looks the tracer up, in a pass over a number of workgroups: of single cells, or of two by two.

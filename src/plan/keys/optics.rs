@@ -111,6 +111,10 @@ pub struct QuadratureKey {
 }
 
 impl QuadratureKey {
+    /// Maximum number of wavelengths, which the smallest uniform buffers have room for.
+    pub const MAX: usize = 256;
+    /// Maximum number of wavelengths without a table: with more of them, a table and fewer wavelengths are as good and cheaper.
+    const MAX_ALONE: usize = 120;
     /// The largest index of films whose colours are factors on colours: denser ones reflect so much that products of spectra differ too much
     /// from products of colours.
     pub const MAX_FACTOR_INDEX: f64 = 1.45;
@@ -132,11 +136,6 @@ impl QuadratureKey {
             && optics.film.reference_index() <= Self::MAX_FACTOR_INDEX;
         Self { optics, range_nm, quality, from_table }
     }
-
-    /// Maximum number of wavelengths, which the smallest uniform buffers have room for.
-    pub const MAX: usize = 256;
-    /// Maximum number of wavelengths without a table: with more of them, a table and fewer wavelengths are as good and cheaper.
-    const MAX_ALONE: usize = 120;
 
     /// The task of the sum.
     #[must_use]
