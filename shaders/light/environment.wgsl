@@ -18,6 +18,8 @@ struct Light {
     turn_sin: f32,
     // Matrix from light to its colour under the illuminant, where daylight's white is (1, 1, 1), exposed like the linear picture.
     seen: mat3x3f,
+    // The inverse: light that has a colour.
+    unseen: mat3x3f,
 }
 
 // 1: the environment is seen behind the bubbles. 0: one colour.

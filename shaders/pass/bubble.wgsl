@@ -35,6 +35,8 @@ override BURST: u32;
 override SKINS: u32;
 // 1: the film ends at a ring.
 override ON_RING: u32;
+// 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
+override OVER_OTHERS: u32;
 
 // Mirrors `BubbleUniform` in src/gpu/passes/bubble.rs.
 struct Bubble {
@@ -82,6 +84,7 @@ struct Bubble {
 @group(0) @binding(12) var<storage, read> film_tracer: array<f32>;
 @group(0) @binding(13) var<storage, read> hole_middle: vec4f;
 @group(0) @binding(14) var<storage, read> hole_rim: array<Rim>;
+@group(0) @binding(15) var picture_behind: texture_2d<f32>;
 
 // Sides of the polygons that rings are made of.
 override SIDES: u32;
@@ -178,8 +181,16 @@ fn backdrop(direction: vec3f, footprint: f32) -> vec3f {
     return backdrop_radiance(environment, environment_sampler, light, upward(direction), footprint);
 }
 
-// What stands beside the bubble: the backdrop, or what the bath mirrors of it.
-fn beside(direction: vec3f, footprint: f32) -> vec3f {
+// Light from what is drawn already, at a position in the picture.
+fn drawn_light(position: vec2f) -> vec3f {
+    return light.unseen * textureLoad(picture_behind, vec2u(position), 0).rgb;
+}
+
+// What stands beside the bubble: other bubbles, the backdrop, or what the bath mirrors of it.
+fn beside(direction: vec3f, footprint: f32, position: vec2f) -> vec3f {
+    if (OVER_OTHERS == 1u) {
+        return drawn_light(position);
+    }
     return crossing(1.0, direction.z, direction) * backdrop(direction, footprint);
 }
 
@@ -243,11 +254,19 @@ fn left_before(path: Path) -> f32 {
 // The ray straight through, which heads for the back wall.
 fn straight_through(path: Path, is_inside: bool) -> Followed {
     let back = path.foot + path.half_chord * path.round;
-    let start_z = select(path.foot.z - path.half_chord * path.round.z, -bubble.to_center_m.z, is_inside);
+    let front_z = path.foot.z - path.half_chord * path.round.z;
+    let start_z = select(front_z, -bubble.to_center_m.z, is_inside);
     let left = select(left_before(path), 1.0, is_inside) * crossing(start_z, back.z, path.direction)
         * past_meniscus(back.z, bubble.radius_m);
-    let light = crossing(back.z, path.direction.z, path.direction) * backdrop(path.direction, path.pixel);
-    return Followed(Hop(back, path.direction), 0.0, left, left * light);
+    var behind = vec3f(0.0);
+    if (OVER_OTHERS == 1u) {
+        // What is drawn already has crossed the bath's level.
+        let front = select(past_meniscus(front_z, bubble.radius_m), 1.0, is_inside);
+        behind = front * past_meniscus(back.z, bubble.radius_m) * drawn_light(path.position);
+    } else {
+        behind = left * crossing(back.z, path.direction.z, path.direction) * backdrop(path.direction, path.pixel);
+    }
+    return Followed(Hop(back, path.direction), 0.0, left, behind);
 }
 
 // Width of the thicknesses that a sample spans, in nm: the change of the path in the film from pixel to pixel, which angles have a part in.
@@ -381,7 +400,7 @@ fn wall_reflection(path: Path, nm: f32, spread_nm: f32, polarisation: vec2f, ste
 }
 
 // Geometry of a view ray that meets the sphere.
-fn path_along(direction: vec3f, width: f32) -> Path {
+fn path_along(direction: vec3f, width: f32, position: vec2f) -> Path {
     let eye = to_round(-bubble.to_center_m) / bubble.radius_m;
     var round = direction;
     if (STRETCHED == 1u) {
@@ -409,6 +428,7 @@ fn path_along(direction: vec3f, width: f32) -> Path {
         select(length(foot) / max(distance, 1e-6), 1.0, is_central),
         select(bubble.to_center_m / max(length(bubble.to_center_m), 1e-30), perpendicular(direction), is_central),
         cross(direction, to_round(foot)),
+        position,
     );
 }
 
@@ -429,21 +449,21 @@ fn outline(plane: vec3f, width: f32) -> Silhouette {
 }
 
 // What is seen of the bubble along a ray that is known to meet it.
-fn bubble_radiance(direction: vec3f, width: f32) -> vec3f {
-    return film_radiance(path_along(direction, width), eye_is_inside());
+fn bubble_radiance(direction: vec3f, width: f32, position: vec2f) -> vec3f {
+    return film_radiance(path_along(direction, width, position), eye_is_inside());
 }
 
-// One sample: the bubble as far as it covers the sample's square, the backdrop in the rest.
+// One sample: the bubble as far as it covers the sample's square, what is beside it in the rest.
 fn sample_radiance(position: vec2f, width: f32) -> vec3f {
     let plane = view_plane(view, position);
     if (OUTLINE == 0u) {
-        return bubble_radiance(normalize(plane), width);
+        return bubble_radiance(normalize(plane), width, position);
     }
     let edge = outline(plane, width);
     // Not only where it is covered: derivatives need the neighbours.
-    let radiance = bubble_radiance(edge.inside, width);
+    let radiance = bubble_radiance(edge.inside, width, position);
     let ray = normalize(plane);
-    return mix(light.seen * beside(ray, pixel_angle(view, ray)), radiance, edge.coverage);
+    return mix(light.seen * beside(ray, pixel_angle(view, ray), position), radiance, edge.coverage);
 }
 
 // The mean over a grid of samples in a pixel.
@@ -471,11 +491,11 @@ fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
 fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let plane = view_plane(view, position.xy);
     let edge = outline(plane, 1.0);
-    let behind = light.seen * beside(normalize(plane), view.pixel_height);
+    let behind = light.seen * beside(normalize(plane), view.pixel_height, position.xy);
     if (edge.coverage <= 0.0) {
         return vec4f(storable(behind), 1.0);
     }
-    let path = path_along(edge.inside, 1.0);
+    let path = path_along(edge.inside, 1.0, position.xy);
     let direction = mirrored(path, path.foot - path.half_chord * path.round);
     let shown = light.seen * surroundings(direction, footprint(path, direction, 2.0));
     return vec4f(storable(mix(behind, shown, edge.coverage)), 1.0);

@@ -24,6 +24,8 @@ struct Path {
     to_center: vec3f,
     // Across the plane of incidence, not of unit length: zero straight through the middle.
     across: vec3f,
+    // Where the ray is in the picture, in pixels.
+    position: vec2f,
 }
 
 // Footprint of a reflected direction: its spread in the plane of incidence, where the sphere's curvature widens it, and across,

@@ -1,4 +1,4 @@
-//! Draws the linear picture: the backdrop, then each bubble, ring by ring.
+//! Draws the linear picture: the backdrop, then the bubbles, layer by layer, each ring by ring.
 
 use glam::{DMat3, DVec3};
 
@@ -7,6 +7,7 @@ use super::{
     environment::{Environment, texel_angle},
     formats::radiance_format,
     kernel::Drawable,
+    layers::{PixelRect, layers},
     passes::{
         backdrop::{Backdrop, LightUniform, ViewUniform},
         bake_table::{Table, TableOverrides, table_sampler},
@@ -16,9 +17,11 @@ use super::{
     quadrature::Quadrature,
     rings::{Ring, SIDES, disc, rings},
     shown_film::{NoFilm, Shown},
+    target::Target,
     timing::Recorder,
     uniform_buffer::UniformBuffer,
 };
+use crate::physics::colour::unseen;
 use crate::plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmKey, Lighting};
 
 /// What a draw reads that other passes left.
@@ -33,6 +36,14 @@ pub struct DrawInputs<'a> {
     pub film: &'a dyn Fn(usize) -> Option<Shown<'a>>,
     /// The hole in a film that bursts, by the film's index.
     pub hole: &'a dyn Fn(usize) -> Option<&'a OpenHole>,
+    /// Where a layer finds the picture of the layers behind it; as large as the picture if it [`needs_behind`].
+    pub behind: &'a Target,
+}
+
+/// Whether a picture has more layers than one.
+#[must_use]
+pub fn needs_behind(key: &DrawKey) -> bool {
+    layers(key).into_iter().any(|layer| layer > 0)
 }
 
 /// The largest half float: the twin of `storable` in `shaders/light/stored.wgsl`.
@@ -49,14 +60,23 @@ pub fn strips([width, height]: [u32; 2]) -> impl Iterator<Item = std::ops::Range
 
 /// The uniforms and bind groups of one picture, made once and used for each of its strips.
 pub struct DrawPass {
-    behind: Behind,
-    /// The rings of all bubbles, each with its number of vertices.
-    rings: Vec<(Drawable, u32)>,
+    backdrop: BackdropDraw,
+    /// Bubbles that do not overlap; the layers behind first.
+    layers: Vec<Layer>,
     width: u32,
 }
 
+/// Bubbles that are drawn together.
+#[derive(Default)]
+struct Layer {
+    /// Pixels of each bubble.
+    rects: Vec<PixelRect>,
+    /// The rings of all bubbles, each with its number of vertices.
+    rings: Vec<(Drawable, u32)>,
+}
+
 /// What stands behind all bubbles.
-enum Behind {
+enum BackdropDraw {
     /// The environment, or what a bath mirrors, at each pixel.
     Drawn(Drawable),
     /// One colour everywhere.
@@ -73,6 +93,17 @@ struct Shared<'a> {
     table: &'a Table,
     table_sampler: wgpu::Sampler,
     quadrature: &'a Quadrature,
+    behind: &'a wgpu::TextureView,
+}
+
+/// A ring of a bubble, and what it shows.
+struct Drawn<'a> {
+    bubble: &'a BubbleKey,
+    ring: &'a Ring,
+    film: &'a Shown<'a>,
+    hole: &'a OpenHole,
+    /// Whether there may be bubbles behind.
+    is_over_others: bool,
 }
 
 impl DrawPass {
@@ -81,8 +112,8 @@ impl DrawPass {
         let view = gpu.uniform("view", &view_uniform(key));
         let light = gpu.uniform("light", &light_uniform(lighting, key.exposed_ev));
         let DrawInputs { environment, .. } = *inputs;
-        let behind = if let (BackdropKey::Colour(radiance), false) = (&lighting.light.backdrop, key.on_bath) {
-            Behind::Colour(backdrop_colour(key, lighting, *radiance))
+        let backdrop = if let (BackdropKey::Colour(radiance), false) = (&lighting.light.backdrop, key.on_bath) {
+            BackdropDraw::Colour(backdrop_colour(key, lighting, *radiance))
         } else {
             let backdrop = Backdrop {
                 ON_BATH: key.on_bath,
@@ -93,57 +124,83 @@ impl DrawPass {
                 environment: &environment.view,
                 environment_sampler: &environment.sampler,
             };
-            Behind::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?)
+            BackdropDraw::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?)
         };
-        let mut pass = Self { behind, rings: Vec::new(), width: key.size[0] };
+        let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0] };
         let Some(quadrature) = inputs.quadrature else { return Ok(pass) };
         let unread = lighting.table.is_none().then(|| Table::unread(gpu, &lighting.quadrature.optics));
         let Some(table) = unread.as_ref().or(inputs.table) else { return Ok(pass) };
         let table_sampler = table_sampler(gpu);
-        let shared = Shared { key, lighting, view, light, environment, table, table_sampler, quadrature };
+        let behind = &inputs.behind.view;
+        let shared = Shared { key, lighting, view, light, environment, table, table_sampler, quadrature, behind };
         let (no_film, no_hole) = (NoFilm::new(gpu), OpenHole::new(gpu));
-        for bubble in &key.bubbles {
+        let layers = layers(key);
+        pass.layers.resize_with(layers.iter().max().map_or(0, |last| last + 1), Layer::default);
+        for (bubble, layer) in key.bubbles.iter().zip(layers) {
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
             for ring in bubble_rings(key, bubble) {
                 let vertices = if ring.edges_rad.is_some() { 2 * (SIDES + 1) } else { 3 };
-                pass.rings.push((shared.ring(gpu, bubble, &ring, &film, hole)?, vertices));
+                let drawn = Drawn { bubble, ring: &ring, film: &film, hole, is_over_others: layer > 0 };
+                pass.layers[layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
             }
+            pass.layers[layer].rects.push(PixelRect::around(bubble, key.size));
         }
         Ok(pass)
     }
 
     /// Records some rows of the picture.
-    pub fn record(&self, recorder: &mut Recorder<'_>, target: &wgpu::TextureView, rows: std::ops::Range<u32>) {
-        let (backdrop, colour) = match &self.behind {
-            Behind::Drawn(backdrop) => (Some(backdrop), None),
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        target: &Target,
+        behind: &Target,
+        rows: &std::ops::Range<u32>,
+    ) {
+        let (backdrop, colour) = match &self.backdrop {
+            BackdropDraw::Drawn(backdrop) => (Some(backdrop), None),
             // The first rows clear the whole picture.
-            Behind::Colour(colour) => (None, (rows.start == 0).then_some(*colour)),
+            BackdropDraw::Colour(colour) => (None, (rows.start == 0).then_some(*colour)),
         };
-        recorder.render("draw", target, colour, |pass| {
-            pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
-            backdrop.into_iter().for_each(|backdrop| backdrop.draw(pass, 3));
-            self.rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
-        });
-        recorder.counts.draws += u64::from(backdrop.is_some()) + self.rings.len() as u64;
+        let draw = |recorder: &mut Recorder<'_>, rings: &[(Drawable, u32)], backdrop: Option<&Drawable>, clear| {
+            recorder.render("draw", &target.view, clear, |pass| {
+                pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
+                backdrop.into_iter().for_each(|backdrop| backdrop.draw(pass, 3));
+                rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
+            });
+            recorder.counts.draws += u64::from(backdrop.is_some()) + rings.len() as u64;
+        };
+        let mut layers = self.layers.iter();
+        draw(recorder, layers.next().map_or(&[], |layer| &layer.rings), backdrop, colour);
+        for Layer { rects, rings } in layers {
+            let parts = rects.iter().filter_map(|rect| rect.within(rows));
+            parts.for_each(|part| copy_part(recorder.encoder(), target, behind, &part));
+            draw(recorder, rings, None, None);
+        }
     }
+}
+
+/// Records the copy of a part of a picture to the same place of another.
+fn copy_part(encoder: &mut wgpu::CommandEncoder, from: &Target, to: &Target, part: &PixelRect) {
+    let origin = wgpu::Origin3d { x: part.columns.start, y: part.rows.start, z: 0 };
+    let [from, to] = [from, to].map(|target| wgpu::TexelCopyTextureInfo { origin, ..target.texture.as_image_copy() });
+    let size = wgpu::Extent3d {
+        width: part.columns.len() as u32,
+        height: part.rows.len() as u32,
+        depth_or_array_layers: 1,
+    };
+    encoder.copy_texture_to_texture(from, to, size);
 }
 
 impl Shared<'_> {
     /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
-    fn ring(
-        &self,
-        gpu: &Gpu,
-        bubble: &BubbleKey,
-        ring: &Ring,
-        film: &Shown<'_>,
-        hole: &OpenHole,
-    ) -> Result<Drawable, GpuError> {
-        let Self { key, lighting, view, light, environment, table, table_sampler, quadrature } = self;
+    fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
+        let Self { key, lighting, view, light, environment, table, table_sampler, quadrature, behind } = self;
+        let Drawn { bubble, ring, film, hole, .. } = drawn;
         let uniform = &gpu.uniform("bubble", &bubble_uniform(key, lighting, bubble, ring, film));
         let coloured = lighting.table.as_ref().is_some_and(|table| table.coloured);
         let shade = Shade {
-            shape: ring_overrides(key, lighting, bubble, ring, quadrature),
+            shape: ring_overrides(key, lighting, drawn, quadrature),
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: lighting.light.polariser.is_some() },
             summed: quadrature.overrides(),
             view,
@@ -161,6 +218,7 @@ impl Shared<'_> {
             film_tracer: film.tracer,
             hole_middle: &hole.middle,
             hole_rim: &hole.rim,
+            picture_behind: behind,
         };
         let format = radiance_format(key.full_precision);
         match (key.yardstick, ring.edges_rad) {
@@ -214,8 +272,7 @@ fn max_samples(quadrature: &Quadrature) -> u32 {
 fn ring_overrides(
     key: &DrawKey,
     lighting: &Lighting,
-    bubble: &BubbleKey,
-    ring: &Ring,
+    Drawn { bubble, ring, is_over_others, .. }: &Drawn<'_>,
     quadrature: &Quadrature,
 ) -> RingOverrides {
     RingOverrides {
@@ -231,6 +288,7 @@ fn ring_overrides(
         ON_BATH: key.on_bath,
         SKINS: lighting.quadrature.optics.film.skin_nm > 0.0,
         ON_RING: bubble.cap.is_some() && !key.on_bath,
+        OVER_OTHERS: *is_over_others,
         INNER: ring.inner_reflections,
     }
 }
@@ -275,6 +333,7 @@ fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUniform {
         polariser: floats(light.polariser.unwrap_or(DVec3::ZERO)),
         turn_sin: light.rotation_rad.sin() as f32,
         seen: (exposure * light.seen).into(),
+        unseen: unseen(&(exposure * light.seen)).into(),
     }
 }
 

@@ -19,6 +19,7 @@ pub mod formats;
 pub mod grid;
 pub mod kernel;
 mod late_errors;
+pub mod layers;
 pub mod passes;
 pub mod pipelines;
 pub mod quadrature;
@@ -29,6 +30,7 @@ pub mod shaders;
 pub mod shown_film;
 #[cfg(not(target_arch = "wasm32"))]
 mod specialise;
+mod target;
 pub mod timing;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod transport_case;

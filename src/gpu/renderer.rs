@@ -7,13 +7,14 @@ use glam::DVec3;
 use super::{
     abilities::missing_for_measurement,
     device::{Gpu, GpuError},
-    draw::{DrawInputs, DrawPass, pixels_shaded, strips},
+    draw::{DrawInputs, DrawPass, needs_behind, pixels_shaded, strips},
     environment::Environment,
     film::{Field, MovingFilm, rules},
     formats::{PICTURE_FORMAT, radiance_format},
     passes::{add_light::add_light, bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
     quadrature::Quadrature,
     readback::Readback,
+    target::Target,
     timing::{Counts, Recorder, TimeLog},
 };
 use crate::{
@@ -31,6 +32,8 @@ struct Products {
     films: Vec<Option<MovingFilm>>,
     holes: Vec<Option<OpenHole>>,
     radiance: Option<Target>,
+    /// What lies behind the layer that is drawn.
+    behind: Option<Target>,
     /// The picture in one spectral light, and its sum with the pictures before.
     added: Option<Target>,
     sum: Option<Target>,
@@ -59,40 +62,6 @@ impl Products {
         self.holes.truncate(state.holes.len());
         let holes = self.holes.iter_mut().zip(&state.holes);
         holes.filter(|(_, key)| key.is_none()).for_each(|(hole, _)| *hole = None);
-    }
-}
-
-/// A picture on the device.
-struct Target {
-    texture: wgpu::Texture,
-    view: wgpu::TextureView,
-}
-
-impl Target {
-    fn new(gpu: &Gpu, label: &str, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> Self {
-        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
-            | wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::COPY_SRC;
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(label),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage,
-            view_formats: &[],
-        });
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        Self { texture, view }
-    }
-
-    /// Keeps a target that fits, else makes a new one.
-    fn fit(old: Option<Self>, gpu: &Gpu, label: &str, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
-        let fits = |target: &Self| {
-            [target.texture.width(), target.texture.height()] == size && target.texture.format() == format
-        };
-        old.filter(fits).unwrap_or_else(|| Self::new(gpu, label, size, format))
     }
 }
 
@@ -324,6 +293,9 @@ impl Renderer {
             return Err(GpuError::NoFullPrecision { adapter: self.gpu.adapter_name(), reason });
         }
         let format = radiance_format(key.full_precision);
+        let behind_size = if needs_behind(key) { key.size } else { [1, 1] };
+        self.products.behind =
+            Some(Target::fit(self.products.behind.take(), &self.gpu, "behind", behind_size, format));
         let mut radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
         self.draw_light(key, 0, &radiance)?;
         for light in 1..=key.spectral_lights.len() {
@@ -351,17 +323,17 @@ impl Renderer {
         let hole = |film: usize| holes.get(film).and_then(Option::as_ref);
         let film = |film: usize| films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());
         let (table, quadrature) = (products.table.as_ref(), products.quadrature.as_ref());
-        let Some(lighting) = key.lights().nth(light) else { return Ok(()) };
+        let (Some(lighting), Some(behind)) = (key.lights().nth(light), &self.products.behind) else { return Ok(()) };
         let pass = DrawPass::new(
             &self.gpu,
             key,
             lighting,
-            &DrawInputs { environment, table, quadrature, film: &film, hole: &hole },
+            &DrawInputs { environment, table, quadrature, film: &film, hole: &hole, behind },
         )?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);
             let work = u64::from(key.size[0]) * rows.len() as u64;
-            pass.record(&mut recorder, &target.view, rows);
+            pass.record(&mut recorder, target, behind, &rows);
             Self::submit(&self.times, &mut self.counts, recorder);
             told(&self.watcher, &self.gpu, work)?;
         }

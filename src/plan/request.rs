@@ -90,8 +90,9 @@ impl Story {
             .enumerate()
             .filter_map(|(index, bubble)| visible(self, &camera, shot, index, bubble))
             .collect();
-        let distance = |bubble: &BubbleKey| bubble.center_m.distance_squared(camera.eye_m);
-        bubbles.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
+        // By the power of the eye with respect to each sphere, which orders all spheres that do not intersect as the eye sees them.
+        let power = |bubble: &BubbleKey| bubble.center_m.distance_squared(camera.eye_m) - bubble.radius_m.powi(2);
+        bubbles.sort_by(|a, b| power(b).total_cmp(&power(a)));
         let film = material(scene, resources, &bubbles)?;
         let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
         let own =

@@ -41,6 +41,8 @@ shader_struct! {
         pub turn_sin: f32,
         /// Matrix from light to its colour, exposed like the linear picture.
         pub seen: Matrix,
+        /// The inverse.
+        pub unseen: Matrix,
     }
 }
 

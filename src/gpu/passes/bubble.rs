@@ -8,7 +8,7 @@ use super::{
 use crate::{
     gpu::{
         control::BalanceBlock,
-        kernel::{Matrix, Read, Sampler, Texture2dArray, TextureCube, Uniform, kernels, overrides, shader_struct},
+        kernel::{Matrix, Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uniform, kernels, overrides, shader_struct},
         quadrature::{MAX_WAVELENGTHS, QuadratureOverrides, QuadratureSample},
         rings::SIDES,
     },
@@ -86,6 +86,8 @@ overrides! {
         override SKINS: bool;
         /// Whether the film ends at a ring.
         override ON_RING: bool;
+        /// Whether other bubbles may be behind the bubble.
+        override OVER_OTHERS: bool;
         /// Inner reflections whose films are looked up.
         override INNER: u32 in [1, 3, 7, 11];
     }
@@ -114,6 +116,7 @@ kernels! {
         @12 film_tracer: Read<[f32]>;
         @13 hole_middle: Read<[f32; 4]>;
         @14 hole_rim: Read<[RimValue]>;
+        @15 picture_behind: Texture2d;
     }
     draw ring, everywhere as shade;
 
@@ -127,14 +130,16 @@ kernels! {
         @2 environment: TextureCube;
         @3 environment_sampler: Sampler;
         @4 bubble: Uniform<BubbleUniform>;
+        @15 picture_behind: Texture2d;
     }
     draw ring, everywhere as shade_mirror;
 }
 
 impl<'a> ShadeMirror<'a> {
     /// The mirror that stands where a bubble would.
-    pub fn in_place_of(bubble: &Shade<'a>) -> Self {
-        let Shade { shape, table_kind, summed, view, light, environment, environment_sampler, bubble, .. } = *bubble;
-        Self { shape, table_kind, summed, view, light, environment, environment_sampler, bubble }
+    pub fn in_place_of(shade: &Shade<'a>) -> Self {
+        let Shade { shape, table_kind, summed, view, light, environment, environment_sampler, bubble, .. } = *shade;
+        let picture_behind = shade.picture_behind;
+        Self { shape, table_kind, summed, view, light, environment, environment_sampler, bubble, picture_behind }
     }
 }

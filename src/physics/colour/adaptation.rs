@@ -31,6 +31,19 @@ pub fn seen_light(illuminant: &Illuminant) -> DMat3 {
     DMat3::from_diagonal(daylight_scale()) * responses.into_iter().fold(DMat3::ZERO, |sum, response| sum + response)
 }
 
+/// How small a part of the strongest light may be that [`unseen`] still tells from none.
+const FAINTEST: f64 = 1e-5;
+
+/// The matrix from colours to light that has them, given the matrix from light to its colour, as of [`seen_light`]. Under lamps of few lines
+/// lights differ that look the same: it gives the weakest of them (a pseudo-inverse, `(MᵀM + ε)⁻¹ Mᵀ`).
+#[must_use]
+pub fn unseen(seen: &DMat3) -> DMat3 {
+    let square = seen.transpose() * *seen;
+    let strongest = square.x_axis.x.max(square.y_axis.y).max(square.z_axis.z);
+    let faintest = FAINTEST * FAINTEST * strongest.max(f64::MIN_POSITIVE);
+    (square + DMat3::from_diagonal(DVec3::splat(faintest))).inverse() * seen.transpose()
+}
+
 /// The matrix that shows an illuminant's white as D65's, in linear BT.2020 (Bradford).
 pub fn white_balance(illuminant: &Illuminant) -> DMat3 {
     let to_cones = BRADFORD * BT2020.to_xyz();
@@ -58,6 +71,15 @@ mod tests {
         assert!((seen * DVec3::ONE - 1.0).abs().max_element() < 1e-12);
         assert!(seen.abs_diff_eq(DMat3::IDENTITY, 3e-4), "{seen}");
         assert!(white_balance(&Illuminant::default()).abs_diff_eq(DMat3::IDENTITY, 1e-12));
+    }
+
+    #[test]
+    fn unseen_light_has_the_colour_that_was_seen() {
+        for name in BUILT_IN.iter().map(|light| light.name) {
+            let seen = seen_light(&name.parse().expect("built in"));
+            let back = seen * unseen(&seen) * seen;
+            assert!(back.abs_diff_eq(seen, 1e-6), "{name}: {back} {seen}");
+        }
     }
 
     #[test]

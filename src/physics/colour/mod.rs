@@ -21,7 +21,7 @@ mod weights;
 #[cfg(test)]
 mod reference_tests;
 
-pub use adaptation::{adapted_to_d50, daylight_scale, seen_light, white_balance};
+pub use adaptation::{adapted_to_d50, daylight_scale, seen_light, unseen, white_balance};
 pub use built_in::{BUILT_IN, BuiltIn, Line};
 pub use cie::Observer;
 pub use delta_e::{Lab, ciede2000, xyz_to_lab};
