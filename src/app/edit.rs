@@ -16,7 +16,7 @@ pub enum Edit {
     View(View),
     /// Another light.
     Light(Light),
-    /// Another bubble in the place of one. All films in a picture are of one material, so that the material of this film applies to all.
+    /// Another bubble in the place of one.
     Bubble(usize, Box<Bubble>),
     /// A new list of bubbles.
     Bubbles(Vec<Bubble>),
@@ -68,9 +68,6 @@ impl Edit {
 
 fn replace_bubble(scene: &mut Scene, index: usize, bubble: Bubble) -> Vec<Bubble> {
     let before = scene.bubbles.clone();
-    for other in &mut scene.bubbles {
-        (other.film.index, other.film.skin_nm) = (bubble.film.index.clone(), bubble.film.skin_nm);
-    }
     if let Some(slot) = scene.bubbles.get_mut(index) {
         *slot = bubble;
     }

@@ -284,14 +284,15 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn another_film_starts_again_and_an_index_applies_to_all_bubbles() {
+    fn another_film_starts_again_and_another_index_does_not() {
         let mut model = Model::new(load_scene("trio").unwrap());
         model.clock.tick = 50;
         let mut bubble = model.scene.bubbles[2].clone();
         bubble.film.index = FilmIndexName::Constant(1.5);
         model.edit(Edit::Bubble(2, bubble.clone().into()));
         assert_eq!(model.clock.tick, 50, "the index shapes no film");
-        assert!(model.scene.bubbles.iter().all(|bubble| bubble.film.index == FilmIndexName::Constant(1.5)));
+        let denser = model.scene.bubbles.iter().map(|bubble| bubble.film.index == FilmIndexName::Constant(1.5));
+        assert_eq!(denser.collect::<Vec<_>>(), [false, false, true]);
         bubble.film.thickness_nm = 300.0;
         model.edit(Edit::Bubble(2, bubble.into()));
         assert_eq!((model.clock.tick, model.scene.bubbles[2].film.thickness_nm), (0, 300.0));

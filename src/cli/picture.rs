@@ -15,7 +15,7 @@ use crate::{
     input::LoadedScene,
     output::{Metadata, Picture},
     physics::colour::Gamut,
-    plan::{FrameRequest, Moment, Pace, Plan, Shot, Story, has_one_film, plan},
+    plan::{FrameRequest, Moment, Pace, Plan, Shot, Story, plan},
     studio::MAX_TICKS,
     verify::reference::{MovedFilms, moved_film, needs_device, radiance},
 };
@@ -99,11 +99,6 @@ impl<'a> Painter<'a> {
             bail!("{name} is {} ticks of this scene; at most {MAX_TICKS} can be simulated", moment.tick);
         }
         Ok(moment)
-    }
-
-    /// Whether all films of the scene are of one kind, so that a moment that can be drawn shows that all can.
-    pub fn has_one_film(&self) -> bool {
-        has_one_film(&self.story)
     }
 
     /// What a picture of a moment needs.

@@ -62,9 +62,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut painter = Painter::new(&arguments.picture, arguments.format, &arguments.scene)?;
     let Frames(frames) = arguments.frames.clone();
     let last = painter.moment(arguments.fps.time_s(*frames.end()), &format!("frame {}", frames.end()))?;
-    // What cannot be drawn is refused before the first frame, not hours later. Where all films are of one kind, one frame stands for all.
-    let count = if painter.has_one_film() { 1 } else { usize::MAX };
-    frames.clone().take(count).try_for_each(|frame| request(arguments, &painter, frame).map(|_| ()))?;
+    // What cannot be drawn is refused before the first frame, not hours later: one moment of a scene can be drawn if all can.
     let last = painter.request(last)?;
     let folder = &arguments.output;
     painter.prepare(&last)?;

@@ -22,16 +22,14 @@ use super::{
     uniform_buffer::UniformBuffer,
 };
 use crate::physics::colour::unseen;
-use crate::plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmKey, Lighting};
+use crate::plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmColours, FilmKey, Lighting};
 
 /// What a draw reads that other passes left.
 pub struct DrawInputs<'a> {
     /// The environment.
     pub environment: &'a Environment,
-    /// The table, where the quality has one.
-    pub table: Option<&'a Table>,
-    /// The quadrature, where there is a bubble.
-    pub quadrature: Option<&'a Quadrature>,
+    /// The table, where the quality has one, and the quadrature of each material, by its index, that a bubble in sight has.
+    pub colours: &'a dyn Fn(usize) -> Option<(Option<&'a Table>, &'a Quadrature)>,
     /// What a film shows, by its index.
     pub film: &'a dyn Fn(usize) -> Option<Shown<'a>>,
     /// The hole in a film that bursts, by the film's index.
@@ -90,16 +88,22 @@ struct Shared<'a> {
     view: UniformBuffer<ViewUniform>,
     light: UniformBuffer<LightUniform>,
     environment: &'a Environment,
-    table: &'a Table,
     table_sampler: wgpu::Sampler,
-    quadrature: &'a Quadrature,
     behind: &'a wgpu::TextureView,
+}
+
+/// The colours of films of one material.
+struct Colours<'a> {
+    films: &'a FilmColours,
+    table: &'a Table,
+    quadrature: &'a Quadrature,
 }
 
 /// A ring of a bubble, and what it shows.
 struct Drawn<'a> {
     bubble: &'a BubbleKey,
     ring: &'a Ring,
+    colours: &'a Colours<'a>,
     film: &'a Shown<'a>,
     hole: &'a OpenHole,
     /// Whether there may be bubbles behind.
@@ -127,21 +131,25 @@ impl DrawPass {
             BackdropDraw::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?)
         };
         let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0] };
-        let Some(quadrature) = inputs.quadrature else { return Ok(pass) };
-        let unread = lighting.table.is_none().then(|| Table::unread(gpu, &lighting.quadrature.optics));
-        let Some(table) = unread.as_ref().or(inputs.table) else { return Ok(pass) };
         let table_sampler = table_sampler(gpu);
         let behind = &inputs.behind.view;
-        let shared = Shared { key, lighting, view, light, environment, table, table_sampler, quadrature, behind };
+        let shared = Shared { key, lighting, view, light, environment, table_sampler, behind };
+        let unread: Vec<Table> =
+            lighting.films.iter().map(|film| Table::unread(gpu, &film.quadrature.optics)).collect();
         let (no_film, no_hole) = (NoFilm::new(gpu), OpenHole::new(gpu));
         let layers = layers(key);
         pass.layers.resize_with(layers.iter().max().map_or(0, |last| last + 1), Layer::default);
         for (bubble, layer) in key.bubbles.iter().zip(layers) {
+            let Some((table, quadrature)) = (inputs.colours)(bubble.material) else { continue };
+            let films = &lighting.films[bubble.material];
+            let table = table.filter(|_| films.table.is_some()).unwrap_or(&unread[bubble.material]);
+            let colours = Colours { films, table, quadrature };
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
-            for ring in bubble_rings(key, bubble) {
+            for ring in bubble_rings(key, bubble, films) {
                 let vertices = if ring.edges_rad.is_some() { 2 * (SIDES + 1) } else { 3 };
-                let drawn = Drawn { bubble, ring: &ring, film: &film, hole, is_over_others: layer > 0 };
+                let drawn =
+                    Drawn { bubble, ring: &ring, colours: &colours, film: &film, hole, is_over_others: layer > 0 };
                 pass.layers[layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
             }
             pass.layers[layer].rects.push(PixelRect::around(bubble, key.size));
@@ -150,13 +158,7 @@ impl DrawPass {
     }
 
     /// Records some rows of the picture.
-    pub fn record(
-        &self,
-        recorder: &mut Recorder<'_>,
-        target: &Target,
-        behind: &Target,
-        rows: &std::ops::Range<u32>,
-    ) {
+    pub fn record(&self, recorder: &mut Recorder<'_>, target: &Target, behind: &Target, rows: &std::ops::Range<u32>) {
         let (backdrop, colour) = match &self.backdrop {
             BackdropDraw::Drawn(backdrop) => (Some(backdrop), None),
             // The first rows clear the whole picture.
@@ -184,23 +186,20 @@ impl DrawPass {
 fn copy_part(encoder: &mut wgpu::CommandEncoder, from: &Target, to: &Target, part: &PixelRect) {
     let origin = wgpu::Origin3d { x: part.columns.start, y: part.rows.start, z: 0 };
     let [from, to] = [from, to].map(|target| wgpu::TexelCopyTextureInfo { origin, ..target.texture.as_image_copy() });
-    let size = wgpu::Extent3d {
-        width: part.columns.len() as u32,
-        height: part.rows.len() as u32,
-        depth_or_array_layers: 1,
-    };
+    let size =
+        wgpu::Extent3d { width: part.columns.len() as u32, height: part.rows.len() as u32, depth_or_array_layers: 1 };
     encoder.copy_texture_to_texture(from, to, size);
 }
 
 impl Shared<'_> {
     /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
-        let Self { key, lighting, view, light, environment, table, table_sampler, quadrature, behind } = self;
-        let Drawn { bubble, ring, film, hole, .. } = drawn;
-        let uniform = &gpu.uniform("bubble", &bubble_uniform(key, lighting, bubble, ring, film));
-        let coloured = lighting.table.as_ref().is_some_and(|table| table.coloured);
+        let Self { key, lighting, view, light, environment, table_sampler, behind } = self;
+        let Drawn { ring, film, hole, colours: Colours { films, table, quadrature }, .. } = drawn;
+        let uniform = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
+        let coloured = films.table.as_ref().is_some_and(|table| table.coloured);
         let shade = Shade {
-            shape: ring_overrides(key, lighting, drawn, quadrature),
+            shape: ring_overrides(key, lighting, drawn),
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: lighting.light.polariser.is_some() },
             summed: quadrature.overrides(),
             view,
@@ -250,8 +249,7 @@ fn pixel_span(bubble: &BubbleKey, size: u32, axis: usize) -> [u32; 2] {
     })
 }
 
-fn bubble_rings(key: &DrawKey, bubble: &BubbleKey) -> Vec<Ring> {
-    let quadrature = &key.lighting.quadrature;
+fn bubble_rings(key: &DrawKey, bubble: &BubbleKey, FilmColours { quadrature, .. }: &FilmColours) -> Vec<Ring> {
     match key.yardstick {
         true => vec![disc(&key.camera, bubble)],
         false => rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film),
@@ -272,13 +270,12 @@ fn max_samples(quadrature: &Quadrature) -> u32 {
 fn ring_overrides(
     key: &DrawKey,
     lighting: &Lighting,
-    Drawn { bubble, ring, is_over_others, .. }: &Drawn<'_>,
-    quadrature: &Quadrature,
+    Drawn { bubble, ring, colours, is_over_others, .. }: &Drawn<'_>,
 ) -> RingOverrides {
     RingOverrides {
         UNIFORM_FILM: matches!(bubble.film, FilmKey::Uniform(_)),
         MAGNIFIED: bubble.magnified,
-        SAMPLES: ring.samples.min(max_samples(quadrature)),
+        SAMPLES: ring.samples.min(max_samples(colours.quadrature)),
         OUTLINE: ring.outline,
         FILTERED: bubble.filtered,
         STRETCHED: bubble.stretch != DMat3::IDENTITY,
@@ -286,7 +283,7 @@ fn ring_overrides(
         FULL_PRECISION: key.full_precision,
         BACKDROP_IS_ENVIRONMENT: lighting.light.backdrop == BackdropKey::Environment,
         ON_BATH: key.on_bath,
-        SKINS: lighting.quadrature.optics.film.skin_nm > 0.0,
+        SKINS: colours.films.quadrature.optics.film.skin_nm > 0.0,
         ON_RING: bubble.cap.is_some() && !key.on_bath,
         OVER_OTHERS: *is_over_others,
         INNER: ring.inner_reflections,
@@ -337,14 +334,9 @@ fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUniform {
     }
 }
 
-fn bubble_uniform(
-    key: &DrawKey,
-    lighting: &Lighting,
-    bubble: &BubbleKey,
-    ring: &Ring,
-    shown: &Shown<'_>,
-) -> BubbleUniform {
-    let film = &lighting.quadrature.optics.film;
+fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform {
+    let Drawn { bubble, ring, film: shown, .. } = drawn;
+    let film = &drawn.colours.films.quadrature.optics.film;
     let [inner, outer] = ring.corners();
     let (thickness_nm, cells) = match &bubble.film {
         FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0),

@@ -43,16 +43,24 @@ struct Products {
 /// What one light's pictures are drawn with.
 #[derive(Default)]
 struct LightProducts {
+    films: Vec<FilmColours>,
+    environment: Option<Environment>,
+}
+
+/// The colours of films of one material in a light.
+#[derive(Default)]
+struct FilmColours {
     table: Option<Table>,
     baking: Option<Table>,
     quadrature: Option<Quadrature>,
-    environment: Option<Environment>,
 }
 
 impl Products {
     /// Drops what the state no longer lists.
     fn keep(&mut self, state: &GpuState) {
         self.lights.truncate(state.lights.len());
+        let lights = self.lights.iter_mut().zip(&state.lights);
+        lights.for_each(|(light, state)| light.films.truncate(state.films.len()));
         if state.lights.len() <= 1 {
             (self.added, self.sum) = (None, None);
         }
@@ -173,9 +181,9 @@ impl Renderer {
                 self.light(*light).environment = Some(Environment::upload(&self.gpu, &key.0));
                 Ok(())
             }
-            Pass::BakeTable { light, key, rows } => self.bake(*light, key, rows.clone()),
-            Pass::FitQuadrature { light, key } => {
-                self.light(*light).quadrature = Some(Quadrature::fit(&self.gpu, key));
+            Pass::BakeTable { light, material, key, rows } => self.bake([*light, *material], key, rows.clone()),
+            Pass::FitQuadrature { light, material, key } => {
+                self.colours([*light, *material]).quadrature = Some(Quadrature::fit(&self.gpu, key));
                 Ok(())
             }
             Pass::SeedField { film, key } => self.seed(*film, key),
@@ -209,17 +217,26 @@ impl Renderer {
         &mut lights[light]
     }
 
-    fn bake(&mut self, light: usize, key: &TableKey, rows: Range<u32>) -> Result<(), GpuError> {
-        if rows.start == 0 {
-            self.light(light).baking = Some(Table::new(&self.gpu, key));
+    fn colours(&mut self, [light, material]: [usize; 2]) -> &mut FilmColours {
+        let films = &mut self.light(light).films;
+        if films.len() <= material {
+            films.resize_with(material + 1, FilmColours::default);
         }
-        let Some(table) = &self.products.lights[light].baking else { return Ok(()) };
+        &mut films[material]
+    }
+
+    fn bake(&mut self, place: [usize; 2], key: &TableKey, rows: Range<u32>) -> Result<(), GpuError> {
+        if rows.start == 0 {
+            self.colours(place).baking = Some(Table::new(&self.gpu, key));
+        }
+        let [light, material] = place;
+        let Some(table) = &self.products.lights[light].films[material].baking else { return Ok(()) };
         let mut recorder = Recorder::new(&self.gpu);
         table.bake(&mut recorder, key, rows.clone())?;
         Self::submit(&self.times, &mut self.counts, recorder);
         if rows.end == key.rows {
-            let light = self.light(light);
-            light.table = light.baking.take();
+            let colours = self.colours(place);
+            colours.table = colours.baking.take();
         }
         Ok(())
     }
@@ -294,8 +311,7 @@ impl Renderer {
         }
         let format = radiance_format(key.full_precision);
         let behind_size = if needs_behind(key) { key.size } else { [1, 1] };
-        self.products.behind =
-            Some(Target::fit(self.products.behind.take(), &self.gpu, "behind", behind_size, format));
+        self.products.behind = Some(Target::fit(self.products.behind.take(), &self.gpu, "behind", behind_size, format));
         let mut radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
         self.draw_light(key, 0, &radiance)?;
         for light in 1..=key.spectral_lights.len() {
@@ -322,13 +338,16 @@ impl Renderer {
         let (films, holes) = (&self.products.films, &self.products.holes);
         let hole = |film: usize| holes.get(film).and_then(Option::as_ref);
         let film = |film: usize| films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());
-        let (table, quadrature) = (products.table.as_ref(), products.quadrature.as_ref());
+        let colours = |material: usize| {
+            let FilmColours { table, quadrature, .. } = products.films.get(material)?;
+            Some((table.as_ref(), quadrature.as_ref()?))
+        };
         let (Some(lighting), Some(behind)) = (key.lights().nth(light), &self.products.behind) else { return Ok(()) };
         let pass = DrawPass::new(
             &self.gpu,
             key,
             lighting,
-            &DrawInputs { environment, table, quadrature, film: &film, hole: &hole, behind },
+            &DrawInputs { environment, colours: &colours, film: &film, hole: &hole, behind },
         )?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);

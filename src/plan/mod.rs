@@ -22,12 +22,12 @@ pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary, FilmKey,
-    FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey, QuadratureKey,
-    RestingFilm, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
+    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary, FilmColours,
+    FilmKey, FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey,
+    QuadratureKey, RestingFilm, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
 };
 pub use pass::{Pass, Reason};
-pub use request::{Resources, Shot, SpectralLight, has_one_film, request};
+pub use request::{Resources, Shot, SpectralLight, request};
 pub use story::Story;
 
 /// How much work may be done before the next picture must be shown.
@@ -69,14 +69,21 @@ pub struct GpuState {
 /// The products of one light on the GPU.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightState {
+    /// The colours of films of each material.
+    pub films: Vec<FilmColoursState>,
+    /// The environment.
+    pub environment: Option<EnvironmentKey>,
+}
+
+/// What there is on the GPU of the colours of films of one material in a light.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FilmColoursState {
     /// The table in use.
     pub table: Option<TableKey>,
     /// A table that is being baked, and how many of its rows are done.
     pub baking: Option<(TableKey, u32)>,
     /// The quadrature.
     pub quadrature: Option<QuadratureKey>,
-    /// The environment.
-    pub environment: Option<EnvironmentKey>,
 }
 
 /// A film's field: its state at a tick, the moment that its shown thickness belongs to, and earlier states.
@@ -173,12 +180,14 @@ pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
     planner.drop_unneeded(request);
     let mut picture = request.picture.clone();
     let draw = &mut picture.draw;
-    let (has_bubbles, needs_environment) = (!draw.bubbles.is_empty(), draw.needs_environment());
+    let needs_environment = draw.needs_environment();
+    let shown: Vec<bool> = (0..draw.lighting.films.len()).map(|material| draw.shows(material)).collect();
     planner.after.lights.resize_with(1 + draw.spectral_lights.len(), LightState::default);
     for (light, lighting) in std::iter::once(&mut draw.lighting).chain(&mut draw.spectral_lights).enumerate() {
-        if has_bubbles {
-            lighting.table = lighting.table.as_ref().map(|table| planner.table(light, table));
-            planner.quadrature(light, &lighting.quadrature);
+        planner.after.lights[light].films.resize_with(lighting.films.len(), FilmColoursState::default);
+        for (material, colours) in lighting.films.iter_mut().enumerate().filter(|(material, _)| shown[*material]) {
+            colours.table = colours.table.as_ref().map(|table| planner.table([light, material], table));
+            planner.quadrature([light, material], &colours.quadrature);
         }
         if needs_environment {
             planner.environment(light, &lighting.environment);
@@ -225,9 +234,9 @@ impl Planner {
         self.steps.push((pass, reason));
     }
 
-    /// Plans a light's table and returns the table that the frame is drawn with.
-    fn table(&mut self, light: usize, requested: &TableKey) -> TableKey {
-        let state = &mut self.after.lights[light];
+    /// Plans the table of a light and a material, and returns the table that the frame is drawn with.
+    fn table(&mut self, [light, material]: [usize; 2], requested: &TableKey) -> TableKey {
+        let state = &mut self.after.lights[light].films[material];
         if state.table.as_ref() == Some(requested) {
             state.baking = None;
             return requested.clone();
@@ -237,16 +246,16 @@ impl Planner {
         if self.pace == Pace::Frame && state.table.as_ref() != Some(&coarse) {
             state.table = Some(coarse.clone());
             state.baking = None;
-            self.push(Pass::BakeTable { light, key: coarse.clone(), rows: 0..coarse.rows }, reason);
+            self.push(Pass::BakeTable { light, material, key: coarse.clone(), rows: 0..coarse.rows }, reason);
             self.complete = false;
             return coarse;
         }
-        self.bake(light, requested, reason);
-        self.after.lights[light].table.clone().unwrap_or(coarse)
+        self.bake([light, material], requested, reason);
+        self.after.lights[light].films[material].table.clone().unwrap_or(coarse)
     }
 
-    fn bake(&mut self, light: usize, requested: &TableKey, reason: Reason) {
-        let mut done = match &self.after.lights[light].baking {
+    fn bake(&mut self, [light, material]: [usize; 2], requested: &TableKey, reason: Reason) {
+        let mut done = match &self.after.lights[light].films[material].baking {
             Some((key, rows)) if key == requested => *rows,
             _ => 0,
         };
@@ -258,22 +267,22 @@ impl Planner {
             let rows = done..(done + portion).min(requested.rows);
             done = rows.end;
             let reason = if rows.start == 0 { reason } else { Reason::Unfinished };
-            self.push(Pass::BakeTable { light, key: requested.clone(), rows }, reason);
+            self.push(Pass::BakeTable { light, material, key: requested.clone(), rows }, reason);
             if done == requested.rows {
-                let state = &mut self.after.lights[light];
+                let state = &mut self.after.lights[light].films[material];
                 (state.table, state.baking) = (Some(requested.clone()), None);
                 return;
             }
         }
-        self.after.lights[light].baking = Some((requested.clone(), done));
+        self.after.lights[light].films[material].baking = Some((requested.clone(), done));
         self.complete = false;
     }
 
-    fn quadrature(&mut self, light: usize, requested: &QuadratureKey) {
-        let current = &mut self.after.lights[light].quadrature;
+    fn quadrature(&mut self, [light, material]: [usize; 2], requested: &QuadratureKey) {
+        let current = &mut self.after.lights[light].films[material].quadrature;
         if let Some(reason) = changed(current.as_ref(), requested, |_, _| "film, light or quality") {
             *current = Some(requested.clone());
-            self.push(Pass::FitQuadrature { light, key: requested.clone() }, reason);
+            self.push(Pass::FitQuadrature { light, material, key: requested.clone() }, reason);
         }
     }
 

@@ -18,6 +18,8 @@ pub enum Pass {
     BakeTable {
         /// Index of the light.
         light: usize,
+        /// Index of the films' material.
+        material: usize,
         /// The table.
         key: TableKey,
         /// Rows to bake.
@@ -27,6 +29,8 @@ pub enum Pass {
     FitQuadrature {
         /// Index of the light.
         light: usize,
+        /// Index of the films' material.
+        material: usize,
         /// The quadrature.
         key: QuadratureKey,
     },

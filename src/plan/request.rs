@@ -5,8 +5,8 @@ use std::{collections::BTreeMap, sync::Arc};
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmKey, FrameRequest, LightKey, Lighting, Moment,
-    OpticsKey, Pace, QuadratureKey, Story, TableKey, TonemapKey, exposed_ev,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LightKey, Lighting,
+    Moment, OpticsKey, Pace, QuadratureKey, Story, TableKey, TonemapKey, exposed_ev,
     films::{cap, has_field},
     range_nm,
 };
@@ -74,7 +74,7 @@ impl Story {
     ///
     /// # Errors
     ///
-    /// The key of a scene that cannot be drawn: a camera below the bath, films of different liquids in one picture, an index that no film has.
+    /// The key of a scene that cannot be drawn: a camera below the bath, an index that no film has.
     pub fn request(&self, resources: &Resources, shot: &Shot) -> Result<FrameRequest, Fault> {
         let scene: &Scene = self;
         let camera = camera(scene, shot.size);
@@ -90,14 +90,15 @@ impl Story {
             .enumerate()
             .filter_map(|(index, bubble)| visible(self, &camera, shot, index, bubble))
             .collect();
+        let materials = materials(scene, resources)?;
+        bubbles.iter_mut().for_each(|bubble| bubble.material = materials.of_bubble[bubble.index]);
         // By the power of the eye with respect to each sphere, which orders all spheres that do not intersect as the eye sees them.
         let power = |bubble: &BubbleKey| bubble.center_m.distance_squared(camera.eye_m) - bubble.radius_m.powi(2);
         bubbles.sort_by(|a, b| power(b).total_cmp(&power(a)));
-        let film = material(scene, resources, &bubbles)?;
-        let range_nm = range_nm(bubbles.iter().map(thickest_nm).fold(0.0, f64::max));
+        let films = materials.of_films(&bubbles);
         let own =
             SpectralLight { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
-        let lighting = |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &film, range_nm);
+        let lighting = |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &films);
         let light = light(scene, resources, &camera);
         let draw = DrawKey {
             size: shot.size,
@@ -165,13 +166,16 @@ fn light_of(scene: &Scene, source: &SpectralLight, own: LightKey) -> LightKey {
     LightKey { gain: DVec3::splat(scene.light.intensity), seen: seen_light(&source.illuminant), backdrop, ..own }
 }
 
-fn lighting(scene: &Scene, source: &SpectralLight, light: LightKey, film: &FilmMaterial, range_nm: f64) -> Lighting {
-    let optics = OpticsKey { film: film.clone(), illuminant: source.illuminant.clone() };
-    let table = table(scene, source, &light, TableKey::full(optics.clone(), range_nm));
-    let is_plain = !table.coloured && !table.polarised;
-    let quadrature = QuadratureKey::new(optics, range_nm, scene.view.quality, &light.seen, is_plain);
-    let table = quadrature.needs_table().then_some(table);
-    Lighting { light, environment: EnvironmentKey(source.environment.clone()), table, quadrature }
+fn lighting(scene: &Scene, source: &SpectralLight, light: LightKey, films: &[(FilmMaterial, f64)]) -> Lighting {
+    let colours = |(film, range_nm): &(FilmMaterial, f64)| {
+        let optics = OpticsKey { film: film.clone(), illuminant: source.illuminant.clone() };
+        let table = table(scene, source, &light, TableKey::full(optics.clone(), *range_nm));
+        let is_plain = !table.coloured && !table.polarised;
+        let quadrature = QuadratureKey::new(optics, *range_nm, scene.view.quality, &light.seen, is_plain);
+        FilmColours { table: quadrature.needs_table().then_some(table), quadrature }
+    };
+    let films = films.iter().map(colours).collect();
+    Lighting { light, environment: EnvironmentKey(source.environment.clone()), films }
 }
 
 /// How much the primaries of a backdrop may differ that `fast` takes for grey, as a part of the light's gain.
@@ -189,28 +193,42 @@ fn table(scene: &Scene, source: &SpectralLight, light: &LightKey, full: TableKey
     TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full }
 }
 
-/// Whether all films are made of the same material. If not, the films in sight at the moment decide whether a shot is refused.
-#[must_use]
-pub fn has_one_film(scene: &Scene) -> bool {
-    let mut films = scene.bubbles.iter().map(|bubble| (&bubble.film.index, bubble.film.skin_nm));
-    films.next().is_none_or(|first| films.all(|film| film == first))
+/// What the films of a scene are made of.
+struct Materials {
+    /// Each material once, in the order of the bubbles.
+    list: Vec<FilmMaterial>,
+    /// The place in the list of each bubble's film.
+    of_bubble: Vec<usize>,
 }
 
-/// The material of all visible films.
-fn material(scene: &Scene, resources: &Resources, bubbles: &[BubbleKey]) -> Result<FilmMaterial, Fault> {
-    let Some(first) = bubbles.iter().map(|bubble| bubble.index).min() else { return Ok(FilmMaterial::default()) };
-    let film = &scene.bubbles[first].film;
-    for bubble in bubbles {
-        let other = &scene.bubbles[bubble.index].film;
-        let different = [("index", other.index != film.index), ("skin_nm", other.skin_nm != film.skin_nm)];
-        if let Some((key, _)) = different.into_iter().find(|(_, differs)| *differs) {
-            let reason = format!("differs from [[bubble]] number {}; all films in one picture must agree", first + 1);
-            return Err(Fault::new(key, reason).inside("film").inside_item("bubble", bubble.index));
-        }
+impl Materials {
+    /// Each material, and the range of thicknesses that films of it have which are in sight.
+    fn of_films(&self, bubbles: &[BubbleKey]) -> Vec<(FilmMaterial, f64)> {
+        let mut thickest = vec![0.0_f64; self.list.len()];
+        bubbles
+            .iter()
+            .for_each(|bubble| thickest[bubble.material] = thickest[bubble.material].max(thickest_nm(bubble)));
+        self.list.iter().cloned().zip(thickest.into_iter().map(range_nm)).collect()
     }
-    let index = film_index(&film.index, resources);
-    let index = index.map_err(|error| Fault::unusable("index", error).inside("film").inside_item("bubble", first))?;
-    Ok(FilmMaterial { index, skin_nm: film.skin_nm })
+}
+
+/// The materials of all films of a scene, in sight or not.
+fn materials(scene: &Scene, resources: &Resources) -> Result<Materials, Fault> {
+    let mut named: Vec<(&FilmIndexName, f64)> = Vec::new();
+    let mut materials = Materials { list: Vec::new(), of_bubble: Vec::new() };
+    for (number, Bubble { film, .. }) in scene.bubbles.iter().enumerate() {
+        let name = (&film.index, film.skin_nm);
+        let known = named.iter().position(|known| *known == name);
+        let place = known.unwrap_or(named.len());
+        if known.is_none() {
+            let index = film_index(&film.index, resources);
+            let refused = |error| Fault::unusable("index", error).inside("film").inside_item("bubble", number);
+            materials.list.push(FilmMaterial { index: index.map_err(refused)?, skin_nm: film.skin_nm });
+            named.push(name);
+        }
+        materials.of_bubble.push(place);
+    }
+    Ok(materials)
 }
 
 fn film_index(index: &FilmIndexName, resources: &Resources) -> Result<FilmIndex, FilmIndexError> {
@@ -251,6 +269,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     let ticks = age.moment.ticks();
     Some(BubbleKey {
         index,
+        material: 0,
         center_m,
         radius_m,
         stretch,

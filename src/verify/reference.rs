@@ -73,7 +73,8 @@ fn radiance_in(
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<DVec3>, ReferenceError> {
     let light = &lighting.light;
-    let optics = lighting.quadrature.optics.spectra_to(lighting.quadrature.range_nm);
+    let quadrature = &lighting.films[0].quadrature;
+    let optics = quadrature.optics.spectra_to(quadrature.range_nm);
     let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
     let scene = PictureScene {
         size: key.size,

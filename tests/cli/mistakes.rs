@@ -55,12 +55,12 @@ fn settings_change_the_picture() {
     assert!(plain.iter().zip(&brighter).all(|(a, b)| (b - 4.0 * a).abs() < 1e-5), "0.5 and 2 everywhere");
 }
 
-/// What cannot be drawn hours later is refused before the first frame.
+/// What cannot be drawn is refused before the first frame.
 #[test]
 fn a_sequence_is_drawn_whole_or_not_at_all() {
     let desk = Desk::new();
-    let other = "[[bubble]]\ncenter_m = [0, 900, 0]\nfilm.index = 1.5\n[[event]]\ntick = 60\nkind = \"drag\"\nbubble = 1\nto_m = [0, 0.01, 0]\n";
-    desk.write("late.toml", format!("version = 1\n[[bubble]]\n{other}"));
-    let line = desk.refused("sequence late.toml -o frames --frames 0..90 --size 32x18");
-    assert!(line.contains("late.toml:5: `index` in [bubble.film] number 2 differs from [[bubble]] number 1"), "{line}");
+    desk.write("below.toml", "version = 1\n[camera]\nelevation_deg = -9\n[[bubble]]\nboundary = \"bath\"\n");
+    let line = desk.refused("sequence below.toml -o frames --frames 0..90 --size 32x18");
+    assert!(line.contains("below.toml:3: `elevation_deg` in [camera] looks from below the bath"), "{line}");
+    assert!(!desk.path("frames").exists());
 }

@@ -8,7 +8,9 @@ use super::{
 use crate::{
     gpu::{
         control::BalanceBlock,
-        kernel::{Matrix, Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uniform, kernels, overrides, shader_struct},
+        kernel::{
+            Matrix, Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uniform, kernels, overrides, shader_struct,
+        },
         quadrature::{MAX_WAVELENGTHS, QuadratureOverrides, QuadratureSample},
         rings::SIDES,
     },

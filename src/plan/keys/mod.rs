@@ -10,7 +10,7 @@ mod step;
 pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};
 pub use optics::{OpticsKey, QuadratureKey, TableKey, range_nm};
 pub use picture::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, LightKey, Lighting, TonemapKey, exposed_ev,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, LightKey, Lighting, TonemapKey, exposed_ev,
 };
 pub use rest::RestingFilm;
 

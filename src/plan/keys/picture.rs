@@ -30,6 +30,8 @@ impl PartialEq for EnvironmentKey {
 pub struct BubbleKey {
     /// Index of the bubble in the scene, and of its film.
     pub index: usize,
+    /// Index of the material of its film in each of the [`Lighting`]s.
+    pub material: usize,
     /// Center in metres.
     pub center_m: DVec3,
     /// Radius in metres.
@@ -137,6 +139,13 @@ pub struct Lighting {
     pub light: LightKey,
     /// Where it comes from.
     pub environment: EnvironmentKey,
+    /// The colours of films of each material in it.
+    pub films: Vec<FilmColours>,
+}
+
+/// What the colours of films of one material in a light follow from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmColours {
     /// The table, where the quality has one.
     pub table: Option<TableKey>,
     /// The quadrature.
@@ -157,6 +166,12 @@ impl DrawKey {
     /// All lights, the scene's own first.
     pub fn lights(&self) -> impl Iterator<Item = &Lighting> {
         std::iter::once(&self.lighting).chain(&self.spectral_lights)
+    }
+
+    /// Whether a bubble in sight has a film of a material.
+    #[must_use]
+    pub fn shows(&self, material: usize) -> bool {
+        self.bubbles.iter().any(|bubble| bubble.material == material)
     }
 
     /// Whether any light from the environment can reach the picture.
@@ -190,10 +205,8 @@ impl Lighting {
     fn difference(&self, other: &Self) -> &'static str {
         if self.light != other.light || self.environment != other.environment {
             "the light"
-        } else if self.table != other.table {
-            "the table"
         } else {
-            "the quadrature"
+            "the colours of films"
         }
     }
 }

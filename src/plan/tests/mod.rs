@@ -22,7 +22,7 @@ use crate::{
         film::Cap,
     },
     scene::{
-        Backdrop, Blow, Boundary, Bubble, Change, Detail, Drag, Event, FilmIndexName, FilmStateName, Flow,
+        Backdrop, Blow, Boundary, Bubble, Change, Detail, Drag, Event, Film, FilmIndexName, FilmStateName, Flow,
         MotionChange, Quality, Scene, Stir, View, preset,
     },
 };
@@ -99,6 +99,18 @@ fn each_light_has_what_it_needs_and_loses_nothing_to_another() {
 }
 
 #[test]
+fn each_material_in_sight_has_a_table() {
+    let film = |index: f64| Film { index: FilmIndexName::Constant(index), ..Film::default() };
+    let bubble = |index: f64, y: f64| Bubble { film: film(index), center_m: [0.0, y, 0.0], ..Bubble::default() };
+    let bakes = |bubbles: Vec<Bubble>| {
+        let plan = plan(&frame_request(&Scene { bubbles, ..uniform_scene() }, 0, Pace::Frame), &GpuState::default());
+        names(&plan).into_iter().filter(|name| *name == "bake_table").count()
+    };
+    assert_eq!(bakes(vec![bubble(1.3, 0.0), bubble(1.5, 0.01), bubble(1.3, 0.02)]), 2);
+    assert_eq!(bakes(vec![bubble(1.3, 0.0), bubble(1.5, 900.0)]), 1, "the second is far out of sight");
+}
+
+#[test]
 fn the_first_picture_makes_everything_once() {
     let first = names(&plan(&frame_request(&stirred_scene(), 30, Pace::Whole), &GpuState::default()));
     let mut order = first.clone();
@@ -127,9 +139,9 @@ fn colours_are_multiplied_only_where_that_is_good_enough() {
     let multiplies = |change: &dyn Fn(&mut Scene)| {
         let mut scene = Scene { view: View { quality: Quality::Fast, ..View::default() }, ..Scene::default() };
         change(&mut scene);
-        let lighting = frame_request(&scene, 0, Pace::Whole).picture.draw.lighting;
-        assert_eq!(lighting.quadrature.from_table, lighting.quadrature.count() == 0);
-        lighting.quadrature.from_table
+        let quadrature = &frame_request(&scene, 0, Pace::Whole).picture.draw.lighting.films[0].quadrature;
+        assert_eq!(quadrature.from_table, quadrature.count() == 0);
+        quadrature.from_table
     };
     assert!(multiplies(&|_| ()), "a backdrop that is almost black counts as grey");
     assert!(!multiplies(&|scene| scene.view.quality = Quality::Standard));
@@ -238,17 +250,17 @@ fn a_bubble_below_a_pixel_is_not_simulated() {
 #[test]
 fn a_window_gets_a_coarse_table_first_and_the_full_one_soon() {
     let request = frame_request(&uniform_scene(), 0, Pace::Frame);
-    let full = request.picture.draw.lighting.table.clone().unwrap();
+    let full = request.picture.draw.lighting.films[0].table.clone().unwrap();
     let mut state = GpuState::default();
     let first = plan(&request, &state);
-    let coarse = first.after.lights[0].table.clone().unwrap();
+    let coarse = first.after.lights[0].films[0].table.clone().unwrap();
     assert!(coarse.rows < full.rows && coarse.max_thickness_nm == full.max_thickness_nm && !first.complete);
     assert!(names(&first).ends_with(&["draw", "tonemap"]), "something is shown at once");
     for frame in 0..100 {
         let plan = plan(&request, &state);
         state = plan.after;
         if plan.complete {
-            assert_eq!(state.lights[0].table.as_ref(), Some(&full));
+            assert_eq!(state.lights[0].films[0].table.as_ref(), Some(&full));
             assert!(frame > 1, "the full table is baked in portions");
             return;
         }
@@ -334,7 +346,8 @@ fn decided(
     while fields.last().is_some_and(Option::is_none) {
         fields.pop();
     }
-    let tables = state.lights.iter().map(|light| light.table.clone()).collect();
+    let films = state.lights.iter().flat_map(|light| &light.films);
+    let tables = films.map(|film| film.table.clone()).collect();
     (state.picture.clone(), tables, fields)
 }
 
