@@ -10,12 +10,13 @@ import package::light::stored::storable;
 import package::light::water::{crossing, past_meniscus, upward};
 import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::quadrature::QuadratureSample;
-import package::optics::film_colour::{FILTERED, film_reflection};
+import package::optics::film_colour::{FILTERED, film_reflection, reflection_at};
 import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls};
 import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
 import package::sphere::lookup::{map_at, tracer_at};
+import package::sphere::others::{Chord, OtherBubble, chord_through, other_nm, place_on};
 import package::sphere::path::{Path, footprint, polarisation_along};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
@@ -37,6 +38,10 @@ override SKINS: u32;
 override ON_RING: u32;
 // 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
 override OVER_OTHERS: u32;
+// 1: walls of other bubbles lie between those of the bubble, which then adds to `picture_so_far`.
+override AMONG_OTHERS: u32;
+// 1: the bubble mirrors other bubbles.
+override MIRRORS_OTHERS: u32;
 
 // Mirrors `BubbleUniform` in src/gpu/passes/bubble.rs.
 struct Bubble {
@@ -67,6 +72,10 @@ struct Bubble {
     map_cells: u32,
     // Height of the ring that the film ends at, over the radius.
     rim_z: f32,
+    // Its part of `lists`: the first, how many whose walls lie between its own, and with those that it mirrors only.
+    first_other: u32,
+    among: u32,
+    mirrored: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -85,6 +94,10 @@ struct Bubble {
 @group(0) @binding(13) var<storage, read> hole_middle: vec4f;
 @group(0) @binding(14) var<storage, read> hole_rim: array<Rim>;
 @group(0) @binding(15) var picture_behind: texture_2d<f32>;
+@group(0) @binding(16) var picture_so_far: texture_2d<f32>;
+@group(0) @binding(17) var<storage, read> others: array<OtherBubble>;
+@group(0) @binding(18) var<storage, read> lists: array<u32>;
+@group(0) @binding(19) var films: texture_2d_array<f32>;
 
 // Sides of the polygons that rings are made of.
 override SIDES: u32;
@@ -181,21 +194,95 @@ fn backdrop(direction: vec3f, footprint: f32) -> vec3f {
     return backdrop_radiance(environment, environment_sampler, light, upward(direction), footprint);
 }
 
-// Light from what is drawn already, at a position in the picture.
+// Light from what is drawn behind the bubble, at a position in the picture.
 fn drawn_light(position: vec2f) -> vec3f {
     return light.unseen * textureLoad(picture_behind, vec2u(position), 0).rgb;
 }
 
-// What stands beside the bubble: other bubbles, the backdrop, or what the bath mirrors of it.
+// What is seen beside the bubble: what is drawn already, the backdrop, or what the bath mirrors of it.
 fn beside(direction: vec3f, footprint: f32, position: vec2f) -> vec3f {
-    if (OVER_OTHERS == 1u) {
-        return drawn_light(position);
+    if (AMONG_OTHERS == 1u) {
+        return textureLoad(picture_so_far, vec2u(position), 0).rgb;
     }
-    return crossing(1.0, direction.z, direction) * backdrop(direction, footprint);
+    if (OVER_OTHERS == 1u) {
+        return textureLoad(picture_behind, vec2u(position), 0).rgb;
+    }
+    return light.seen * (crossing(1.0, direction.z, direction) * backdrop(direction, footprint));
 }
 
 fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
     return environment_radiance(environment, environment_sampler, light, upward(direction), footprint);
+}
+
+// Light from a direction, as seen at a point of the unit sphere: from the surroundings, through the nearest bubble on the way and with what that
+// mirrors of them.
+fn mirrored_light(point: vec3f, direction: vec3f, footprint: f32) -> vec3f {
+    var seen = surroundings(direction, footprint);
+    if (MIRRORS_OTHERS == 0u) {
+        return seen;
+    }
+    let origin_m = bubble.to_center_m + bubble.radius_m * from_round(point);
+    var nearest = 0u;
+    var chord = Chord(FAR_M, FAR_M, 0.0);
+    for (var k = 0u; k < bubble.mirrored; k++) {
+        let number = lists[bubble.first_other + k];
+        let found = chord_through(others[number], origin_m, direction);
+        if (found.far_m > 0.0 && found.near_m < chord.near_m) {
+            chord = found;
+            nearest = number;
+        }
+    }
+    if (chord.far_m == FAR_M) {
+        return seen;
+    }
+    let other = others[nearest];
+    let back = place_on(other, origin_m + chord.far_m * direction);
+    seen += reflected_light(other, back, chord.cos_theta, surroundings(reflect(direction, back), footprint) - seen);
+    if (chord.near_m > 0.0) {
+        let front = place_on(other, origin_m + chord.near_m * direction);
+        seen += reflected_light(other, front, chord.cos_theta, surroundings(reflect(direction, front), footprint) - seen);
+    }
+    return seen;
+}
+
+// Farther than any bubble.
+const FAR_M: f32 = 1e30;
+
+// What a wall of another bubble reflects of light, as light.
+fn reflected_light(other: OtherBubble, place: vec3f, cos_theta: f32, step: vec3f) -> vec3f {
+    let film = FilmPoint(cos_theta, other_nm(films, other, place), 0.0);
+    return light.unseen * (light.scale * reflection_at(table, table_sampler, axes, film, vec2f(0.5), step));
+}
+
+// What other bubbles leave of light on its way from the bubble's front and back wall.
+struct Passed {
+    front: vec3f,
+    back: vec3f,
+}
+
+fn passed_others(path: Path) -> Passed {
+    var passed = Passed(vec3f(1.0), vec3f(1.0));
+    if (AMONG_OTHERS == 0u) {
+        return passed;
+    }
+    let middle = dot(bubble.to_center_m, path.direction);
+    let half = path.half_chord * bubble.radius_m;
+    for (var k = 0u; k < bubble.among; k++) {
+        let other = others[lists[bubble.first_other + k]];
+        let chord = chord_through(other, vec3f(0.0), path.direction);
+        for (var side = 0u; side < 2u; side++) {
+            let distance_m = select(chord.near_m, chord.far_m, side == 1u);
+            let place = place_on(other, distance_m * path.direction);
+            let left = max(1.0 - reflected_light(other, place, chord.cos_theta, vec3f(1.0)), vec3f(0.0));
+            passed.front *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle - half);
+            passed.back *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle + half);
+        }
+    }
+    return passed;
+}
+
+fn dimmed(steps: mat4x3f, first: vec3f, later: vec3f) -> mat4x3f {
+    return mat4x3f(first * steps[0], later * steps[1], later * steps[2], later * steps[3]);
 }
 
 // A ray inside that heads for the wall at a point of the unit sphere.
@@ -241,7 +328,7 @@ fn followed(path: Path, before: Followed) -> Followed {
     let reflections = before.reflections + 1.0;
     let left = before.left * crossing(before.hop.point.z, hop.point.z, hop.direction)
         * past_meniscus(hop.point.z, bubble.radius_m);
-    let light = surroundings(hop.direction, footprint(path, hop.direction, -2.0 * reflections));
+    let light = mirrored_light(before.hop.point, hop.direction, footprint(path, hop.direction, -2.0 * reflections));
     return Followed(hop, reflections, left, left * crossing(hop.point.z, hop.direction.z, hop.direction) * light);
 }
 
@@ -322,7 +409,7 @@ fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
         let direction = mirrored(path, front);
         walls_nm.x = optical_nm(front);
         let left = left_before(path) * crossing(front.z, direction.z, direction);
-        steps[0] = left * surroundings(direction, footprint(path, direction, 2.0)) - behind;
+        steps[0] = left * mirrored_light(front, direction, footprint(path, direction, 2.0)) - behind;
     }
     return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), last);
 }
@@ -333,27 +420,31 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     let through = straight_through(path, is_inside);
     let behind = through.light;
     let first = first_hits(path, is_inside, through);
+    let passed = passed_others(path);
     var walls: Walls;
     walls.first = first.hits;
+    walls.first.steps = dimmed(walls.first.steps, passed.front, passed.back);
     var last = first.last;
     if (INNER > 3u) {
         let second = four_hits(path, last);
         walls.second = second.hits;
+        walls.second.steps = dimmed(walls.second.steps, passed.back, passed.back);
         last = second.last;
     }
     if (INNER > 7u) {
         let third = four_hits(path, last);
         walls.third = third.hits;
+        walls.third.steps = dimmed(walls.third.steps, passed.back, passed.back);
         last = third.last;
         for (var k = 0u; k < FURTHER; k++) {
             let next = followed(path, last);
-            walls.further[k] = next.light - last.light;
+            walls.further[k] = passed.back * (next.light - last.light);
             last = next;
         }
     }
     // One reflection more, by the mean reflectance over all thicknesses, of s light, which outlasts p: no lookup of a film.
     let r2 = surface_reflectance(axes.index, path.cos_theta).x;
-    let more = 2.0 * r2 / (1.0 + r2) * (followed(path, last).light - last.light);
+    let more = 2.0 * r2 / (1.0 + r2) * passed.back * (followed(path, last).light - last.light);
     if (INNER == 1u) {
         walls.first.steps[1] += more;
     } else if (INNER == 3u) {
@@ -363,8 +454,13 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     } else {
         walls.further[FURTHER - 1u] += more;
     }
+    // What is there already: the bubble adds how it differs from the light straight behind.
+    var radiance = light.seen * behind;
+    if (AMONG_OTHERS == 1u) {
+        radiance = textureLoad(picture_so_far, vec2u(path.position), 0).rgb;
+    }
     if (WAVELENGTHS == 0u) {
-        return light.seen * behind + light.scale * colour_products(path, walls.first);
+        return radiance + light.scale * colour_products(path, walls.first);
     }
     var seen = vec3f(0.0);
     let products = resolved(walls, quadrature[0].gap_nm);
@@ -377,7 +473,7 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
         seen += wall_reflection(path, nm.x, spread.x, polarisation, walls.first.steps[0])
             + wall_reflection(path, nm.y, spread.y, polarisation, walls.first.steps[1]);
     }
-    return light.seen * behind + light.scale * seen;
+    return radiance + light.scale * seen;
 }
 
 // The part of L - B by the table's colours of the first walls.
@@ -463,7 +559,7 @@ fn sample_radiance(position: vec2f, width: f32) -> vec3f {
     // Not only where it is covered: derivatives need the neighbours.
     let radiance = bubble_radiance(edge.inside, width, position);
     let ray = normalize(plane);
-    return mix(light.seen * beside(ray, pixel_angle(view, ray), position), radiance, edge.coverage);
+    return mix(beside(ray, pixel_angle(view, ray), position), radiance, edge.coverage);
 }
 
 // The mean over a grid of samples in a pixel.
@@ -491,7 +587,7 @@ fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
 fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let plane = view_plane(view, position.xy);
     let edge = outline(plane, 1.0);
-    let behind = light.seen * beside(normalize(plane), view.pixel_height, position.xy);
+    let behind = beside(normalize(plane), view.pixel_height, position.xy);
     if (edge.coverage <= 0.0) {
         return vec4f(storable(behind), 1.0);
     }

@@ -3,15 +3,16 @@
 use glam::{DMat3, DVec3};
 
 use super::{
+    composition::{PixelRect, Placed},
     device::{Gpu, GpuError},
     environment::{Environment, texel_angle},
+    film_atlas::FilmAtlas,
     formats::radiance_format,
     kernel::Drawable,
-    layers::{PixelRect, layers},
     passes::{
         backdrop::{Backdrop, LightUniform, ViewUniform},
         bake_table::{Table, TableOverrides, table_sampler},
-        bubble::{BubbleUniform, RingOverrides, Shade, ShadeMirror},
+        bubble::{BubbleUniform, OtherBubble, RingOverrides, Shade, ShadeMirror},
         open_hole::OpenHole,
     },
     quadrature::Quadrature,
@@ -34,14 +35,12 @@ pub struct DrawInputs<'a> {
     pub film: &'a dyn Fn(usize) -> Option<Shown<'a>>,
     /// The hole in a film that bursts, by the film's index.
     pub hole: &'a dyn Fn(usize) -> Option<&'a OpenHole>,
-    /// Where a layer finds the picture of the layers behind it; as large as the picture if it [`needs_behind`].
-    pub behind: &'a Target,
-}
-
-/// Whether a picture has more layers than one.
-#[must_use]
-pub fn needs_behind(key: &DrawKey) -> bool {
-    layers(key).into_iter().any(|layer| layer > 0)
+    /// How the bubbles lie over one another.
+    pub composition: &'a [Placed],
+    /// The pictures of what is behind a layer, and of all before it; as large as the picture if there is more than one layer.
+    pub drawn: [&'a Target; 2],
+    /// Films of bubbles that others show.
+    pub atlas: &'a FilmAtlas,
 }
 
 /// The largest half float: the twin of `storable` in `shaders/light/stored.wgsl`.
@@ -67,8 +66,10 @@ pub struct DrawPass {
 /// Bubbles that are drawn together.
 #[derive(Default)]
 struct Layer {
-    /// Pixels of each bubble.
-    rects: Vec<PixelRect>,
+    /// Pixels of what is behind these bubbles, or behind the clusters that begin with them.
+    behind: Vec<PixelRect>,
+    /// Pixels of what is drawn so far, where bubbles of clusters are added to it.
+    so_far: Vec<PixelRect>,
     /// The rings of all bubbles, each with its number of vertices.
     rings: Vec<(Drawable, u32)>,
 }
@@ -90,6 +91,34 @@ struct Shared<'a> {
     environment: &'a Environment,
     table_sampler: wgpu::Sampler,
     behind: &'a wgpu::TextureView,
+    so_far: &'a wgpu::TextureView,
+    others: Others,
+    films: &'a wgpu::TextureView,
+}
+
+/// All bubbles as others show them, and which of them each bubble has to do with.
+struct Others {
+    bubbles: wgpu::Buffer,
+    /// For each bubble the places of others in the list: those of its cluster, then those that it mirrors.
+    lists: wgpu::Buffer,
+    /// Where the part of each bubble begins.
+    first: Vec<u32>,
+}
+
+impl Others {
+    fn new(gpu: &Gpu, key: &DrawKey, lighting: &Lighting, inputs: &DrawInputs<'_>) -> Self {
+        let (mut lists, mut first) = (Vec::new(), Vec::new());
+        for placed in inputs.composition {
+            first.push(lists.len() as u32);
+            lists.extend(placed.among.iter().chain(&placed.mirrored).map(|place| *place as u32));
+        }
+        let is_needed = !lists.is_empty();
+        // Buffers hold at least one value, read or not.
+        lists.push(0);
+        let shown = key.bubbles.iter().take(if is_needed { usize::MAX } else { 1 });
+        let bubbles: Vec<_> = shown.map(|bubble| other_bubble(key, lighting, bubble, inputs.atlas)).collect();
+        Self { bubbles: gpu.storage("others", &bubbles), lists: gpu.storage("lists of others", &lists), first }
+    }
 }
 
 /// The colours of films of one material.
@@ -102,12 +131,12 @@ struct Colours<'a> {
 /// A ring of a bubble, and what it shows.
 struct Drawn<'a> {
     bubble: &'a BubbleKey,
+    placed: &'a Placed,
+    first_other: u32,
     ring: &'a Ring,
     colours: &'a Colours<'a>,
     film: &'a Shown<'a>,
     hole: &'a OpenHole,
-    /// Whether there may be bubbles behind.
-    is_over_others: bool,
 }
 
 impl DrawPass {
@@ -132,33 +161,54 @@ impl DrawPass {
         };
         let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0] };
         let table_sampler = table_sampler(gpu);
-        let behind = &inputs.behind.view;
-        let shared = Shared { key, lighting, view, light, environment, table_sampler, behind };
+        let [behind, so_far] = inputs.drawn.map(|target| &target.view);
+        let others = Others::new(gpu, key, lighting, inputs);
+        let shared = Shared {
+            key,
+            lighting,
+            view,
+            light,
+            environment,
+            table_sampler,
+            behind,
+            so_far,
+            others,
+            films: &inputs.atlas.view,
+        };
         let unread: Vec<Table> =
             lighting.films.iter().map(|film| Table::unread(gpu, &film.quadrature.optics)).collect();
         let (no_film, no_hole) = (NoFilm::new(gpu), OpenHole::new(gpu));
-        let layers = layers(key);
-        pass.layers.resize_with(layers.iter().max().map_or(0, |last| last + 1), Layer::default);
-        for (bubble, layer) in key.bubbles.iter().zip(layers) {
+        let count = inputs.composition.iter().map(|placed| placed.layer + 1).max().unwrap_or(0);
+        pass.layers.resize_with(count, Layer::default);
+        for (place, (bubble, placed)) in key.bubbles.iter().zip(inputs.composition).enumerate() {
             let Some((table, quadrature)) = (inputs.colours)(bubble.material) else { continue };
             let films = &lighting.films[bubble.material];
             let table = table.filter(|_| films.table.is_some()).unwrap_or(&unread[bubble.material]);
             let colours = Colours { films, table, quadrature };
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
+            let first_other = shared.others.first[place];
             for ring in bubble_rings(key, bubble, films) {
                 let vertices = if ring.edges_rad.is_some() { 2 * (SIDES + 1) } else { 3 };
-                let drawn =
-                    Drawn { bubble, ring: &ring, colours: &colours, film: &film, hole, is_over_others: layer > 0 };
-                pass.layers[layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
+                let drawn = Drawn { bubble, placed, first_other, ring: &ring, colours: &colours, film: &film, hole };
+                pass.layers[placed.layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
             }
-            pass.layers[layer].rects.push(PixelRect::around(bubble, key.size));
+            pass.layers[placed.behind_layer].behind.push(placed.rect.clone());
+            if !placed.among.is_empty() {
+                pass.layers[placed.layer].so_far.push(placed.rect.clone());
+            }
         }
         Ok(pass)
     }
 
     /// Records some rows of the picture.
-    pub fn record(&self, recorder: &mut Recorder<'_>, target: &Target, behind: &Target, rows: &std::ops::Range<u32>) {
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        target: &Target,
+        [behind, so_far]: [&Target; 2],
+        rows: &std::ops::Range<u32>,
+    ) {
         let (backdrop, colour) = match &self.backdrop {
             BackdropDraw::Drawn(backdrop) => (Some(backdrop), None),
             // The first rows clear the whole picture.
@@ -174,10 +224,12 @@ impl DrawPass {
         };
         let mut layers = self.layers.iter();
         draw(recorder, layers.next().map_or(&[], |layer| &layer.rings), backdrop, colour);
-        for Layer { rects, rings } in layers {
-            let parts = rects.iter().filter_map(|rect| rect.within(rows));
-            parts.for_each(|part| copy_part(recorder.encoder(), target, behind, &part));
-            draw(recorder, rings, None, None);
+        for layer in layers {
+            for (rects, to) in [(&layer.behind, behind), (&layer.so_far, so_far)] {
+                let parts = rects.iter().filter_map(|rect| rect.within(rows));
+                parts.for_each(|part| copy_part(recorder.encoder(), target, to, &part));
+            }
+            draw(recorder, &layer.rings, None, None);
         }
     }
 }
@@ -194,10 +246,10 @@ fn copy_part(encoder: &mut wgpu::CommandEncoder, from: &Target, to: &Target, par
 impl Shared<'_> {
     /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
-        let Self { key, lighting, view, light, environment, table_sampler, behind } = self;
-        let Drawn { ring, film, hole, colours: Colours { films, table, quadrature }, .. } = drawn;
+        let Self { key, lighting, view, light, environment, table_sampler, behind, so_far, others, films } = self;
+        let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
         let uniform = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
-        let coloured = films.table.as_ref().is_some_and(|table| table.coloured);
+        let coloured = film_colours.table.as_ref().is_some_and(|table| table.coloured);
         let shade = Shade {
             shape: ring_overrides(key, lighting, drawn),
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: lighting.light.polariser.is_some() },
@@ -218,6 +270,10 @@ impl Shared<'_> {
             hole_middle: &hole.middle,
             hole_rim: &hole.rim,
             picture_behind: behind,
+            picture_so_far: so_far,
+            others: &others.bubbles,
+            lists: &others.lists,
+            films,
         };
         let format = radiance_format(key.full_precision);
         match (key.yardstick, ring.edges_rad) {
@@ -270,7 +326,7 @@ fn max_samples(quadrature: &Quadrature) -> u32 {
 fn ring_overrides(
     key: &DrawKey,
     lighting: &Lighting,
-    Drawn { bubble, ring, colours, is_over_others, .. }: &Drawn<'_>,
+    Drawn { bubble, placed, ring, colours, .. }: &Drawn<'_>,
 ) -> RingOverrides {
     RingOverrides {
         UNIFORM_FILM: matches!(bubble.film, FilmKey::Uniform(_)),
@@ -285,7 +341,9 @@ fn ring_overrides(
         ON_BATH: key.on_bath,
         SKINS: colours.films.quadrature.optics.film.skin_nm > 0.0,
         ON_RING: bubble.cap.is_some() && !key.on_bath,
-        OVER_OTHERS: *is_over_others,
+        OVER_OTHERS: placed.layer > 0,
+        AMONG_OTHERS: !placed.among.is_empty(),
+        MIRRORS_OTHERS: !placed.among.is_empty() || !placed.mirrored.is_empty(),
         INNER: ring.inner_reflections,
     }
 }
@@ -335,7 +393,7 @@ fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUniform {
 }
 
 fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform {
-    let Drawn { bubble, ring, film: shown, .. } = drawn;
+    let Drawn { bubble, placed, first_other, ring, film: shown, .. } = drawn;
     let film = &drawn.colours.films.quadrature.optics.film;
     let [inner, outer] = ring.corners();
     let (thickness_nm, cells) = match &bubble.film {
@@ -360,6 +418,33 @@ fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform {
         skins_nm: (2.0 * film.skin_nm).max(1e-3) as f32,
         map_cells: shown.map_cells,
         rim_z: bubble.cap.map_or(-2.0, |cap| cap.rim_z as f32),
+        first_other: *first_other,
+        among: placed.among.len() as u32,
+        mirrored: (placed.among.len() + placed.mirrored.len()) as u32,
+    }
+}
+
+/// A bubble as others show it.
+fn other_bubble(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey, atlas: &FilmAtlas) -> OtherBubble {
+    let film = &lighting.films[bubble.material].quadrature.optics.film;
+    let (origin, cells, thickness_nm) = match (&bubble.film, atlas.place(bubble.index)) {
+        (FilmKey::Uniform(thickness_nm), _) => ([0; 2], 0, *thickness_nm),
+        (FilmKey::Field(field), Some(origin)) => (origin, field.cells, 0.0),
+        (FilmKey::Field(field), None) => ([0; 2], 0, field.initial.mean_nm()),
+    };
+    OtherBubble {
+        to_center_m: floats(bubble.center_m - key.camera.eye_m),
+        radius_m: bubble.radius_m as f32,
+        to_film: bubble.to_film.into(),
+        origin,
+        cells,
+        thickness_nm: thickness_nm as f32,
+        evaporated_nm: bubble.evaporated_nm as f32,
+        black_nm: BLACK_FILM_NM as f32,
+        extra_nm: film.equivalent_extra_nm() as f32,
+        skins_nm: (2.0 * film.skin_nm).max(1e-3) as f32,
+        // What a bath mirrors is as much of the bubble.
+        rim_z: bubble.cap.filter(|_| !key.on_bath).map_or(-2.0, |cap| cap.rim_z as f32),
         padding: [0.0; 3],
     }
 }

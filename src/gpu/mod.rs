@@ -6,12 +6,14 @@
 //! [`flow`], [`film`] and [`draw`], which compose them.
 
 mod abilities;
+pub mod composition;
 pub mod control;
 pub mod copies;
 pub mod device;
 pub mod draw;
 pub mod environment;
 pub mod film;
+mod film_atlas;
 pub mod flow;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod flow_case;
@@ -19,7 +21,6 @@ pub mod formats;
 pub mod grid;
 pub mod kernel;
 mod late_errors;
-pub mod layers;
 pub mod passes;
 pub mod pipelines;
 pub mod quadrature;

@@ -1,25 +1,31 @@
 //! Walks a plan: owns the products, records each pass from its key, and keeps the record of what is on the GPU.
 
-use std::ops::Range;
+use std::{collections::BTreeMap, ops::Range};
 
 use glam::DVec3;
 
 use super::{
     abilities::missing_for_measurement,
+    composition::{Placed, composition},
     device::{Gpu, GpuError},
-    draw::{DrawInputs, DrawPass, needs_behind, pixels_shaded, strips},
+    draw::{DrawInputs, DrawPass, pixels_shaded, strips},
     environment::Environment,
     film::{Field, MovingFilm, rules},
+    film_atlas::FilmAtlas,
     formats::{PICTURE_FORMAT, radiance_format},
     passes::{add_light::add_light, bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
     quadrature::Quadrature,
     readback::Readback,
+    shown_film::Shown,
     target::Target,
     timing::{Counts, Recorder, TimeLog},
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{DrawKey, FieldKey, FrameRequest, GpuState, OpenHoleKey, Pass, Plan, TableKey, TonemapKey, plan},
+    plan::{
+        BubbleKey, DrawKey, FieldKey, FilmKey, FrameRequest, GpuState, OpenHoleKey, Pass, Plan, TableKey, TonemapKey,
+        plan,
+    },
 };
 
 /// Cells stepped in one submission, so that none runs long: about 50 ms on a software rasteriser.
@@ -32,8 +38,10 @@ struct Products {
     films: Vec<Option<MovingFilm>>,
     holes: Vec<Option<OpenHole>>,
     radiance: Option<Target>,
-    /// What lies behind the layer that is drawn.
-    behind: Option<Target>,
+    /// Pictures of what is behind the layer that is drawn, and of all before it.
+    drawn: [Option<Target>; 2],
+    /// Films of bubbles that others show.
+    atlas: Option<FilmAtlas>,
     /// The picture in one spectral light, and its sum with the pictures before.
     added: Option<Target>,
     sum: Option<Target>,
@@ -310,14 +318,19 @@ impl Renderer {
             return Err(GpuError::NoFullPrecision { adapter: self.gpu.adapter_name(), reason });
         }
         let format = radiance_format(key.full_precision);
-        let behind_size = if needs_behind(key) { key.size } else { [1, 1] };
-        self.products.behind = Some(Target::fit(self.products.behind.take(), &self.gpu, "behind", behind_size, format));
+        let composition = composition(key);
+        let has_layers = composition.iter().any(|placed| placed.layer > 0);
+        let drawn_size = if has_layers { key.size } else { [1, 1] };
+        for slot in &mut self.products.drawn {
+            *slot = Some(Target::fit(slot.take(), &self.gpu, "drawn", drawn_size, format));
+        }
+        self.gather_films(key, &composition);
         let mut radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
-        self.draw_light(key, 0, &radiance)?;
+        self.draw_light(key, &composition, 0, &radiance)?;
         for light in 1..=key.spectral_lights.len() {
             let [added, sum] = [self.products.added.take(), self.products.sum.take()]
                 .map(|slot| Target::fit(slot, &self.gpu, "spectral light", key.size, format));
-            self.draw_light(key, light, &added)?;
+            self.draw_light(key, &composition, light, &added)?;
             let mut recorder = Recorder::new(&self.gpu);
             add_light(&mut recorder, key.full_precision, [&radiance.view, &added.view], &sum.view)?;
             Self::submit(&self.times, &mut self.counts, recorder);
@@ -328,8 +341,31 @@ impl Renderer {
         Ok(())
     }
 
+    /// Copies the films of bubbles that others show to one texture.
+    fn gather_films(&mut self, key: &DrawKey, composition: &[Placed]) {
+        let shown_by_others = composition.iter().flat_map(|placed| placed.among.iter().chain(&placed.mirrored));
+        let film = |place: &usize| {
+            let BubbleKey { index, film, .. } = &key.bubbles[*place];
+            let field = matches!(film, FilmKey::Field(_)).then(|| self.products.films.get(*index)?.as_ref())??;
+            Some((*index, field.field.shown()))
+        };
+        let films: BTreeMap<usize, Shown<'_>> = shown_by_others.filter_map(film).collect();
+        let mut recorder = Recorder::new(&self.gpu);
+        let (is_needed, atlas) = (!films.is_empty(), FilmAtlas::of(self.products.atlas.take(), &mut recorder, &films));
+        if is_needed {
+            Self::submit(&self.times, &mut self.counts, recorder);
+        }
+        self.products.atlas = Some(atlas);
+    }
+
     /// The picture in one light alone.
-    fn draw_light(&mut self, key: &DrawKey, light: usize, target: &Target) -> Result<(), GpuError> {
+    fn draw_light(
+        &mut self,
+        key: &DrawKey,
+        composition: &[Placed],
+        light: usize,
+        target: &Target,
+    ) -> Result<(), GpuError> {
         self.light(light);
         let products = &mut self.products.lights[light];
         // Without an environment key nothing of it is read; a black one fills the binding.
@@ -342,17 +378,22 @@ impl Renderer {
             let FilmColours { table, quadrature, .. } = products.films.get(material)?;
             Some((table.as_ref(), quadrature.as_ref()?))
         };
-        let (Some(lighting), Some(behind)) = (key.lights().nth(light), &self.products.behind) else { return Ok(()) };
+        let (Some(lighting), [Some(behind), Some(so_far)], Some(atlas)) =
+            (key.lights().nth(light), &self.products.drawn, &self.products.atlas)
+        else {
+            return Ok(());
+        };
+        let drawn = [behind, so_far];
         let pass = DrawPass::new(
             &self.gpu,
             key,
             lighting,
-            &DrawInputs { environment, colours: &colours, film: &film, hole: &hole, behind },
+            &DrawInputs { environment, colours: &colours, film: &film, hole: &hole, composition, drawn, atlas },
         )?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);
             let work = u64::from(key.size[0]) * rows.len() as u64;
-            pass.record(&mut recorder, target, behind, &rows);
+            pass.record(&mut recorder, target, drawn, &rows);
             Self::submit(&self.times, &mut self.counts, recorder);
             told(&self.watcher, &self.gpu, work)?;
         }

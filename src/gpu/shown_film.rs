@@ -23,7 +23,9 @@ impl FilmTexture {
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: wgpu::TextureFormat::R32Float,
-            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
+            usage: wgpu::TextureUsages::STORAGE_BINDING
+                | wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
         let view = texture.create_view(&wgpu::TextureViewDescriptor {
@@ -39,6 +41,8 @@ impl FilmTexture {
 pub struct Shown<'a> {
     /// The thickness at the film's cells.
     pub film: &'a wgpu::TextureView,
+    /// The texture that it is a view of.
+    pub texture: &'a wgpu::Texture,
     /// The correction of what is looked up through the map.
     pub balance: &'a UniformBuffer<BalanceBlock>,
     /// The map that it was sampled through.
@@ -70,6 +74,7 @@ impl NoFilm {
         let Control { shown_balance, partial_sums, .. } = &self.control;
         Shown {
             film: &self.film.view,
+            texture: &self.film.texture,
             balance: shown_balance,
             map: partial_sums,
             map_cells: 0,

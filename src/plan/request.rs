@@ -98,7 +98,8 @@ impl Story {
         let films = materials.of_films(&bubbles);
         let own =
             SpectralLight { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
-        let lighting = |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &films);
+        let lighting =
+            |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &films, bubbles.len() > 1);
         let light = light(scene, resources, &camera);
         let draw = DrawKey {
             size: shot.size,
@@ -166,13 +167,20 @@ fn light_of(scene: &Scene, source: &SpectralLight, own: LightKey) -> LightKey {
     LightKey { gain: DVec3::splat(scene.light.intensity), seen: seen_light(&source.illuminant), backdrop, ..own }
 }
 
-fn lighting(scene: &Scene, source: &SpectralLight, light: LightKey, films: &[(FilmMaterial, f64)]) -> Lighting {
+fn lighting(
+    scene: &Scene,
+    source: &SpectralLight,
+    light: LightKey,
+    films: &[(FilmMaterial, f64)],
+    are_many: bool,
+) -> Lighting {
     let colours = |(film, range_nm): &(FilmMaterial, f64)| {
         let optics = OpticsKey { film: film.clone(), illuminant: source.illuminant.clone() };
         let table = table(scene, source, &light, TableKey::full(optics.clone(), *range_nm));
         let is_plain = !table.coloured && !table.polarised;
         let quadrature = QuadratureKey::new(optics, *range_nm, scene.view.quality, &light.seen, is_plain);
-        FilmColours { table: quadrature.needs_table().then_some(table), quadrature }
+        // What bubbles show of one another comes from a table.
+        FilmColours { table: (quadrature.needs_table() || are_many).then_some(table), quadrature }
     };
     let films = films.iter().map(colours).collect();
     Lighting { light, environment: EnvironmentKey(source.environment.clone()), films }

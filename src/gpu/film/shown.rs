@@ -49,6 +49,7 @@ impl Field {
     pub fn shown(&self) -> Shown<'_> {
         Shown {
             film: &self.texture.view,
+            texture: &self.texture.texture,
             balance: &self.control.shown_balance,
             map: &self.map[self.shown_map],
             map_cells: self.map_grid().cells,

@@ -52,6 +52,40 @@ shader_struct! {
         pub map_cells: u32,
         /// Height of the ring that the film ends at, over the radius.
         pub rim_z: f32,
+        /// Its part of the lists of others: the first.
+        pub first_other: u32,
+        /// How many whose walls lie between its own.
+        pub among: u32,
+        /// How many with those that it mirrors only.
+        pub mirrored: u32,
+    }
+}
+
+shader_struct! {
+    /// A bubble as others show it: see `shaders/sphere/others.wgsl`.
+    pub struct OtherBubble {
+        /// From the eye to the center.
+        pub to_center_m: [f32; 3],
+        /// Radius.
+        pub radius_m: f32,
+        /// Takes directions of the world to the film.
+        pub to_film: Matrix,
+        /// Where its film lies in the texture of all films, in texels.
+        pub origin: [u32; 2],
+        /// Cells along a panel's edge; 0 for a film of one thickness.
+        pub cells: u32,
+        /// Thickness of a film of one thickness, in nm.
+        pub thickness_nm: f32,
+        /// What has evaporated, in nm.
+        pub evaporated_nm: f32,
+        /// Thickness at which evaporation ends, in nm.
+        pub black_nm: f32,
+        /// What skins add to the film's thickness, in nm.
+        pub extra_nm: f32,
+        /// Thickness of both skins, in nm; above 0.
+        pub skins_nm: f32,
+        /// Height of the ring that the film ends at, over the radius.
+        pub rim_z: f32,
         /// Fills 16 bytes.
         pub padding: [f32; 3],
     }
@@ -90,6 +124,10 @@ overrides! {
         override ON_RING: bool;
         /// Whether other bubbles may be behind the bubble.
         override OVER_OTHERS: bool;
+        /// Whether walls of others lie between its own.
+        override AMONG_OTHERS: bool;
+        /// Whether it mirrors others.
+        override MIRRORS_OTHERS: bool;
         /// Inner reflections whose films are looked up.
         override INNER: u32 in [1, 3, 7, 11];
     }
@@ -119,6 +157,10 @@ kernels! {
         @13 hole_middle: Read<[f32; 4]>;
         @14 hole_rim: Read<[RimValue]>;
         @15 picture_behind: Texture2d;
+        @16 picture_so_far: Texture2d;
+        @17 others: Read<[OtherBubble]>;
+        @18 lists: Read<[u32]>;
+        @19 films: Texture2dArray;
     }
     draw ring, everywhere as shade;
 
@@ -133,6 +175,7 @@ kernels! {
         @3 environment_sampler: Sampler;
         @4 bubble: Uniform<BubbleUniform>;
         @15 picture_behind: Texture2d;
+        @16 picture_so_far: Texture2d;
     }
     draw ring, everywhere as shade_mirror;
 }
@@ -141,7 +184,18 @@ impl<'a> ShadeMirror<'a> {
     /// The mirror that stands where a bubble would.
     pub fn in_place_of(shade: &Shade<'a>) -> Self {
         let Shade { shape, table_kind, summed, view, light, environment, environment_sampler, bubble, .. } = *shade;
-        let picture_behind = shade.picture_behind;
-        Self { shape, table_kind, summed, view, light, environment, environment_sampler, bubble, picture_behind }
+        let Shade { picture_behind, picture_so_far, .. } = *shade;
+        Self {
+            shape,
+            table_kind,
+            summed,
+            view,
+            light,
+            environment,
+            environment_sampler,
+            bubble,
+            picture_behind,
+            picture_so_far,
+        }
     }
 }

@@ -1,0 +1,66 @@
+//! The films of bubbles that others show, in one texture.
+
+use std::collections::BTreeMap;
+
+use super::{device::Gpu, shown_film::Shown, timing::Recorder};
+
+/// A texture with the films of several bubbles side by side, a layer a panel, halos included.
+pub struct FilmAtlas {
+    /// All its layers.
+    pub view: wgpu::TextureView,
+    texture: wgpu::Texture,
+    /// Where the film of each bubble lies, in texels, by its index.
+    places: BTreeMap<usize, [u32; 2]>,
+}
+
+impl FilmAtlas {
+    /// Where films will lie that are so many texels wide, in squares as large as the largest of them, and the size of the texture; as many as it
+    /// has room for.
+    fn laid_out(films: &BTreeMap<usize, Shown<'_>>, limit: u32) -> (BTreeMap<usize, [u32; 2]>, [u32; 2]) {
+        let side = films.values().map(|film| film.texture.width()).max().unwrap_or(1);
+        let columns = (limit / side).min((films.len() as f64).sqrt().ceil() as u32).max(1);
+        let rows = (limit / side).min((films.len() as u32).div_ceil(columns)).max(1);
+        let place = |k: u32| [k % columns * side, k / columns * side];
+        let places = films.keys().copied().zip((0..columns * rows).map(place)).collect();
+        (places, [columns * side, rows * side])
+    }
+
+    /// Keeps a texture that fits, else makes a new one, and records the copies of all films.
+    pub fn of(old: Option<Self>, recorder: &mut Recorder<'_>, films: &BTreeMap<usize, Shown<'_>>) -> Self {
+        let gpu = recorder.gpu;
+        let (places, [width, height]) = Self::laid_out(films, gpu.device.limits().max_texture_dimension_2d);
+        let fits = |atlas: &Self| [atlas.texture.width(), atlas.texture.height()] == [width, height];
+        let atlas = old.filter(fits).unwrap_or_else(|| Self::empty(gpu, [width, height]));
+        for (index, [x, y]) in &places {
+            let film = films[index].texture;
+            let origin = wgpu::Origin3d { x: *x, y: *y, z: 0 };
+            let to = wgpu::TexelCopyTextureInfo { origin, ..atlas.texture.as_image_copy() };
+            recorder.encoder().copy_texture_to_texture(film.as_image_copy(), to, film.size());
+        }
+        Self { places, ..atlas }
+    }
+
+    fn empty(gpu: &Gpu, [width, height]: [u32; 2]) -> Self {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("films"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: gpu.array_layers(6) },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::R32Float,
+            usage: wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        Self { view, texture, places: BTreeMap::new() }
+    }
+
+    /// Where the film of a bubble lies, in texels, if there was room for it.
+    #[must_use]
+    pub fn place(&self, index: usize) -> Option<[u32; 2]> {
+        self.places.get(&index).copied()
+    }
+}
