@@ -54,7 +54,7 @@ pub(super) fn spectrum_samples(key: &OpticsKey) -> Vec<QuadratureSample> {
         let is_line = k + lines >= wavelengths_nm.len();
         QuadratureSample { width_nm: if is_line { 0.0 } else { 1.0 }, ..QuadratureSample::from(&wavelength) }
     };
-    responses(&optics).into_iter().enumerate().map(sample).collect()
+    responses(optics.weights()).into_iter().enumerate().map(sample).collect()
 }
 
 /// Fitted wavelengths on the device.
@@ -95,7 +95,7 @@ impl Quadrature {
     fn white(gpu: &Gpu, optics: &OpticsKey) -> Self {
         let mut samples = [QuadratureSample::zeroed(); MAX_WAVELENGTHS];
         samples[0].response =
-            responses(&optics.spectra()).into_iter().fold(DMat3::ZERO, |sum, response| sum + response).into();
+            responses(optics.spectra().weights()).into_iter().fold(DMat3::ZERO, |sum, response| sum + response).into();
         let buffer = gpu.uniform("quadrature", &samples);
         Self { buffer, count: 0, thick: false, task: QuadratureTask::CrossTerms }
     }

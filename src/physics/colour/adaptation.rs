@@ -4,8 +4,7 @@ use std::sync::LazyLock;
 
 use glam::{DMat3, DVec3};
 
-use super::{BT2020, ColourWeights, FilmOptics, Illuminant, RgbSpace, quadrature::responses};
-use crate::physics::optics::FilmIndex;
+use super::{BT2020, ColourWeights, Illuminant, RgbSpace, quadrature::responses};
 
 /// Cone responses of the Bradford adaptation (ICC.1:2022, annex E.2).
 const BRADFORD: DMat3 = DMat3::from_cols(
@@ -26,8 +25,7 @@ pub fn daylight_scale() -> DVec3 {
 /// The matrix from RGB light (linear BT.2020, see [`super::Uplift`]) to its colour under an illuminant, linear BT.2020 where
 /// D65's white is (1, 1, 1). For D65 it is the identity within the uplift's residual, 1e-4.
 pub fn seen_light(illuminant: &Illuminant) -> DMat3 {
-    // What a film is made of does not matter where nothing meets it.
-    let responses = responses(&FilmOptics::new(FilmIndex::Constant(1.0), illuminant));
+    let responses = responses(&ColourWeights::new(illuminant));
     DMat3::from_diagonal(daylight_scale()) * responses.into_iter().fold(DMat3::ZERO, |sum, response| sum + response)
 }
 

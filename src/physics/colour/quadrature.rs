@@ -8,7 +8,7 @@
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use super::{BT2020, FilmOptics, Uplift, bt2020_to_bt709};
+use super::{BT2020, ColourWeights, FilmOptics, Uplift, bt2020_to_bt709};
 use crate::physics::optics::Polarised;
 
 /// One wavelength of a fitted sum.
@@ -50,7 +50,7 @@ pub fn fit_quadrature(
     count: usize,
     range_nm: f64,
 ) -> Vec<QuadratureWavelength> {
-    let responses = responses(optics);
+    let responses = responses(optics.weights());
     let wavelengths = optics.weights().wavelengths_nm();
     if wavelengths.len() <= count {
         let fitted = wavelengths.iter().zip(optics.indices()).zip(responses);
@@ -74,9 +74,8 @@ pub fn fit_quadrature(
 }
 
 /// For each wavelength of the light, the matrix from BT.2020 light to its colour, where everything is reflected.
-pub fn responses(optics: &FilmOptics) -> Vec<DMat3> {
+pub fn responses(weights: &ColourWeights) -> Vec<DMat3> {
     let (to_bt2020, to_bt709) = (BT2020.from_xyz(), bt2020_to_bt709());
-    let weights = optics.weights();
     let response = |(weight, nm): (&DVec3, &f64)| {
         let seen = to_bt2020 * *weight;
         // Row vector ρᵀ M: how much of this wavelength each component of BT.2020 light has.
@@ -353,7 +352,7 @@ mod tests {
     #[test]
     fn responses_of_white_light_add_up_to_the_white() {
         let optics = optics("A");
-        let white: DVec3 = responses(&optics).iter().map(|response| *response * DVec3::ONE).sum();
+        let white: DVec3 = responses(optics.weights()).iter().map(|response| *response * DVec3::ONE).sum();
         assert!((white - BT2020.from_xyz() * optics.weights().white()).abs().max_element() < 1e-12, "{white}");
     }
 }
