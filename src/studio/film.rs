@@ -9,7 +9,7 @@ use crate::{
     plan::{BubbleKey, FilmKey, FrameRequest, Story, film_grids, settle_detail},
     scene::{Camera, Scene},
     verify::{
-        reference::{MovedFilms, ReferenceError, film_sphere, moved_film},
+        reference::{MovedFilms, ReferenceError, film_thickness, moved_film},
         reference_film::ReferenceFilm,
     },
 };
@@ -115,11 +115,11 @@ fn look_at(scene: &mut Scene, bubble: usize, time_s: f64) {
 /// The film as pictures see it: thinned by evaporation, with its hole, and with nothing beyond its rim.
 fn cells(key: &BubbleKey, grid: CubedSphere, films: &MovedFilms) -> Result<Vec<FilmCell>, Error> {
     // A bath shows the image of the film below its rim; there is no film.
-    let sphere = film_sphere(key, false, films)?;
+    let thickness_nm = film_thickness(key, false, films)?;
     let to_world = key.to_film.transpose();
     let cell = |(index, solid_angle_sr): (usize, f64)| {
         let direction = to_world * grid.cell_direction(index);
-        FilmCell { direction, solid_angle_sr, thickness_nm: (sphere.thickness_nm)(direction) }
+        FilmCell { direction, solid_angle_sr, thickness_nm: thickness_nm(direction) }
     };
     Ok(grid.areas().into_iter().enumerate().map(cell).collect())
 }

@@ -76,11 +76,21 @@ fn radiance_in(
     let quadrature = &lighting.films[0].quadrature;
     let optics = quadrature.optics.spectra_to(quadrature.range_nm);
     let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
+    let sphere = |bubble: &BubbleKey| {
+        let (center_m, radius_m, stretch) = (bubble.center_m, bubble.radius_m, bubble.stretch);
+        film_thickness(bubble, key.on_bath, films).map(|thickness_nm| FilmSphere {
+            optics: &optics,
+            center_m,
+            radius_m,
+            stretch,
+            thickness_nm,
+        })
+    };
     let scene = PictureScene {
         size: key.size,
         camera: camera(&key.camera),
-        optics: &optics,
-        spheres: key.bubbles.iter().map(|bubble| film_sphere(bubble, key.on_bath, films)).collect::<Result<_, _>>()?,
+        light: optics.weights(),
+        spheres: key.bubbles.iter().map(sphere).collect::<Result<_, _>>()?,
         surroundings: &surroundings,
         backdrop: match light.backdrop {
             BackdropKey::Environment => None,
@@ -88,6 +98,7 @@ fn radiance_in(
         },
         polariser: light.polariser,
         on_bath: key.on_bath,
+        negligible: if key.bubbles.len() > 1 { NEGLIGIBLE_OF_MANY } else { NEGLIGIBLE_OF_ONE },
         samples: key.bubbles.iter().map(|bubble| bubble.samples).fold(SAMPLES, u32::max),
     };
     Ok(scene.radiance(progress))
@@ -95,6 +106,13 @@ fn radiance_in(
 
 /// Samples along each side of a pixel: the environment is looked up in its finest level only, so a pixel must average by itself.
 const SAMPLES: u32 = 2;
+
+/// Part of light below which a branch of a ray in one bubble is not split any further.
+const NEGLIGIBLE_OF_ONE: f64 = 1e-6;
+/// The same with several bubbles, where each branch has branches of its own: a hundred times less would take a dense crowd of forty ten
+/// times as long. The light is not lost but taken from the direction that the branch has by then: two bubbles are within 1e-5 of a picture with a
+/// hundredth of this, forty within 2e-4, for surroundings of about 1.
+const NEGLIGIBLE_OF_MANY: f64 = 1e-4;
 
 /// The camera of a key.
 #[must_use]
@@ -114,16 +132,19 @@ fn turned(light: &LightKey, direction: DVec3) -> DVec3 {
     DVec3::new(cos * direction.x + sin * direction.y, cos * direction.y - sin * direction.x, direction.z)
 }
 
-/// A bubble as pictures see it: its film thinned by evaporation, with its hole, and with nothing beyond its rim.
+/// Thickness of a film in nm in the direction of a unit vector from the bubble's center.
+pub type FilmThickness<'a> = Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a>;
+
+/// A film as pictures see it: thinned by evaporation, with its hole, and with nothing beyond its rim.
 ///
 /// # Errors
 /// A film's grid that is too coarse or too fine, or one that [`needs_device`] and is not there.
-pub fn film_sphere<'a>(
+pub fn film_thickness<'a>(
     key: &BubbleKey,
     on_bath: bool,
     films: &'a MovedFilms,
-) -> Result<FilmSphere<'a>, ReferenceError> {
-    let field: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match (&key.film, films.get(&key.index)) {
+) -> Result<FilmThickness<'a>, ReferenceError> {
+    let field: FilmThickness<'a> = match (&key.film, films.get(&key.index)) {
         // As pictures of the device interpolate what it shows.
         (FilmKey::Field(_), Some(film)) => Box::new(|direction| film.bilinear(direction)),
         (FilmKey::Field(_), None) if needs_device(key) => return Err(ReferenceError::NotMoved(key.index)),
@@ -145,7 +166,7 @@ pub fn film_sphere<'a>(
         };
         remaining_nm(field(direction), evaporated_nm)
     };
-    let thickness_nm: Box<dyn Fn(DVec3) -> f64 + Send + Sync + 'a> = match key.hole {
+    Ok(match key.hole {
         None => Box::new(move |direction| film_nm(to_film * direction)),
         Some(Opening { at, seconds }) => {
             let middle = match at {
@@ -155,8 +176,7 @@ pub fn film_sphere<'a>(
             let hole = Hole::open(&film_nm, middle, seconds, key.radius_m);
             Box::new(move |direction| hole.pierced(to_film * direction, film_nm(to_film * direction)))
         }
-    };
-    Ok(FilmSphere { center_m: key.center_m, radius_m: key.radius_m, stretch: key.stretch, thickness_nm })
+    })
 }
 
 /// Direction of the thinnest cell of a film; the top of one that is as thin everywhere.

@@ -1,25 +1,20 @@
 //! A bath of water that bubbles stand on: a level mirror at the height of their centers.
 //!
-//! What a level mirror shows is the world mirrored in it, dimmed. A ray that meets the bath goes on straight into the mirrored world, where the
-//! other half of the bubble is, and each time that it crosses the level, `r(cos θ)` is left of its light. Directions down are then those up.
-//! The bath's own light is none: deep water is dark. The meniscus at the bubble's foot is a wedge that turns light away; it is drawn as a
+//! A ray that meets the bath is reflected, with `r(cos θ)` of its light. The shaders let it go on straight into the mirrored world instead, where
+//! the other half of each bubble is; both are the same.
+//! The bath's own light is none: deep water is dark. The meniscus at a bubble's foot is a wedge that turns light away; it is drawn as a
 //! band that darkens towards the bath, as high as water climbs. Left out: what the meniscus shows instead, the dimple under the bubble (0.2 mm for a radius of
 //! 5 cm), and that water polarises, which r, the mean of s and p light, does not know.
-
-use glam::DVec3;
 
 use crate::physics::optics::amplitudes;
 
 /// Refractive index of the water.
 const WATER_INDEX: f64 = 1.333;
 
-/// What is left of light that goes from one height to another, both counted from the bath's level, along a unit vector.
+/// What the bath reflects of unpolarised light, by the height of a unit vector along the ray.
 #[must_use]
-pub fn crossing(from_z: f64, to_z: f64, direction: DVec3) -> f64 {
-    if from_z * to_z >= 0.0 {
-        return 1.0;
-    }
-    let r = amplitudes(WATER_INDEX, direction.z.abs());
+pub fn mirrored_part(direction_z: f64) -> f64 {
+    let r = amplitudes(WATER_INDEX, direction_z.abs());
     0.5 * (r.s.powi(2) + r.p.powi(2))
 }
 
@@ -35,22 +30,14 @@ pub fn past_meniscus(z: f64, radius_m: f64) -> f64 {
     MENISCUS_LEFT + (1.0 - MENISCUS_LEFT) * t * t * (3.0 - 2.0 * t)
 }
 
-/// The direction of the world that one of the mirrored world is.
-#[must_use]
-pub fn upward(direction: DVec3) -> DVec3 {
-    direction.with_z(direction.z.abs())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn water_mirrors_2_percent_straight_down_and_all_at_grazing() {
-        assert!((crossing(1.0, -1.0, DVec3::NEG_Z) - 0.0204).abs() < 1e-4);
-        assert!(crossing(1.0, -1.0, DVec3::new(1.0, 0.0, -1e-6).normalize()) > 0.999);
-        assert_eq!(crossing(1.0, 0.5, DVec3::NEG_Z), 1.0);
-        assert_eq!(crossing(-1.0, -0.5, DVec3::NEG_Z), 1.0);
+        assert!((mirrored_part(-1.0) - 0.0204).abs() < 1e-4);
+        assert!(mirrored_part(-1e-6) > 0.999);
     }
 
     #[test]

@@ -1,211 +1,232 @@
-//! One ray through one bubble: the hits on the film, and how much of the light each direction contributes.
+//! One ray with all that it splits into at walls of film, and the light that its branches bring.
+
+use std::rc::Rc;
 
 use glam::{DMat3, DVec3};
 
-use super::bath::{crossing, past_meniscus};
+use super::{
+    PictureScene,
+    bath::{mirrored_part, past_meniscus},
+    walls::{Line, Surface, Wall},
+};
 use crate::physics::{
-    colour::{FilmOptics, daylight_scale, responses},
-    optics::{Polarised, amplitudes},
+    colour::{daylight_scale, responses},
+    optics::{Polarised, SpectralWall},
 };
 
-/// Inner reflections followed at most; only rays within a hair of the limb have more to give.
-const MAX_INNER: usize = 64;
-/// What may be left to the last direction before following it further is pointless.
-const NEGLIGIBLE: f64 = 1e-6;
+/// Reflections followed at most along a branch; only rays within a hair of the limb have more to give.
+const MAX_REFLECTIONS: u32 = 64;
+/// Sine of the angle of incidence below which there is no plane of incidence: reflectances of s and p light differ by its square.
+const NO_PLANE: f64 = 1e-6;
+/// How far the cosines of two hits of one bubble may be apart by rounding where they are the same.
+const SAME_COS: f64 = 1e-12;
+/// Part of a polarisation that may be left in the other's plane by rounding.
+const SAME_PLANE: f64 = 1e-15;
 
-/// A film under an illuminant, ready to have rays traced through bubbles of it.
+/// A scene, ready to have rays followed through it.
 pub(super) struct LightPath<'a> {
-    optics: &'a FilmOptics,
+    scene: &'a PictureScene<'a>,
+    surfaces: Vec<Surface>,
     /// For each wavelength, the matrix from light to its colour; together they show white daylight as (1, 1, 1).
     responses: Vec<DMat3>,
-    /// Direction that a polariser lets pass.
-    polariser: Option<DVec3>,
+    /// Their sum: what is seen of light that met no film.
+    seen: DMat3,
+    /// Height of the bath over the eye, in metres.
+    bath_m: Option<f64>,
 }
 
-/// The light along a ray: for each direction, the matrix from the light there to its colour.
-pub(super) struct Arrivals {
-    /// On what stands straight behind the bubble.
-    pub straight: DMat3,
-    /// On the surroundings in a direction: the outer reflection, if there is one, then each inner one.
-    pub reflected: Vec<(DVec3, DMat3)>,
+/// A ray between two reflections, and what is seen of light that arrives along it.
+struct Branch {
+    line: Line,
+    /// For each wavelength, the part that is seen of light which is all s, and of light which is all p.
+    weights: Vec<Polarised>,
+    /// Unit vector across the plane of incidence that s and p refer to: the electric field of s light.
+    across: DVec3,
+    /// Walls that have reflected it.
+    reflections: u32,
+    /// Bubbles that it has met, or been reflected in.
+    met: Vec<Met>,
+}
+
+/// Light at the angle at which a line meets a bubble: a sphere is met at the same angle where the line enters and where it leaves, and
+/// again after each reflection inside.
+struct Met {
+    bubble: usize,
+    cos_theta: f64,
+    incidence: Rc<SpectralWall>,
 }
 
 impl<'a> LightPath<'a> {
-    pub fn new(optics: &'a FilmOptics, polariser: Option<DVec3>) -> Self {
+    pub fn new(scene: &'a PictureScene<'a>) -> Self {
+        debug_assert!(scene.spheres.iter().all(|sphere| sphere.optics.weights() == scene.light), "films of one light");
+        let eye_m = scene.camera.eye_m;
         let scale = DMat3::from_diagonal(daylight_scale());
-        let responses = responses(optics).into_iter().map(|response| scale * response).collect();
-        Self { optics, responses, polariser }
+        let responses: Vec<DMat3> = responses(scene.light).into_iter().map(|response| scale * response).collect();
+        let seen = responses.iter().fold(DMat3::ZERO, |sum, response| sum + *response);
+        let surfaces: Vec<Surface> = scene.spheres.iter().map(|sphere| Surface::new(sphere, eye_m)).collect();
+        // Where nothing stands on it, any height below the eye does.
+        let level_m = || scene.spheres.first().map_or(-1.0, |sphere| sphere.center_m.z - eye_m.z);
+        Self { scene, surfaces, responses, seen, bath_m: scene.on_bath.then(level_m) }
     }
 
-    /// What is seen of light that met no bubble.
-    pub fn seen(&self) -> DMat3 {
-        self.responses.iter().fold(DMat3::ZERO, |sum, response| sum + *response)
-    }
-
-    /// Follows a ray (a unit vector) from an eye in units of the radius, the bubble's center at the origin and stretched by a symmetric
-    /// matrix, or of a radius in m and standing on a bath; `None` if it misses.
-    pub fn trace(
-        &self,
-        eye: DVec3,
-        ray: DVec3,
-        stretch: DMat3,
-        on_bath: Option<f64>,
-        thickness_nm: &dyn Fn(DVec3) -> f64,
-    ) -> Option<Arrivals> {
-        let is_round = stretch == DMat3::IDENTITY;
-        let to_round = stretch.inverse();
-        let (eye, round) = if is_round { (eye, ray) } else { (to_round * eye, (to_round * ray).normalize()) };
-        let along = eye.dot(round);
-        let foot = eye - along * round;
-        let inside = eye.length_squared() <= 1.0;
-        if foot.length_squared() >= 1.0 || (!inside && along >= 0.0) {
-            return None;
+    /// The colour that is seen along a ray from the eye, a unit vector.
+    pub fn colour(&self, ray: DVec3) -> DVec3 {
+        let line = Line { origin_m: DVec3::ZERO, direction: ray, from: None };
+        if !self.meets_film(&line) {
+            return self.seen * self.arriving(ray, 0);
         }
-        let cos_theta = (1.0 - foot.length_squared()).sqrt();
-        let inner = self.inner_reflections(cos_theta);
-        let hits = if is_round {
-            Hits::on_sphere(foot, ray, cos_theta, inner)
-        } else {
-            Hits::on_ellipsoid([foot - cos_theta * round, foot + cos_theta * round], ray, to_round, inner)
-        };
-        let thickness_nm: Vec<f64> = hits.points.iter().map(|point| thickness_nm(*point)).collect();
-        let mut factors = self.factors(&hits.cosines, &thickness_nm, inside, self.polarisation(to_round * foot, ray));
-        if let Some(radius_m) = on_bath {
-            factors.dim(&hits, (eye, ray), inside, radius_m);
-        }
-        let first = usize::from(inside);
-        let reflected = hits.directions.into_iter().zip(factors.reflected).skip(first).collect();
-        Some(Arrivals { straight: factors.straight, reflected })
+        let (across, seen) = self.polarisation(ray);
+        let weights = vec![seen; self.responses.len()];
+        self.follow(Branch { line, weights, across, reflections: 0, met: Vec::new() })
     }
 
-    /// How many inner reflections to follow, by the maximum reflectance of any film at this angle.
-    fn inner_reflections(&self, cos_theta: f64) -> usize {
-        let r2 = amplitudes(self.optics.film().reference_index(), cos_theta).s.powi(2);
-        let max = 4.0 * r2 / (1.0 + r2).powi(2);
-        let needed = NEGLIGIBLE.ln() / max.ln();
-        // `max` is 1 exactly at the limb, where no number of reflections is enough.
-        if needed.is_finite() && needed > 0.0 { (needed.ceil() as usize).clamp(1, MAX_INNER) } else { MAX_INNER }
-    }
-
-    /// Shares of s and p light that are seen: halves without a polariser. With one, the share of the light's power that passes it,
-    /// together 1 as well, which is half of what an ideal polariser takes given back.
-    fn polarisation(&self, foot: DVec3, ray: DVec3) -> Polarised {
-        let across = ray.cross(foot).try_normalize();
-        let (Some(axis), Some(across)) = (self.polariser, across) else { return Polarised { s: 0.5, p: 0.5 } };
-        let [s, p] = [across, ray.cross(across)].map(|field| axis.dot(field).powi(2));
+    /// What is seen of s and p light, and the direction across the plane that they refer to: halves without a polariser. With one, light that
+    /// passes it is all s, which is half of what an ideal polariser takes given back.
+    fn polarisation(&self, ray: DVec3) -> (DVec3, Polarised) {
         // An axis along the ray passes nothing of either.
-        if s + p > 1e-12 { Polarised { s: s / (s + p), p: p / (s + p) } } else { Polarised { s: 0.5, p: 0.5 } }
+        let passed =
+            self.scene.polariser.map(|axis| axis.reject_from_normalized(ray)).filter(|axis| axis.length() > 1e-6);
+        match passed {
+            Some(axis) => (axis.normalize(), Polarised { s: 1.0, p: 0.0 }),
+            None => (ray.any_orthonormal_vector(), Polarised { s: 0.5, p: 0.5 }),
+        }
     }
 
-    /// With the cosine at each hit, or one for all.
-    fn factors(&self, cosines: &[f64], thickness_nm: &[f64], inside: bool, polarisation: Polarised) -> Factors {
-        let first = self.optics.spectral_wall(cosines[0]);
-        let reflectances = |k: usize| match cosines.get(k) {
-            Some(cos_theta) if k > 0 => self.optics.spectral_wall(*cos_theta).reflectances(thickness_nm[k]),
-            _ => first.reflectances(thickness_nm[k]),
+    /// The colour of all light that arrives along a branch and those that split from it.
+    fn follow(&self, mut branch: Branch) -> DVec3 {
+        let mut seen = DVec3::ZERO;
+        if branch.reflections < MAX_REFLECTIONS && !self.is_negligible(&branch) {
+            loop {
+                for wall in self.walls(&branch.line) {
+                    seen += self.reflected(&mut branch, &wall);
+                    if self.is_negligible(&branch) {
+                        return seen + self.rest(&branch);
+                    }
+                }
+                let Some(line) = self.beyond_bath(&branch.line) else { break };
+                branch.dim(mirrored_part(line.direction.z));
+                // The mirror image of s light is s light.
+                branch.across.z = -branch.across.z;
+                branch.line = line;
+            }
+        }
+        seen + self.rest(&branch)
+    }
+
+    /// Takes from a branch what a wall reflects, and returns the colour of the light that arrives there.
+    fn reflected(&self, branch: &mut Branch, wall: &Wall) -> DVec3 {
+        let sphere = &self.scene.spheres[wall.bubble];
+        if self.bath_m.is_some() {
+            branch.dim(past_meniscus(wall.place.z, sphere.radius_m));
+        }
+        let thickness_nm = (sphere.thickness_nm)(wall.place);
+        // Where there is no film there is no plane of incidence either.
+        if thickness_nm == 0.0 {
+            return DVec3::ZERO;
+        }
+        branch.turn_to(wall);
+        let incidence = branch.met(wall, || Rc::new(sphere.optics.spectral_wall(wall.cos_theta)));
+        let mut weights = incidence.reflectances(thickness_nm);
+        for (left, reflected) in branch.weights.iter_mut().zip(&mut weights) {
+            let reflectance = *reflected;
+            *reflected = left.times(reflectance);
+            *left = left.times(reflectance.rest());
+        }
+        let direction = branch.line.direction;
+        let line = Line {
+            origin_m: self.surfaces[wall.bubble].point_m(wall.place),
+            direction: (direction - 2.0 * direction.dot(wall.normal) * wall.normal).normalize(),
+            from: Some((wall.bubble, wall.place)),
         };
-        let front = reflectances(0);
-        let outer = self.colour(front.iter().map(|r| polarisation.times(*r)));
-        // What is inside and heads for the next wall.
-        let entered = |r: &Polarised| if inside { polarisation } else { polarisation.times(r.rest()) };
-        let mut left: Vec<Polarised> = front.iter().map(entered).collect();
-        let mut leave = |k: usize| {
-            let reflectances = reflectances(k);
-            let colour = self.colour(left.iter().zip(&reflectances).map(|(left, r)| left.times(r.rest())));
-            left.iter_mut().zip(reflectances).for_each(|(left, r)| *left = left.times(r));
-            colour
-        };
-        let straight = leave(1);
-        let last = thickness_nm.len() - 1;
-        let mut reflected = vec![outer];
-        reflected.extend((2..=last).map(&mut leave));
-        // The last direction followed keeps all that is left.
-        reflected.push(self.colour(left.into_iter()));
-        Factors { straight, reflected }
+        let met = vec![Met { bubble: wall.bubble, cos_theta: wall.cos_theta, incidence }];
+        self.follow(Branch { line, weights, across: branch.across, reflections: branch.reflections + 1, met })
     }
 
-    /// The matrix from light to its colour, by the part of each wavelength that is seen, both polarisations together.
-    fn colour(&self, seen: impl Iterator<Item = Polarised>) -> DMat3 {
-        self.responses.iter().zip(seen).fold(DMat3::ZERO, |sum, (response, seen)| sum + *response * (seen.s + seen.p))
+    /// Whether splitting what is left of a branch is pointless.
+    fn is_negligible(&self, branch: &Branch) -> bool {
+        branch.weights.iter().all(|left| left.s + left.p < self.scene.negligible)
+    }
+
+    /// The colour of the light that arrives from as far as a branch looks, past all walls.
+    fn rest(&self, branch: &Branch) -> DVec3 {
+        let seen = self.responses.iter().zip(&branch.weights);
+        let matrix = seen.fold(DMat3::ZERO, |sum, (response, seen)| sum + *response * (seen.s + seen.p));
+        matrix * self.arriving(branch.line.direction, branch.reflections)
+    }
+
+    /// Light that arrives from a direction after a number of reflections by walls: without one, it is what stands behind the bubbles.
+    fn arriving(&self, direction: DVec3, reflections: u32) -> DVec3 {
+        let meets_bath = self.bath_m.is_some() && direction.z < 0.0;
+        let (direction, left) =
+            if meets_bath { (direction.with_z(-direction.z), mirrored_part(direction.z)) } else { (direction, 1.0) };
+        let behind = self.scene.backdrop.filter(|_| reflections == 0);
+        left * behind.unwrap_or_else(|| (self.scene.surroundings)(direction))
+    }
+
+    fn meets_film(&self, line: &Line) -> bool {
+        !self.walls(line).is_empty() || self.beyond_bath(line).is_some_and(|line| !self.walls(&line).is_empty())
+    }
+
+    /// The walls that a line meets, the nearest first, as far as the bath.
+    fn walls(&self, line: &Line) -> Vec<Wall> {
+        let mut walls = Vec::new();
+        for (bubble, surface) in self.surfaces.iter().enumerate() {
+            surface.add_walls(bubble, line, &mut walls);
+        }
+        if let Some(bath) = self.to_bath_m(line) {
+            walls.retain(|wall| wall.distance_m < bath);
+        }
+        walls.sort_unstable_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
+        walls
+    }
+
+    /// The distance along a line to the bath, in metres.
+    fn to_bath_m(&self, line: &Line) -> Option<f64> {
+        let level_m = self.bath_m.filter(|_| line.direction.z < 0.0)?;
+        // The foot of a wall is below the level by rounding.
+        Some(((level_m - line.origin_m.z) / line.direction.z).max(0.0))
+    }
+
+    /// The line that the bath turns a line into.
+    fn beyond_bath(&self, line: &Line) -> Option<Line> {
+        let origin_m = line.origin_m + self.to_bath_m(line)? * line.direction;
+        Some(Line { origin_m, direction: line.direction.with_z(-line.direction.z), from: None })
     }
 }
 
-/// Matrices of a ray's directions, summed over wavelengths and polarisations.
-struct Factors {
-    straight: DMat3,
-    /// Outer reflection first, then each inner one.
-    reflected: Vec<DMat3>,
-}
-
-impl Factors {
-    /// Takes from each direction what a bath on the way does: see `bath.rs`.
-    fn dim(&mut self, hits: &Hits, (eye, ray): (DVec3, DVec3), inside: bool, radius_m: f64) {
-        let past = |point: DVec3| past_meniscus(point.z, radius_m);
-        let leaving = |point: DVec3, direction: DVec3| crossing(point.z, direction.z, direction);
-        let (front, back) = (hits.points[0], hits.points[1]);
-        let entered = crossing(eye.z, front.z, ray) * past(front);
-        self.reflected[0] *= entered * leaving(front, hits.directions[0]);
-        let mut left = if inside { crossing(eye.z, back.z, ray) } else { entered * crossing(front.z, back.z, ray) };
-        left *= past(back);
-        self.straight *= left * leaving(back, ray);
-        for (k, factor) in self.reflected.iter_mut().enumerate().skip(1) {
-            let (point, direction) = (hits.points[k], hits.directions[k]);
-            // The chord on from a point of the sphere.
-            let next = point - 2.0 * point.dot(direction) * direction;
-            left *= crossing(point.z, next.z, direction) * past(next);
-            *factor *= left * leaving(next, direction);
+impl Branch {
+    /// Leaves a part of its light.
+    fn dim(&mut self, part: f64) {
+        if part < 1.0 {
+            self.weights.iter_mut().for_each(|left| *left = Polarised { s: part * left.s, p: part * left.p });
         }
     }
-}
 
-/// Where a ray meets the wall, as points of the unit sphere, and where it goes from there.
-struct Hits {
-    /// The cosine of incidence at each point, or one for all.
-    cosines: Vec<f64>,
-    /// The front wall, then each point on the inside that the ray comes to.
-    points: Vec<DVec3>,
-    /// The outer reflection, then the direction after each inner one.
-    directions: Vec<DVec3>,
-}
-
-impl Hits {
-    /// With the foot of the perpendicular from the center on the ray; every chord has the length 2 cos θ.
-    fn on_sphere(foot: DVec3, ray: DVec3, cos_theta: f64, inner: usize) -> Self {
-        let chord = 2.0 * cos_theta;
-        let front = foot - cos_theta * ray;
-        let mut points = vec![front];
-        let mut directions = vec![ray + chord * front];
-        let (mut point, mut direction) = (foot + cos_theta * ray, ray);
-        for _ in 0..inner {
-            points.push(point);
-            direction -= chord * point;
-            directions.push(direction);
-            point += chord * direction;
+    /// Turns s and p to the plane of incidence at a wall.
+    fn turn_to(&mut self, wall: &Wall) {
+        let across = self.line.direction.cross(wall.normal);
+        if across.length() < NO_PLANE {
+            return;
         }
-        Self { cosines: vec![cos_theta], points, directions }
+        let across = across.normalize();
+        let kept = self.across.dot(across).powi(2);
+        let turned = 1.0 - kept;
+        if turned > SAME_PLANE {
+            for left in &mut self.weights {
+                *left = Polarised { s: kept * left.s + turned * left.p, p: kept * left.p + turned * left.s };
+            }
+        }
+        self.across = across;
     }
 
-    /// With the two points where the ray goes through the wall, and the matrix that makes the bubble round, by which normals are turned too.
-    fn on_ellipsoid([front, back]: [DVec3; 2], ray: DVec3, to_round: DMat3, inner: usize) -> Self {
-        let mut hits = Self { cosines: Vec::new(), points: Vec::new(), directions: Vec::new() };
-        hits.meet(front, ray, to_round);
-        let (mut point, mut direction) = (back, ray);
-        for _ in 0..inner {
-            direction = hits.meet(point, direction, to_round);
-            let round = (to_round * direction).normalize();
-            point -= 2.0 * point.dot(round) * round;
+    /// Light at the angle at which it meets a wall. A line meets a bubble at most twice, so the second time it is not kept.
+    fn met(&mut self, wall: &Wall, new: impl FnOnce() -> Rc<SpectralWall>) -> Rc<SpectralWall> {
+        let same = |met: &Met| met.bubble == wall.bubble && (met.cos_theta - wall.cos_theta).abs() < SAME_COS;
+        if let Some(known) = self.met.iter().position(same) {
+            return self.met.swap_remove(known).incidence;
         }
-        hits
-    }
-
-    /// Adds a hit, and returns where it turns the ray.
-    fn meet(&mut self, point: DVec3, direction: DVec3, to_round: DMat3) -> DVec3 {
-        let normal = (to_round * point).normalize();
-        let along = direction.dot(normal);
-        let reflected = direction - 2.0 * along * normal;
-        self.cosines.push(along.abs());
-        self.points.push(point);
-        self.directions.push(reflected);
-        reflected
+        let incidence = new();
+        self.met.push(Met { bubble: wall.bubble, cos_theta: wall.cos_theta, incidence: incidence.clone() });
+        incidence
     }
 }

@@ -1,34 +1,47 @@
-//! The picture that the shaders approximate: the same light path in f64, wavelength by wavelength, with no table and no field of f32.
+//! The picture that the shaders approximate: the same light paths in f64, wavelength by wavelength, with no table and no field of f32.
 //!
-//! A ray that meets a bubble meets its film again and again at the same angle and in the same plane of incidence (a property of spheres), so
-//! s and p light never mix and each hit multiplies them separately. With Rₖ and Tₖ = 1 − Rₖ of hit k, each at its own thickness,
+//! A ray is followed from the eye against the light. At each wall of film it splits: of the light that is seen along it, the part R arrives along
+//! the reflected ray, and the part T = 1 − R along the ray straight on. Both go on to the next wall, of whatever bubble, so bubbles before one
+//! another, through one another, inside one another and around the eye need no rule of their own. Thickness and angle are those of each hit. A
+//! branch of which too little would be seen is not split any further; all of it is given to the surroundings in its direction, so that no
+//! light is lost.
+//!
+//! A ray that meets one round bubble meets its film again and again at the same angle and in the same plane of incidence (a property of
+//! spheres), so s and p light never mix and each hit multiplies them separately. With Rₖ and Tₖ = 1 − Rₖ of hit k the tree is a series,
 //!
 //! ```text
 //! L = R₀ E(v₀) + T₀ T₁ B(v) + T₀ R₁ T₂ E(v₁) + T₀ R₁ R₂ T₃ E(v₂) + …
 //! ```
 //!
-//! where v is the ray, v₀ its outer reflection and vₖ its direction after k inner reflections; what is left after the last direction
-//! followed is given to that direction, so that no energy is lost. From inside the bubble the sum starts at hit 1.
+//! where v is the ray, v₀ its outer reflection and vₖ its direction after k inner reflections. From inside the bubble the sum starts at hit 1.
 //!
-//! A bubble that is stretched is met where it is round, and turns rays by its true normals. Each hit then has an angle of its own; that the
-//! planes of incidence turn from hit to hit, which mixes s and p light by the square of the stretch, is left out.
+//! From bubble to bubble, and on a stretched one from hit to hit, the plane of incidence turns. A turn by φ makes cos²φ s + sin²φ p of s, and
+//! the same of p with the two exchanged. Left out is the coherence of s and p: after a wall the two are taken for light of two lamps. Without a
+//! polariser that is exact for light that meets walls in one plane or two. Behind one it is exact for the first plane only, and a bubble that is
+//! seen in another or through it shows less of the polariser than it should: the nearer film seems to take away polarisation that lies between its
+//! s and p.
 //!
 //! What is and is not exact: the products of walls are formed at each wavelength of the light, and only their sum becomes a colour. RGB
-//! surroundings stand for spectra (see [`Uplift`](super::colour::Uplift)), so that coloured light too is the full spectral answer. Rays are straight (refraction shifts them by less than the film's thickness). A bubble behind another is not seen through it.
+//! surroundings stand for spectra (see [`Uplift`](super::colour::Uplift)), so that coloured light too is the full spectral answer. Rays are
+//! straight (refraction shifts them by less than the film's thickness). What stands behind the bubbles is seen straight through them only,
+//! not in reflections.
 
 mod bath;
 mod light_path;
 mod view;
+mod walls;
 
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::colour::FilmOptics;
+use super::colour::{ColourWeights, FilmOptics};
 use light_path::LightPath;
 pub use view::PictureCamera;
 
 /// A bubble.
 pub struct FilmSphere<'a> {
+    /// Its film, under the picture's light.
+    pub optics: &'a FilmOptics,
     /// Center in metres.
     pub center_m: DVec3,
     /// Radius in metres.
@@ -45,9 +58,9 @@ pub struct PictureScene<'a> {
     pub size: [u32; 2],
     /// Where the picture is taken from.
     pub camera: PictureCamera,
-    /// The film and the illuminant.
-    pub optics: &'a FilmOptics,
-    /// The bubbles, farthest first: where two overlap the later one hides the earlier.
+    /// The illuminant: the weights that the optics of every film have too, at the same wavelengths.
+    pub light: &'a ColourWeights,
+    /// The bubbles, in any order.
     pub spheres: Vec<FilmSphere<'a>>,
     /// Light that arrives from a direction.
     pub surroundings: &'a (dyn Fn(DVec3) -> DVec3 + Sync),
@@ -58,6 +71,8 @@ pub struct PictureScene<'a> {
     pub polariser: Option<DVec3>,
     /// Whether the bubbles stand on a bath at the height of their centers, above which is the eye; see `bath.rs`.
     pub on_bath: bool,
+    /// Part of light, at the wavelength that keeps most, below which a branch of a ray is not split any further.
+    pub negligible: f64,
     /// Samples along each side of a pixel, 1 or more. Pixels near an outline take more.
     pub samples: u32,
 }
@@ -75,10 +90,9 @@ impl PictureScene<'_> {
     #[must_use]
     pub fn radiance(&self, progress: &(dyn Fn() + Sync)) -> Vec<DVec3> {
         let [width, height] = self.size;
-        let paths = LightPath::new(self.optics, self.polariser);
-        let seen = paths.seen();
+        let paths = LightPath::new(self);
         let row = |y: u32| {
-            let row: Vec<DVec3> = (0..width).map(|x| self.pixel(&paths, seen, [x, y])).collect();
+            let row: Vec<DVec3> = (0..width).map(|x| self.pixel(&paths, [x, y])).collect();
             progress();
             row
         };
@@ -86,12 +100,12 @@ impl PictureScene<'_> {
         rows.concat()
     }
 
-    fn pixel(&self, paths: &LightPath, seen: DMat3, corner: [u32; 2]) -> DVec3 {
+    fn pixel(&self, paths: &LightPath, corner: [u32; 2]) -> DVec3 {
         let corner = DVec2::new(f64::from(corner[0]), f64::from(corner[1]));
         let side = self.samples_at(corner + 0.5);
         let offset = |k: u32| (f64::from(k) + 0.5) / f64::from(side);
         let samples = (0..side * side).map(|k| corner + DVec2::new(offset(k % side), offset(k / side)));
-        let total: DVec3 = samples.map(|position| self.sample(paths, seen, self.camera.ray(self.size, position))).sum();
+        let total: DVec3 = samples.map(|position| paths.colour(self.camera.ray(self.size, position))).sum();
         total / f64::from(side * side)
     }
 
@@ -110,24 +124,6 @@ impl PictureScene<'_> {
             near if near < 1.0 => OUTLINE_SAMPLES.max(self.samples),
             near if near < RIM_PIXELS => RIM_SAMPLES.max(self.samples),
             _ => self.samples.max(1),
-        }
-    }
-
-    fn sample(&self, paths: &LightPath, seen: DMat3, ray: DVec3) -> DVec3 {
-        let hit = self.spheres.iter().rev().find_map(|sphere| {
-            let eye = (self.camera.eye_m - sphere.center_m) / sphere.radius_m;
-            paths.trace(eye, ray, sphere.stretch, self.on_bath.then_some(sphere.radius_m), &*sphere.thickness_nm)
-        });
-        let surroundings =
-            |direction| (self.surroundings)(if self.on_bath { bath::upward(direction) } else { direction });
-        let behind = || self.backdrop.unwrap_or_else(|| surroundings(ray));
-        match hit {
-            None if self.on_bath => seen * (bath::crossing(1.0, ray.z, ray) * behind()),
-            None => seen * behind(),
-            Some(arrivals) => {
-                let reflected = arrivals.reflected.iter().map(|(direction, colour)| *colour * surroundings(*direction));
-                arrivals.straight * behind() + reflected.sum::<DVec3>()
-            }
         }
     }
 }
