@@ -24,8 +24,8 @@ import package::sphere::silhouette::{Silhouette, silhouette};
 override UNIFORM_FILM: u32;
 // 1: cells are larger than pixels, and the film is looked up through its flow map at each of them.
 override MAGNIFIED: u32;
-// Samples along each side of a pixel: 1, or more for bubbles of a few pixels, whose film is finer than a pixel.
-override SAMPLES: u32;
+// 1: pixels are means over more samples than one: near the outline, and of bubbles of a few pixels, whose film is finer than a pixel.
+override SUPERSAMPLED: u32;
 // 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
 override OUTLINE: u32;
 // 1: the bubble is an ellipsoid. It is traced where it is round: `unstretch` takes the picture there, `stretch` back.
@@ -76,6 +76,8 @@ struct Bubble {
     first_other: u32,
     among: u32,
     mirrored: u32,
+    // Samples along each side of a pixel.
+    samples: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -265,20 +267,48 @@ fn passed_others(path: Path) -> Passed {
     if (AMONG_OTHERS == 0u) {
         return passed;
     }
-    let middle = dot(bubble.to_center_m, path.direction);
-    let half = path.half_chord * bubble.radius_m;
-    for (var k = 0u; k < bubble.among; k++) {
-        let other = others[lists[bubble.first_other + k]];
-        let chord = chord_through(other, vec3f(0.0), path.direction);
-        for (var side = 0u; side < 2u; side++) {
-            let distance_m = select(chord.near_m, chord.far_m, side == 1u);
-            let place = place_on(other, distance_m * path.direction);
-            let left = max(1.0 - reflected_light(other, place, chord.cos_theta, vec3f(1.0)), vec3f(0.0));
-            passed.front *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle - half);
-            passed.back *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle + half);
-        }
+    let middle_m = dot(bubble.to_center_m, path.direction);
+    let half_m = path.half_chord * bubble.radius_m;
+    var next = next_chord(path.direction, middle_m + half_m, 0u);
+    while (next.k < bubble.among) {
+        let other = others[next.number];
+        let near = wall_left(other, next.chord, next.chord.near_m, path.direction);
+        let far = wall_left(other, next.chord, next.chord.far_m, path.direction);
+        passed.front *= left_on_way(near, next.chord.near_m, middle_m - half_m) * left_on_way(far, next.chord.far_m, middle_m - half_m);
+        passed.back *= left_on_way(near, next.chord.near_m, middle_m + half_m) * left_on_way(far, next.chord.far_m, middle_m + half_m);
+        next = next_chord(path.direction, middle_m + half_m, next.k + 1u);
     }
     return passed;
+}
+
+// A bubble of the cluster that a ray meets before some distance: its place in the list, its number, and where.
+struct NextChord {
+    k: u32,
+    number: u32,
+    chord: Chord,
+}
+
+// The first such bubble from a place in the list on. Most of the list is missed: what is costly is done for the rest alone.
+fn next_chord(direction: vec3f, end_m: f32, first: u32) -> NextChord {
+    for (var k = first; k < bubble.among; k++) {
+        let number = lists[bubble.first_other + k];
+        let chord = chord_through(others[number], vec3f(0.0), direction);
+        if (chord.far_m > 0.0 && chord.near_m < end_m) {
+            return NextChord(k, number, chord);
+        }
+    }
+    return NextChord(bubble.among, 0u, Chord(-1.0, -1.0, 0.0));
+}
+
+// What a wall leaves of light that passes it.
+fn wall_left(other: OtherBubble, chord: Chord, distance_m: f32, direction: vec3f) -> vec3f {
+    let place = place_on(other, distance_m * direction);
+    return max(1.0 - reflected_light(other, place, chord.cos_theta, vec3f(1.0)), vec3f(0.0));
+}
+
+// What it leaves where it lies before some distance.
+fn left_on_way(left: vec3f, distance_m: f32, end_m: f32) -> vec3f {
+    return select(vec3f(1.0), left, distance_m > 0.0 && distance_m < end_m);
 }
 
 fn dimmed(steps: mat4x3f, first: vec3f, later: vec3f) -> mat4x3f {
@@ -324,12 +354,25 @@ struct Followed {
 }
 
 fn followed(path: Path, before: Followed) -> Followed {
+    var after = reflected_inside(path, before);
+    after.light *= surroundings(after.hop.direction, footprint(path, after.hop.direction, -2.0 * after.reflections));
+    return after;
+}
+
+// The same after the first reflection inside, where other bubbles are seen too.
+fn followed_first(path: Path, before: Followed) -> Followed {
+    var after = reflected_inside(path, before);
+    after.light *= mirrored_light(before.hop.point, after.hop.direction, footprint(path, after.hop.direction, -2.0));
+    return after;
+}
+
+// How far it is followed, with what is left of light from there as its light.
+fn reflected_inside(path: Path, before: Followed) -> Followed {
     let hop = reflected(before.hop, 2.0 * path.half_chord);
-    let reflections = before.reflections + 1.0;
     let left = before.left * crossing(before.hop.point.z, hop.point.z, hop.direction)
         * past_meniscus(hop.point.z, bubble.radius_m);
-    let light = mirrored_light(before.hop.point, hop.direction, footprint(path, hop.direction, -2.0 * reflections));
-    return Followed(hop, reflections, left, left * crossing(hop.point.z, hop.direction.z, hop.direction) * light);
+    let leaving = left * crossing(hop.point.z, hop.direction.z, hop.direction);
+    return Followed(hop, before.reflections + 1.0, left, vec3f(leaving));
 }
 
 // What a bath leaves of light between the eye and beyond the front wall.
@@ -365,7 +408,7 @@ fn spread_nm(path: Path, walls_nm: vec4f) -> vec4f {
     let path_nm = cos_t * walls_nm;
     let across = dpdx(path_nm);
     let down = dpdy(path_nm);
-    return sqrt(across * across + down * down) / (f32(SAMPLES) * cos_t);
+    return sqrt(across * across + down * down) / (f32(bubble.samples) * cos_t);
 }
 
 // Four hits more, and where the ray is after them.
@@ -392,7 +435,7 @@ fn four_hits(path: Path, at: Followed) -> FourHits {
 // The first four hits: the front wall, which there is none of from inside the bubble, and three inside, or one.
 fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
     let behind = at.light;
-    var last = followed(path, at);
+    var last = followed_first(path, at);
     var walls_nm = vec4f(0.0, optical_nm(at.hop.point), 0.0, 0.0);
     var steps = mat4x3f(vec3f(0.0), last.light - behind, vec3f(0.0), vec3f(0.0));
     if (INNER > 1u) {
@@ -576,10 +619,10 @@ fn mean_radiance(position: vec2f, side: u32) -> vec3f {
 
 @fragment
 fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    if (SAMPLES == 1u) {
+    if (SUPERSAMPLED == 0u) {
         return vec4f(storable(sample_radiance(position.xy, 1.0)), 1.0);
     }
-    return vec4f(storable(mean_radiance(position.xy, SAMPLES)), 1.0);
+    return vec4f(storable(mean_radiance(position.xy, bubble.samples)), 1.0);
 }
 
 // The yardstick of the frame's cost: a plain mirror with one filtered environment lookup.

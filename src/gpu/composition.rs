@@ -58,6 +58,11 @@ impl PixelRect {
         (!rows.is_empty() && !self.columns.is_empty()).then(|| Self { columns: self.columns.clone(), rows })
     }
 
+    fn overlaps(&self, other: &Self) -> bool {
+        let overlap = |a: &Range<u32>, b: &Range<u32>| a.start < b.end && b.start < a.end;
+        overlap(&self.columns, &other.columns) && overlap(&self.rows, &other.rows)
+    }
+
     /// Tiles that it touches, of a picture that is so many of them wide.
     fn tiles(&self, across: u32) -> impl Iterator<Item = usize> + use<> {
         let span = |pixels: &Range<u32>| pixels.start / TILE..pixels.end.div_ceil(TILE);
@@ -71,42 +76,57 @@ impl PixelRect {
 pub struct Placed {
     /// Its pixels.
     pub rect: PixelRect,
-    /// Its layer; 0 for bubbles with nothing but the backdrop behind them.
+    /// Its layer. Layer 0 is the backdrop, with all bubbles if none of them may overlap.
     pub layer: usize,
     /// The layer before which all is drawn that is behind its whole cluster.
     pub behind_layer: usize,
-    /// The other bubbles of its cluster, by their place in the picture's list.
+    /// The other bubbles of its cluster that may share pixels with it, by their place in the picture's list.
     pub among: Vec<usize>,
-    /// Bubbles outside of its cluster that it mirrors.
+    /// Other bubbles that it mirrors too.
     pub mirrored: Vec<usize>,
+    /// Whether bubbles like it mirror others in this picture: they share a pipeline.
+    pub mirrors: bool,
 }
 
 /// The place of each bubble of a picture, whose bubbles are listed farthest first.
 #[must_use]
 pub fn composition(key: &DrawKey) -> Vec<Placed> {
-    let clusters = clusters(key);
+    let rects: Vec<PixelRect> = key.bubbles.iter().map(|bubble| PixelRect::around(bubble, key.size)).collect();
     let [across, down] = key.size.map(|pixels| pixels.div_ceil(TILE));
-    let mut next = vec![0; (across * down) as usize];
+    // The first layer that is free in each tile.
+    let mut free = vec![0; (across * down) as usize];
+    let first_free = |free: &[usize], rect: &PixelRect| rect.tiles(across).map(|tile| free[tile]).max().unwrap_or(0);
     let mut placed: Vec<Option<Placed>> = vec![None; key.bubbles.len()];
-    for first in 0..key.bubbles.len() {
-        if placed[first].is_some() {
-            continue;
-        }
-        let rect = |member: usize| PixelRect::around(&key.bubbles[member], key.size);
-        let cluster = &clusters[first];
-        let tiles = cluster.iter().flat_map(|member| rect(*member).tiles(across));
-        // A cluster adds to a picture, which the backdrop is the first of.
-        let behind_layer = tiles.map(|tile| next[tile]).max().unwrap_or(0).max(usize::from(cluster.len() > 1));
-        for &member in cluster {
-            let rect = rect(member);
-            let layer = rect.tiles(across).map(|tile| next[tile]).max().unwrap_or(0).max(behind_layer);
-            rect.tiles(across).for_each(|tile| next[tile] = layer + 1);
-            let among = cluster.iter().copied().filter(|other| *other != member).collect();
-            let mirrored = mirrored(key, member, cluster);
-            placed[member] = Some(Placed { rect, layer, behind_layer, among, mirrored });
+    for cluster in clusters(key) {
+        let behind_layer = cluster.iter().map(|member| first_free(&free, &rects[*member])).max().unwrap_or(0);
+        for &member in &cluster {
+            let rect = &rects[member];
+            let layer = first_free(&free, rect).max(behind_layer);
+            rect.tiles(across).for_each(|tile| free[tile] = layer + 1);
+            let overlaps = |other: &usize| *other != member && rect.overlaps(&rects[*other]);
+            let among: Vec<usize> = cluster.iter().copied().filter(overlaps).collect();
+            let mirrored = mirrored(key, member, &among);
+            let mirrors = !among.is_empty() || !mirrored.is_empty();
+            placed[member] = Some(Placed { rect: rect.clone(), layer, behind_layer, among, mirrored, mirrors });
         }
     }
-    placed.into_iter().flatten().collect()
+    let mut placed: Vec<Placed> = placed.into_iter().flatten().collect();
+    share_pipelines(key, &mut placed);
+    placed
+}
+
+/// Makes bubbles alike that differ by little: each kind of bubble has shaders of its own, which take longer to compile than a frame takes.
+fn share_pipelines(key: &DrawKey, placed: &mut [Placed]) {
+    if placed.iter().any(|placed| placed.layer > 0 || !placed.among.is_empty()) {
+        for placed in &mut *placed {
+            (placed.layer, placed.behind_layer) = (placed.layer + 1, placed.behind_layer + 1);
+        }
+    }
+    if placed.iter().any(|placed| !placed.mirrored.is_empty()) {
+        for (bubble, placed) in key.bubbles.iter().zip(placed) {
+            placed.mirrors |= most_mirrored(key, bubble) > 0;
+        }
+    }
 }
 
 /// Radius of a bubble in the picture, in pixels; more than any picture from inside.
@@ -118,41 +138,53 @@ fn radius_pixels(key: &DrawKey, bubble: &BubbleKey) -> f64 {
     bubble.radius_m / distance_m / key.camera.pixel_height_m
 }
 
-/// For each bubble the bubbles of its cluster, itself too.
+/// Bubbles that intersect, directly or through others, in the order of the nearest of each; most are alone.
 fn clusters(key: &DrawKey) -> Vec<Vec<usize>> {
-    let count = key.bubbles.len();
-    let is_large = |index: &usize| radius_pixels(key, &key.bubbles[*index]) >= SMALLEST_PIXELS;
-    let large: Vec<usize> = (0..count).filter(is_large).collect();
-    let mut cluster_of: Vec<usize> = (0..count).collect();
-    for (k, &one) in large.iter().enumerate() {
-        for &other in &large[..k] {
-            let [a, b] = [&key.bubbles[one], &key.bubbles[other]];
-            let [from, to] = [cluster_of[one], cluster_of[other]];
-            if from != to && a.center_m.distance(b.center_m) < a.radius_m + b.radius_m {
-                cluster_of.iter_mut().filter(|cluster| **cluster == from).for_each(|cluster| *cluster = to);
-            }
+    let mut clusters: Vec<Vec<usize>> = Vec::new();
+    // Clusters of bubbles that are large enough for one to see.
+    let mut large: Vec<usize> = Vec::new();
+    for (index, bubble) in key.bubbles.iter().enumerate() {
+        if radius_pixels(key, bubble) < SMALLEST_PIXELS {
+            clusters.push(vec![index]);
+            continue;
         }
+        let intersects = |other: &usize| {
+            let other = &key.bubbles[*other];
+            other.center_m.distance(bubble.center_m) < other.radius_m + bubble.radius_m
+        };
+        let (joined, apart): (Vec<usize>, Vec<usize>) =
+            large.into_iter().partition(|cluster| clusters[*cluster].iter().any(intersects));
+        let members: Vec<usize> = joined.iter().flat_map(|cluster| std::mem::take(&mut clusters[*cluster])).collect();
+        large = apart;
+        large.push(clusters.len());
+        clusters.push(members.into_iter().chain([index]).collect());
     }
-    let members = |index: usize| (0..count).filter(|other| cluster_of[*other] == cluster_of[index]).collect();
-    (0..count).map(members).collect()
+    clusters.retain(|cluster| !cluster.is_empty());
+    clusters
 }
 
-/// Bubbles that a bubble mirrors: those that look largest from it.
-fn mirrored(key: &DrawKey, index: usize, cluster: &[usize]) -> Vec<usize> {
-    let bubble = &key.bubbles[index];
-    let most = match key.lighting.films[bubble.material].quadrature.quality {
+/// How many others a bubble mirrors at most.
+fn most_mirrored(key: &DrawKey, bubble: &BubbleKey) -> usize {
+    match key.lighting.films[bubble.material].quadrature.quality {
+        _ if radius_pixels(key, bubble) < SMALLEST_PIXELS => 0,
         Quality::Fast => 0,
         Quality::Standard => 8,
         Quality::Spectral => 32,
-    };
-    if most == 0 || radius_pixels(key, bubble) < SMALLEST_PIXELS {
+    }
+}
+
+/// Bubbles that a bubble mirrors: those that look largest from it.
+fn mirrored(key: &DrawKey, index: usize, among: &[usize]) -> Vec<usize> {
+    let bubble = &key.bubbles[index];
+    let most = most_mirrored(key, bubble);
+    if most == 0 {
         return Vec::new();
     }
     let size = |other: &usize| {
         let other = &key.bubbles[*other];
         other.radius_m / other.center_m.distance(bubble.center_m)
     };
-    let others = (0..key.bubbles.len()).filter(|other| !cluster.contains(other));
+    let others = (0..key.bubbles.len()).filter(|other| *other != index && !among.contains(other));
     let mut seen: Vec<usize> = others.filter(|other| size(other) >= SMALLEST_MIRRORED).collect();
     seen.sort_by(|a, b| size(b).total_cmp(&size(a)));
     seen.truncate(most);

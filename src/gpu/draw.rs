@@ -331,7 +331,7 @@ fn ring_overrides(
     RingOverrides {
         UNIFORM_FILM: matches!(bubble.film, FilmKey::Uniform(_)),
         MAGNIFIED: bubble.magnified,
-        SAMPLES: ring.samples.min(max_samples(colours.quadrature)),
+        SUPERSAMPLED: ring.samples > 1,
         OUTLINE: ring.outline,
         FILTERED: bubble.filtered,
         STRETCHED: bubble.stretch != DMat3::IDENTITY,
@@ -343,7 +343,7 @@ fn ring_overrides(
         ON_RING: bubble.cap.is_some() && !key.on_bath,
         OVER_OTHERS: placed.layer > 0,
         AMONG_OTHERS: !placed.among.is_empty(),
-        MIRRORS_OTHERS: !placed.among.is_empty() || !placed.mirrored.is_empty(),
+        MIRRORS_OTHERS: placed.mirrors,
         INNER: ring.inner_reflections,
     }
 }
@@ -421,6 +421,8 @@ fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform {
         first_other: *first_other,
         among: placed.among.len() as u32,
         mirrored: (placed.among.len() + placed.mirrored.len()) as u32,
+        samples: ring.samples.min(max_samples(drawn.colours.quadrature)),
+        padding: [0; 3],
     }
 }
 

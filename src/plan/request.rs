@@ -236,6 +236,10 @@ fn materials(scene: &Scene, resources: &Resources) -> Result<Materials, Fault> {
         }
         materials.of_bubble.push(place);
     }
+    if materials.list.is_empty() {
+        // What the light's own colour is told from.
+        materials.list.push(FilmMaterial::default());
+    }
     Ok(materials)
 }
 

@@ -1,6 +1,7 @@
 //! Whether this machine's GPU tells the truth: each part measures what the program computes against an independent reference, and holds it
 //! to a limit.
 
+mod crowd;
 mod extremes;
 mod flow;
 mod free_film;
@@ -64,6 +65,8 @@ pub enum Part {
     Optics,
     /// Whole pictures in coloured light, against the f64 picture.
     Picture,
+    /// Bubbles seen through and in one another, against the f64 picture.
+    Crowd,
     /// Tracers moved by published winds, against exact answers.
     Transport,
     /// The flow solver, against exact flows.
@@ -77,7 +80,7 @@ pub enum Part {
 impl Part {
     /// All parts, in the order in which they run.
     pub const ALL: &'static [Self] =
-        &[Self::Optics, Self::Picture, Self::Transport, Self::Flow, Self::Rims, Self::Stability];
+        &[Self::Optics, Self::Picture, Self::Crowd, Self::Transport, Self::Flow, Self::Rims, Self::Stability];
 
     /// Its name on the command line.
     #[must_use]
@@ -85,6 +88,7 @@ impl Part {
         match self {
             Self::Optics => "optics",
             Self::Picture => "picture",
+            Self::Crowd => "crowd",
             Self::Transport => "transport",
             Self::Flow => "flow",
             Self::Rims => "rims",
@@ -108,6 +112,7 @@ impl Part {
         match self {
             Self::Optics => (85, 130),
             Self::Picture => (12, 300),
+            Self::Crowd => (32, 200),
             Self::Transport => (45, 60),
             Self::Flow => (35, 160),
             Self::Rims => (27, 90),
@@ -144,6 +149,7 @@ impl Run<'_> {
         match part {
             Part::Optics => optics::run(self),
             Part::Picture => picture::run(self),
+            Part::Crowd => crowd::run(self),
             Part::Transport => transport::run(self),
             Part::Flow => flow::run(self),
             Part::Rims => rims::run(self),

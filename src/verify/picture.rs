@@ -49,11 +49,12 @@ fn measure(
 ) -> Result<(), GpuError> {
     let mut errors: [Vec<f64>; LIMITS.len()] = Default::default();
     for (mut scene, resources) in scenes {
-        let truth = reference::radiance(&frame_request(&scene, &resources)?.picture.draw, &Default::default(), &|| ());
+        let truth =
+            reference::radiance(&frame_request(&scene, &resources, SIZE)?.picture.draw, &Default::default(), &|| ());
         let truth = truth.map_err(|error| GpuError::Refused(error.to_string()))?;
         for ((quality, _), errors) in LIMITS.iter().zip(&mut errors) {
             scene.view.quality = *quality;
-            let request = frame_request(&scene, &resources)?;
+            let request = frame_request(&scene, &resources, SIZE)?;
             errors.extend(differences(&request.picture.draw, &truth, &radiance(renderer, &request)?));
         }
     }
@@ -77,14 +78,13 @@ fn mixed_light_scene(illuminant: &str) -> Result<(Scene, Resources), GpuError> {
     Ok((scene, resources))
 }
 
-/// A bubble of random film among soft lamps of saturated colours. Lamps have no edges finer than pixels: the pictures compare optics, not
-/// filters of environments.
-fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
-    let mut random = Random::new(seed as u64);
+/// Soft lamps in random directions, of colours made from three random numbers. Lamps have no edges finer than pixels: the pictures compare
+/// optics, not filters of environments.
+pub(super) fn soft_lamps(random: &mut Random, colour: impl Fn([f64; 3]) -> DVec3) -> Arc<CubeMap> {
     let mut lamps = Vec::new();
     for _ in 0..LAMPS {
         let towards = DVec3::new(random.next() - 0.5, random.next() - 0.5, random.next() - 0.5).normalize_or(DVec3::Z);
-        let colour = DVec3::new(random.next(), random.next(), random.next()).powf(3.0);
+        let colour = colour([random.next(), random.next(), random.next()]);
         let width = 0.4 + 0.6 * random.next();
         lamps.push((towards, 3.0 * colour / colour.max_element().max(1e-3), width));
     }
@@ -95,6 +95,13 @@ fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
         };
         to_bt2020 * (0.05 + lamps.iter().map(lamp).sum::<DVec3>())
     };
+    Arc::new(CubeMap::from_fn(128, 1, light))
+}
+
+/// A bubble of random film among soft lamps of saturated colours.
+fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
+    let mut random = Random::new(seed as u64);
+    let environment = soft_lamps(&mut random, |[r, g, b]| DVec3::new(r, g, b).powf(3.0));
     let state = [FilmStateName::Rest, FilmStateName::Uniform][seed % 2];
     let thickness_nm = 150.0 + 600.0 * random.next();
     let film = Film { state, thickness_nm, stratification: 0.8 * random.next(), ..Film::default() };
@@ -113,7 +120,6 @@ fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
         ..Scene::default()
     };
     let illuminant = LIGHTS[seed % LIGHTS.len()].parse().map_err(|error| GpuError::Refused(format!("{error}")))?;
-    let environment = Arc::new(CubeMap::from_fn(128, 1, light));
     Ok((
         scene,
         Resources {
@@ -125,9 +131,9 @@ fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
     ))
 }
 
-fn frame_request(scene: &Scene, resources: &Resources) -> Result<FrameRequest, GpuError> {
+pub(super) fn frame_request(scene: &Scene, resources: &Resources, size: [u32; 2]) -> Result<FrameRequest, GpuError> {
     let shot = Shot {
-        size: SIZE,
+        size,
         moment: Moment::default(),
         full_precision: true,
         gamut: Gamut::Srgb,
@@ -137,22 +143,28 @@ fn frame_request(scene: &Scene, resources: &Resources) -> Result<FrameRequest, G
     request(scene, resources, &shot).map_err(|error| GpuError::Refused(error.to_string()))
 }
 
-fn radiance(renderer: &mut Renderer, request: &FrameRequest) -> Result<Vec<DVec3>, GpuError> {
+pub(super) fn radiance(renderer: &mut Renderer, request: &FrameRequest) -> Result<Vec<DVec3>, GpuError> {
     renderer.render(request)?;
     let Some(picture) = renderer.read_radiance() else { return Ok(Vec::new()) };
     let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&picture.wait(&renderer.gpu)?);
     Ok(pixels.into_iter().map(|[r, g, b, _]| DVec3::new(r.into(), g.into(), b.into())).collect())
 }
 
-/// Colour differences of the pixels that the bubble covers, scaled so that the truth's 99th percentile of Y is 1; white is D65's.
+/// Colour differences of the pixels that the bubble covers.
 fn differences(key: &DrawKey, truth: &[DVec3], seen: &[DVec3]) -> Vec<f64> {
     let covered: Vec<usize> = (0..truth.len()).filter(|k| is_covered(key, *k)).collect();
+    let [truth, seen] = [truth, seen].map(|pixels| covered.iter().map(|k| pixels[*k]).collect::<Vec<_>>());
+    colour_differences(&truth, &seen)
+}
+
+/// CIEDE2000 of pixels, scaled so that the truth's 99th percentile of Y is 1; white is D65's.
+pub(super) fn colour_differences(truth: &[DVec3], seen: &[DVec3]) -> Vec<f64> {
     let to_xyz = BT2020.to_xyz();
-    let mut levels: Vec<f64> = covered.iter().map(|k| (to_xyz * truth[*k]).y).collect();
+    let mut levels: Vec<f64> = truth.iter().map(|rgb| (to_xyz * *rgb).y).collect();
     levels.sort_by(f64::total_cmp);
     let scale = levels[(levels.len() - 1) * 99 / 100].max(f64::MIN_POSITIVE);
     let lab = |rgb: DVec3| xyz_to_lab(to_xyz * rgb / scale, to_xyz * DVec3::ONE);
-    covered.into_iter().map(|k| ciede2000(lab(truth[k]), lab(seen[k]))).collect()
+    truth.iter().zip(seen).map(|(truth, seen)| ciede2000(lab(*truth), lab(*seen))).collect()
 }
 
 /// Whether a pixel's middle shows a bubble.

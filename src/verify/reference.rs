@@ -7,6 +7,7 @@ use glam::DVec3;
 use crate::{
     gpu::{GpuError, Renderer},
     physics::{
+        colour::FilmOptics,
         film::Hole,
         picture::{FilmSphere, PictureCamera, PictureScene},
         sphere::{CubedSphere, GridError, HaloTable, PaddedField},
@@ -14,7 +15,7 @@ use crate::{
     },
     plan::{
         BackdropKey, BubbleKey, CameraKey, DrawKey, FieldKey, FilmKey, FlowLaw, LightKey, Lighting, Moment, Opening,
-        remaining_nm,
+        QuadratureKey, remaining_nm,
     },
 };
 
@@ -57,29 +58,51 @@ pub fn needs_device(bubble: &BubbleKey) -> bool {
 /// # Errors
 /// A film's grid that is too coarse or too fine, or one that [`needs_device`] and is not there.
 pub fn radiance(key: &DrawKey, films: &MovedFilms, progress: &(dyn Fn() + Sync)) -> Result<Vec<DVec3>, ReferenceError> {
-    let mut sum = radiance_in(key, &key.lighting, films, progress)?;
+    sum_of_lights(key, films, |scene| scene.radiance(progress))
+}
+
+/// Radiance of some pixels, each a column and a row.
+///
+/// # Errors
+/// As of [`radiance`].
+pub fn radiance_of(key: &DrawKey, films: &MovedFilms, pixels: &[[u32; 2]]) -> Result<Vec<DVec3>, ReferenceError> {
+    sum_of_lights(key, films, |scene| scene.radiance_of(pixels))
+}
+
+/// The sum of what is seen in each light alone.
+fn sum_of_lights(
+    key: &DrawKey,
+    films: &MovedFilms,
+    seen: impl Fn(&PictureScene<'_>) -> Vec<DVec3>,
+) -> Result<Vec<DVec3>, ReferenceError> {
+    let mut sum = in_light(key, &key.lighting, films, &seen)?;
     for spectral_light in &key.spectral_lights {
-        let added = radiance_in(key, spectral_light, films, progress)?;
+        let added = in_light(key, spectral_light, films, &seen)?;
         sum.iter_mut().zip(added).for_each(|(sum, added)| *sum += added);
     }
     Ok(sum)
 }
 
-/// Radiance in one light alone.
-fn radiance_in(
+/// What is seen in one light alone.
+fn in_light(
     key: &DrawKey,
     lighting: &Lighting,
     films: &MovedFilms,
-    progress: &(dyn Fn() + Sync),
+    seen: impl Fn(&PictureScene<'_>) -> Vec<DVec3>,
 ) -> Result<Vec<DVec3>, ReferenceError> {
     let light = &lighting.light;
-    let quadrature = &lighting.films[0].quadrature;
-    let optics = quadrature.optics.spectra_to(quadrature.range_nm);
+    // Films of all materials on the same wavelengths: as many as the one needs that needs most.
+    let keys = || lighting.films.iter().map(|film| &film.quadrature);
+    let samples_per_nm =
+        keys().map(|key| FilmOptics::samples_per_nm(&key.optics.film, key.range_nm)).max().unwrap_or(1);
+    let sampled =
+        |key: &QuadratureKey| FilmOptics::sampled(key.optics.film.clone(), &key.optics.illuminant, samples_per_nm);
+    let optics: Vec<FilmOptics> = keys().map(sampled).collect();
     let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
     let sphere = |bubble: &BubbleKey| {
         let (center_m, radius_m, stretch) = (bubble.center_m, bubble.radius_m, bubble.stretch);
         film_thickness(bubble, key.on_bath, films).map(|thickness_nm| FilmSphere {
-            optics: &optics,
+            optics: &optics[bubble.material],
             center_m,
             radius_m,
             stretch,
@@ -89,7 +112,7 @@ fn radiance_in(
     let scene = PictureScene {
         size: key.size,
         camera: camera(&key.camera),
-        light: optics.weights(),
+        light: optics[0].weights(),
         spheres: key.bubbles.iter().map(sphere).collect::<Result<_, _>>()?,
         surroundings: &surroundings,
         backdrop: match light.backdrop {
@@ -101,7 +124,7 @@ fn radiance_in(
         negligible: if key.bubbles.len() > 1 { NEGLIGIBLE_OF_MANY } else { NEGLIGIBLE_OF_ONE },
         samples: key.bubbles.iter().map(|bubble| bubble.samples).fold(SAMPLES, u32::max),
     };
-    Ok(scene.radiance(progress))
+    Ok(seen(&scene))
 }
 
 /// Samples along each side of a pixel: the environment is looked up in its finest level only, so a pixel must average by itself.

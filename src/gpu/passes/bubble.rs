@@ -58,6 +58,10 @@ shader_struct! {
         pub among: u32,
         /// How many with those that it mirrors only.
         pub mirrored: u32,
+        /// Samples along each side of a pixel.
+        pub samples: u32,
+        /// Fills 16 bytes.
+        pub padding: [u32; 3],
     }
 }
 
@@ -102,8 +106,8 @@ overrides! {
         override UNIFORM_FILM: bool;
         /// Whether the film is looked up through its flow map.
         override MAGNIFIED: bool;
-        /// Samples along each side of a pixel.
-        override SAMPLES: u32 in [1, 4];
+        /// Whether there are more samples than one in a pixel.
+        override SUPERSAMPLED: bool;
         /// Whether the bubble's outline crosses the ring.
         override OUTLINE: bool;
         /// Whether the film is finer than pixels, and what it reflects is filtered.

@@ -33,11 +33,20 @@ impl FilmOptics {
     /// these.
     pub fn resolving(film: impl Into<FilmMaterial>, illuminant: &Illuminant, thickest_nm: f64) -> Self {
         let film = film.into();
-        let samples_per_nm = (thickest_nm * film.fringes_over_water() / ONE_NM_RESOLVES_NM).ceil() as usize;
-        if samples_per_nm > 1 {
-            Self::new(film, &illuminant.as_lines(samples_per_nm))
-        } else {
-            Self::new(film, illuminant)
+        let samples_per_nm = Self::samples_per_nm(&film, thickest_nm);
+        Self::sampled(film, illuminant, samples_per_nm)
+    }
+
+    /// Samples per nanometre that [`FilmOptics::resolving`] takes.
+    pub fn samples_per_nm(film: &FilmMaterial, thickest_nm: f64) -> usize {
+        ((thickest_nm * film.fringes_over_water() / ONE_NM_RESOLVES_NM).ceil() as usize).max(1)
+    }
+
+    /// As [`FilmOptics::new`], with that many samples per nanometre.
+    pub fn sampled(film: impl Into<FilmMaterial>, illuminant: &Illuminant, samples_per_nm: usize) -> Self {
+        match samples_per_nm {
+            1 => Self::new(film, illuminant),
+            _ => Self::new(film, &illuminant.as_lines(samples_per_nm)),
         }
     }
 

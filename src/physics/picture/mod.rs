@@ -100,6 +100,13 @@ impl PictureScene<'_> {
         rows.concat()
     }
 
+    /// Radiance of some pixels, each a column and a row, as of [`Self::radiance`].
+    #[must_use]
+    pub fn radiance_of(&self, pixels: &[[u32; 2]]) -> Vec<DVec3> {
+        let paths = LightPath::new(self);
+        pixels.par_iter().map(|pixel| self.pixel(&paths, *pixel)).collect()
+    }
+
     fn pixel(&self, paths: &LightPath, corner: [u32; 2]) -> DVec3 {
         let corner = DVec2::new(f64::from(corner[0]), f64::from(corner[1]));
         let side = self.samples_at(corner + 0.5);

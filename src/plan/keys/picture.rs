@@ -139,7 +139,7 @@ pub struct Lighting {
     pub light: LightKey,
     /// Where it comes from.
     pub environment: EnvironmentKey,
-    /// The colours of films of each material in it.
+    /// The colours of films of each material in it, at least of one.
     pub films: Vec<FilmColours>,
 }
 

@@ -1,0 +1,167 @@
+//! Bubbles in front of, inside and through one another: pixels of random scenes against the f64 picture, which follows every ray to its end.
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use glam::{DVec2, DVec3};
+
+use super::{
+    Extent, Run,
+    picture::{colour_differences, frame_request, radiance, soft_lamps},
+    random::Random,
+    reference,
+};
+use crate::{
+    gpu::{GpuError, Renderer},
+    physics::colour::Illuminant,
+    plan::{DrawKey, Resources},
+    scene::{Backdrop, Bubble, Camera, Film, FilmIndexName, FilmStateName, Flow, Light, Motion, Quality, Scene, View},
+};
+
+/// Pixels of each picture: most bubbles have radii of 50 and more.
+const SIZE: [u32; 2] = [960, 540];
+/// Limits on the mean and the 99th percentile of CIEDE2000 over covered pixels.
+const LIMITS: [(Quality, [f64; 2]); 3] =
+    [(Quality::Fast, [1.2, f64::INFINITY]), (Quality::Standard, [0.5, 2.0]), (Quality::Spectral, [0.15, 1.0])];
+
+/// Random scenes of one kind.
+struct Kind {
+    name: &'static str,
+    /// Bubbles of each scene.
+    counts: &'static [usize],
+    /// Whether bubbles may intersect, and lie in one another.
+    intersect: bool,
+    /// Whether light is coloured.
+    coloured: bool,
+    /// Whether films are of several liquids.
+    mixed: bool,
+    /// Distance of the eye from the middle, m.
+    distance_m: f64,
+}
+
+impl Kind {
+    const APART: Self =
+        Self { name: "apart", counts: &[2, 8, 40], intersect: false, coloured: false, mixed: false, distance_m: 0.6 };
+
+    const ALL: [Self; 5] = [
+        Self::APART,
+        Self { name: "apart, coloured light", coloured: true, ..Self::APART },
+        Self { name: "apart, two liquids", counts: &[8, 24], mixed: true, ..Self::APART },
+        Self { name: "intersecting", counts: &[2, 6, 20], intersect: true, ..Self::APART },
+        Self { name: "seen from inside", counts: &[4, 12], intersect: true, distance_m: 0.0, ..Self::APART },
+    ];
+}
+
+pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
+    let mut renderer = Renderer::new(pollster::block_on(run.gpu.another())?);
+    furnace(run, &mut renderer)?;
+    let pixels = if run.extent == Extent::Short { 60 } else { 400 };
+    Kind::ALL.iter().try_for_each(|kind| measure(run, &mut renderer, kind, pixels))
+}
+
+/// In even light nothing is seen of forty bubbles.
+fn furnace(run: &mut Run<'_>, renderer: &mut Renderer) -> Result<(), GpuError> {
+    for intersect in [false, true] {
+        let kind = Kind { intersect, ..Kind::APART };
+        let (mut scene, resources) = random_scene(&kind, 40, 0)?;
+        scene.light.constant = Some([1.0; 3]);
+        let lit = Resources {
+            environment: Arc::new(crate::physics::environment::CubeMap::constant(DVec3::ONE)),
+            ..resources
+        };
+        scene.view.backdrop = Backdrop::Environment;
+        let mut worst = 0.0_f64;
+        for (quality, _) in LIMITS {
+            scene.view.quality = quality;
+            let pixels = radiance(renderer, &frame_request(&scene, &lit, SIZE)?)?;
+            worst = pixels.iter().map(|rgb| (*rgb - 1.0).abs().max_element()).fold(worst, f64::max);
+        }
+        let how = if intersect { "intersecting" } else { "apart" };
+        run.at_most(format!("40 bubbles in even white light, {how}: what is seen of them"), worst, 1e-3);
+    }
+    Ok(())
+}
+
+/// Errors over some covered pixels of scenes of a kind, at each quality.
+fn measure(run: &mut Run<'_>, renderer: &mut Renderer, kind: &Kind, pixels: usize) -> Result<(), GpuError> {
+    let mut errors: [Vec<f64>; LIMITS.len()] = Default::default();
+    let counts = if run.extent == Extent::Short { &kind.counts[1..2] } else { kind.counts };
+    for (seed, &count) in counts.iter().enumerate() {
+        let (mut scene, resources) = random_scene(kind, count, seed)?;
+        let key = frame_request(&scene, &resources, SIZE)?.picture.draw;
+        let places = covered(&key, pixels, seed);
+        let truth = reference::radiance_of(&key, &BTreeMap::new(), &places);
+        let truth = truth.map_err(|error| GpuError::Refused(error.to_string()))?;
+        for ((quality, _), errors) in LIMITS.iter().zip(&mut errors) {
+            scene.view.quality = *quality;
+            let picture = radiance(renderer, &frame_request(&scene, &resources, SIZE)?)?;
+            let seen: Vec<DVec3> = places.iter().map(|[x, y]| picture[(y * SIZE[0] + x) as usize]).collect();
+            errors.extend(colour_differences(&truth, &seen));
+        }
+    }
+    for ((quality, [mean, rare]), mut errors) in LIMITS.into_iter().zip(errors) {
+        errors.sort_by(f64::total_cmp);
+        let name = format!("{}, {}: dE2000", kind.name, quality.name());
+        run.at_most(format!("{name} mean"), errors.iter().sum::<f64>() / errors.len() as f64, mean);
+        run.at_most(format!("{name} 99th percentile"), errors[(errors.len() - 1) * 99 / 100], rare);
+    }
+    Ok(())
+}
+
+/// Random pixels whose middle shows a bubble.
+fn covered(key: &DrawKey, count: usize, seed: usize) -> Vec<[u32; 2]> {
+    let mut random = Random::new(1000 + seed as u64);
+    let camera = reference::camera(&key.camera);
+    let shows = |[x, y]: [u32; 2]| {
+        let ray = camera.ray(SIZE, DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5));
+        key.bubbles.iter().any(|bubble| {
+            let offset = bubble.center_m - key.camera.eye_m;
+            let aside = offset.reject_from_normalized(ray).length();
+            aside < bubble.radius_m && (offset.dot(ray) > 0.0 || offset.length() < bubble.radius_m)
+        })
+    };
+    let places = std::iter::repeat_with(|| SIZE.map(|size| (random.next() * f64::from(size)) as u32));
+    places.take(1_000_000).filter(|place| shows(*place)).take(count).collect()
+}
+
+/// Bubbles of random films at random places, in soft light.
+fn random_scene(kind: &Kind, count: usize, seed: usize) -> Result<(Scene, Resources), GpuError> {
+    let mut random = Random::new(seed as u64);
+    let grey = |[r, _, _]: [f64; 3]| DVec3::splat(0.2 + r);
+    let saturated = |rgb: [f64; 3]| DVec3::from(rgb).powf(3.0);
+    let environment = soft_lamps(&mut random, |rgb| if kind.coloured { saturated(rgb) } else { grey(rgb) });
+    let mut bubbles: Vec<Bubble> = Vec::new();
+    while bubbles.len() < count {
+        let bubble = random_bubble(kind, &mut random);
+        let clear_m = |other: &Bubble| {
+            DVec3::from(other.center_m).distance(bubble.center_m.into()) - 1e-3 * (other.radius_mm + bubble.radius_mm)
+        };
+        if kind.intersect || bubbles.iter().all(|other| clear_m(other) > 0.0) {
+            bubbles.push(bubble);
+        }
+    }
+    let scene = Scene {
+        bubbles,
+        camera: Camera { distance_m: kind.distance_m, azimuth_deg: 0.0, elevation_deg: 0.0, ..Camera::default() },
+        light: Light::default(),
+        view: View { backdrop: Backdrop::Radiance([0.05; 3]), ..View::default() },
+        motion: Motion { flow: Flow::Rest, ..Motion::default() },
+        ..Scene::default()
+    };
+    let resources = Resources {
+        environment,
+        illuminant: Arc::new(Illuminant::default()),
+        spectral_lights: Vec::new(),
+        liquids: BTreeMap::new(),
+    };
+    Ok((scene, resources))
+}
+
+fn random_bubble(kind: &Kind, random: &mut Random) -> Bubble {
+    let mut within = |half: f64| half * (2.0 * random.next() - 1.0);
+    let center_m = [within(0.2), within(0.16), within(0.09)];
+    let thickness_nm = 400.0 + within(300.0);
+    let state = if within(1.0) > 0.0 { FilmStateName::Rest } else { FilmStateName::Uniform };
+    let index = if kind.mixed && within(1.0) > 0.0 { FilmIndexName::Constant(1.45) } else { FilmIndexName::Water };
+    let film = Film { state, thickness_nm, cells: 32, stratification: within(0.8), index, ..Film::default() };
+    Bubble { center_m, radius_mm: 37.0 + within(13.0), film, ..Bubble::default() }
+}
