@@ -220,9 +220,6 @@ fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
 // mirrors of them.
 fn mirrored_light(point: vec3f, direction: vec3f, footprint: f32) -> vec3f {
     var seen = surroundings(direction, footprint);
-    if (MIRRORS_OTHERS == 0u) {
-        return seen;
-    }
     let origin_m = bubble.to_center_m + bubble.radius_m * from_round(point);
     var nearest = 0u;
     var chord = Chord(FAR_M, FAR_M, 0.0);
@@ -238,11 +235,12 @@ fn mirrored_light(point: vec3f, direction: vec3f, footprint: f32) -> vec3f {
         return seen;
     }
     let other = others[nearest];
-    let back = place_on(other, origin_m + chord.far_m * direction);
-    seen += reflected_light(other, back, chord.cos_theta, surroundings(reflect(direction, back), footprint) - seen);
-    if (chord.near_m > 0.0) {
-        let front = place_on(other, origin_m + chord.near_m * direction);
-        seen += reflected_light(other, front, chord.cos_theta, surroundings(reflect(direction, front), footprint) - seen);
+    // The far wall, then the near one, unless the ray starts inside.
+    for (var wall = 0u; wall < 2u; wall++) {
+        let distance_m = select(chord.far_m, chord.near_m, wall == 1u);
+        let place = place_on(other, origin_m + distance_m * direction);
+        let step = surroundings(reflect(direction, place), footprint) - seen;
+        seen += select(vec3f(0.0), reflected_light(other, place, chord.cos_theta, step), distance_m > 0.0);
     }
     return seen;
 }
@@ -272,10 +270,12 @@ fn passed_others(path: Path) -> Passed {
     var next = next_chord(path.direction, middle_m + half_m, 0u);
     while (next.k < bubble.among) {
         let other = others[next.number];
-        let near = wall_left(other, next.chord, next.chord.near_m, path.direction);
-        let far = wall_left(other, next.chord, next.chord.far_m, path.direction);
-        passed.front *= left_on_way(near, next.chord.near_m, middle_m - half_m) * left_on_way(far, next.chord.far_m, middle_m - half_m);
-        passed.back *= left_on_way(near, next.chord.near_m, middle_m + half_m) * left_on_way(far, next.chord.far_m, middle_m + half_m);
+        for (var wall = 0u; wall < 2u; wall++) {
+            let distance_m = select(next.chord.near_m, next.chord.far_m, wall == 1u);
+            let left = wall_left(other, next.chord, distance_m, path.direction);
+            passed.front *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle_m - half_m);
+            passed.back *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle_m + half_m);
+        }
         next = next_chord(path.direction, middle_m + half_m, next.k + 1u);
     }
     return passed;
@@ -304,11 +304,6 @@ fn next_chord(direction: vec3f, end_m: f32, first: u32) -> NextChord {
 fn wall_left(other: OtherBubble, chord: Chord, distance_m: f32, direction: vec3f) -> vec3f {
     let place = place_on(other, distance_m * direction);
     return max(1.0 - reflected_light(other, place, chord.cos_theta, vec3f(1.0)), vec3f(0.0));
-}
-
-// What it leaves where it lies before some distance.
-fn left_on_way(left: vec3f, distance_m: f32, end_m: f32) -> vec3f {
-    return select(vec3f(1.0), left, distance_m > 0.0 && distance_m < end_m);
 }
 
 fn dimmed(steps: mat4x3f, first: vec3f, later: vec3f) -> mat4x3f {
@@ -356,13 +351,6 @@ struct Followed {
 fn followed(path: Path, before: Followed) -> Followed {
     var after = reflected_inside(path, before);
     after.light *= surroundings(after.hop.direction, footprint(path, after.hop.direction, -2.0 * after.reflections));
-    return after;
-}
-
-// The same after the first reflection inside, where other bubbles are seen too.
-fn followed_first(path: Path, before: Followed) -> Followed {
-    var after = reflected_inside(path, before);
-    after.light *= mirrored_light(before.hop.point, after.hop.direction, footprint(path, after.hop.direction, -2.0));
     return after;
 }
 
@@ -435,7 +423,11 @@ fn four_hits(path: Path, at: Followed) -> FourHits {
 // The first four hits: the front wall, which there is none of from inside the bubble, and three inside, or one.
 fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
     let behind = at.light;
-    var last = followed_first(path, at);
+    let front = path.foot - path.half_chord * path.round;
+    let outward = mirrored(path, front);
+    var last = reflected_inside(path, at);
+    let seen = outer_and_first(path, MirroredRays(front, outward, at.hop.point, last.hop.direction), is_inside);
+    last.light *= seen[1];
     var walls_nm = vec4f(0.0, optical_nm(at.hop.point), 0.0, 0.0);
     var steps = mat4x3f(vec3f(0.0), last.light - behind, vec3f(0.0), vec3f(0.0));
     if (INNER > 1u) {
@@ -448,13 +440,36 @@ fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
         steps[3] = last.light - b.light;
     }
     if (!is_inside) {
-        let front = path.foot - path.half_chord * path.round;
-        let direction = mirrored(path, front);
         walls_nm.x = optical_nm(front);
-        let left = left_before(path) * crossing(front.z, direction.z, direction);
-        steps[0] = left * mirrored_light(front, direction, footprint(path, direction, 2.0)) - behind;
+        let left = left_before(path) * crossing(front.z, outward.z, outward);
+        steps[0] = left * seen[0] - behind;
     }
     return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), last);
+}
+
+// The outer reflection and the first inner one: where they are, and where light goes from there.
+struct MirroredRays {
+    front: vec3f,
+    outward: vec3f,
+    back: vec3f,
+    inward: vec3f,
+}
+
+// Light from both, with other bubbles in it.
+fn outer_and_first(path: Path, rays: MirroredRays, is_inside: bool) -> array<vec3f, 2> {
+    let outer = footprint(path, rays.outward, 2.0);
+    let first = footprint(path, rays.inward, -2.0);
+    if (MIRRORS_OTHERS == 0u) {
+        return array(surroundings(rays.outward, outer), surroundings(rays.inward, first));
+    }
+    var seen = array(vec3f(0.0), vec3f(0.0));
+    // In a loop, so that its code stands once.
+    for (var k = select(0u, 1u, is_inside); k < 2u; k++) {
+        let is_first = k == 1u;
+        let point = select(rays.front, rays.back, is_first);
+        seen[k] = mirrored_light(point, select(rays.outward, rays.inward, is_first), select(outer, first, is_first));
+    }
+    return seen;
 }
 
 // What is seen along a ray: see optics/walls.wgsl.

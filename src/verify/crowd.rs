@@ -17,8 +17,8 @@ use crate::{
     scene::{Backdrop, Bubble, Camera, Film, FilmIndexName, FilmStateName, Flow, Light, Motion, Quality, Scene, View},
 };
 
-/// Pixels of each picture: most bubbles have radii of 50 and more.
-const SIZE: [u32; 2] = [960, 540];
+/// Pixels of each picture: bubbles have radii of 64 and more, so that one sample is enough but near outlines.
+const SIZE: [u32; 2] = [1280, 720];
 /// Limits on the mean and the 99th percentile of CIEDE2000 over covered pixels.
 const LIMITS: [(Quality, [f64; 2]); 3] =
     [(Quality::Fast, [1.2, f64::INFINITY]), (Quality::Standard, [0.5, 2.0]), (Quality::Spectral, [0.15, 1.0])];
@@ -158,10 +158,10 @@ fn random_scene(kind: &Kind, count: usize, seed: usize) -> Result<(Scene, Resour
 
 fn random_bubble(kind: &Kind, random: &mut Random) -> Bubble {
     let mut within = |half: f64| half * (2.0 * random.next() - 1.0);
-    let center_m = [within(0.2), within(0.16), within(0.09)];
+    let center_m = [within(0.2), within(0.16), within(0.12)];
     let thickness_nm = 400.0 + within(300.0);
     let state = if within(1.0) > 0.0 { FilmStateName::Rest } else { FilmStateName::Uniform };
     let index = if kind.mixed && within(1.0) > 0.0 { FilmIndexName::Constant(1.45) } else { FilmIndexName::Water };
-    let film = Film { state, thickness_nm, cells: 32, stratification: within(0.8), index, ..Film::default() };
-    Bubble { center_m, radius_mm: 37.0 + within(13.0), film, ..Bubble::default() }
+    let film = Film { state, thickness_nm, cells: 64, stratification: within(0.8), index, ..Film::default() };
+    Bubble { center_m, radius_mm: 42.0 + within(8.0), film, ..Bubble::default() }
 }
