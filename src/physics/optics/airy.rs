@@ -5,6 +5,8 @@
 
 use std::f64::consts::PI;
 
+use super::Coherence;
+
 /// A quantity for the two linear polarisations: `s` with its electric field across the plane of incidence, `p` with it inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Polarised {
@@ -40,7 +42,7 @@ impl Polarised {
 /// A ray inside a sphere meets the film at the same angle every time, so its walls share one `Incidence`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Incidence {
-    /// Fresnel reflectance r² of one face.
+    /// Fresnel's amplitude coefficients of the outer face.
     face: Polarised,
     /// n cos θ_t.
     n_cos_refracted: f64,
@@ -49,8 +51,7 @@ pub struct Incidence {
 impl Incidence {
     /// The light that meets a film of index `n` at `cos_theta`.
     pub fn new(n: f64, cos_theta: f64) -> Self {
-        let face = amplitudes(n, cos_theta).map(|r| r * r);
-        Self { face, n_cos_refracted: n_cos_refracted(n, cos_theta) }
+        Self { face: amplitudes(n, cos_theta), n_cos_refracted: n_cos_refracted(n, cos_theta) }
     }
 
     /// Reflectance of a film of this thickness, for each polarisation; the film absorbs nothing, so 1 − R goes through.
@@ -60,7 +61,13 @@ impl Incidence {
     /// Right at grazing, `cos_theta` = 0, it is 1 for every thickness but 0: the limit, save at the single wavelengths with sin(δ/2) = 0.
     pub fn reflectance(&self, thickness_nm: f64, wavelength_nm: f64) -> Polarised {
         let sin2 = sin2_half_turns(self.order(thickness_nm, wavelength_nm));
-        self.face.map(|r2| airy(r2, sin2, thickness_nm))
+        self.face.map(|r| airy(r * r, sin2, thickness_nm))
+    }
+
+    /// What a film of this thickness makes of the coherence of s and p light.
+    pub fn coherence(&self, thickness_nm: f64, wavelength_nm: f64) -> Coherence {
+        let half_phase = half_turns(self.order(thickness_nm, wavelength_nm));
+        Coherence::of_plain(self.face, half_phase, thickness_nm)
     }
 
     /// Order of interference: the path in the film, there and back, in wavelengths, δ / 2π.
@@ -75,7 +82,8 @@ impl Incidence {
     /// the sum is closed: with q = coherence · r², T = (1 − r²) / (1 + r²) · (1 − q²) / (1 + q² − 2q cos δ).
     pub fn damped_reflectance(&self, thickness_nm: f64, wavelength_nm: f64, coherence: f64) -> Polarised {
         let sin2 = sin2_half_turns(self.order(thickness_nm, wavelength_nm));
-        self.face.map(|r2| {
+        self.face.map(|r| {
+            let r2 = r * r;
             let q = coherence * r2;
             let fringes = 4.0 * q * sin2;
             let reflected = 2.0 * r2 * (1.0 - coherence) * (1.0 - q) + (1.0 + r2) * fringes;
@@ -99,19 +107,34 @@ const SINE: [f64; 12] = {
 
 /// sin²(πx), for |x| below 2⁵¹. The sine of the standard library took a third of the time of a spectrum.
 fn sin2_half_turns(x: f64) -> f64 {
+    let sine = sine(to_nearest_integer(x));
+    sine * sine
+}
+
+/// Sine and cosine of πx, for |x| below 2⁵¹, but for the sign that both have in common.
+fn half_turns(x: f64) -> [f64; 2] {
+    let x = to_nearest_integer(x);
+    [sine(x), sine(0.5 - x.abs())]
+}
+
+/// x less the nearest integer: from −½ to ½.
+fn to_nearest_integer(x: f64) -> f64 {
     // A sum as large as this has no digits behind the point: adding it rounds.
     const ROUNDER: f64 = 6_755_399_441_055_744.0; // 1.5 · 2⁵²
-    let x = x - ((x + ROUNDER) - ROUNDER);
+    x - ((x + ROUNDER) - ROUNDER)
+}
+
+/// sin(πx) for |x| ≤ ½.
+fn sine(x: f64) -> f64 {
     let x2 = x * x;
-    let sine = x * SINE.iter().rev().fold(0.0, |sum, coefficient| sum * x2 + coefficient);
-    sine * sine
+    x * SINE.iter().rev().fold(0.0, |sum, coefficient| sum * x2 + coefficient)
 }
 
 /// Light of several wavelengths that meets a film at one angle: an [`Incidence`] for each, laid out for loops that compilers turn into
 /// vector instructions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectralIncidence {
-    /// Fresnel reflectance r² of one face.
+    /// Fresnel's amplitude coefficients of the outer face.
     faces: Vec<Polarised>,
     /// Order of interference of a film of 1 nm.
     orders_per_nm: Vec<f64>,
@@ -132,7 +155,16 @@ impl SpectralIncidence {
     #[must_use]
     pub fn reflectances(&self, thickness_nm: f64) -> Vec<Polarised> {
         let sin2: Vec<f64> = self.orders_per_nm.iter().map(|order| sin2_half_turns(order * thickness_nm)).collect();
-        self.faces.iter().zip(sin2).map(|(face, sin2)| face.map(|r2| airy(r2, sin2, thickness_nm))).collect()
+        self.faces.iter().zip(sin2).map(|(face, sin2)| face.map(|r| airy(r * r, sin2, thickness_nm))).collect()
+    }
+
+    /// As [`Incidence::coherence`], at each wavelength.
+    #[must_use]
+    pub fn coherences(&self, thickness_nm: f64) -> Vec<Coherence> {
+        let half_phases: Vec<[f64; 2]> =
+            self.orders_per_nm.iter().map(|order| half_turns(order * thickness_nm)).collect();
+        let waves = self.faces.iter().zip(half_phases);
+        waves.map(|(face, half_phase)| Coherence::of_plain(*face, half_phase, thickness_nm)).collect()
     }
 }
 
@@ -211,6 +243,8 @@ mod tests {
             // π x itself is rounded, by up to half an ulp of 50 π.
             assert!((sin2_half_turns(x) - expected).abs() < 3e-14, "{x}");
             assert!((0.0..=1.0).contains(&sin2_half_turns(x)), "{x}");
+            let [sine, cosine] = half_turns(x);
+            assert!((2.0 * sine * cosine - (2.0 * PI * x).sin()).abs() < 6e-14, "{x}");
         }
         assert_eq!([0.0, 1.0, -7.0, 0.5, 1e9 + 0.5].map(sin2_half_turns), [0.0, 0.0, 0.0, 1.0, 1.0]);
         assert!(sin2_half_turns(f64::NAN).is_nan());
@@ -239,7 +273,7 @@ mod tests {
             let plain = incidence.reflectance(thickness_nm, nm);
             assert!((whole.s - plain.s).abs() < 1e-12 && (whole.p - plain.p).abs() < 1e-12, "{n} {cos_theta}");
             let none = incidence.damped_reflectance(thickness_nm, nm, 0.0);
-            let limit = incidence.face.map(|r2| 2.0 * r2 / (1.0 + r2));
+            let limit = incidence.face.map(|r| 2.0 * r * r / (1.0 + r * r));
             assert!((none.s - limit.s).abs() < 1e-12 && (none.p - limit.p).abs() < 1e-12, "{n} {cos_theta}");
         });
         // By quadrature: phases δ + γ tan(π (u − ½)), u uniform, with γ = −ln coherence.

@@ -1,8 +1,8 @@
 //! What a film is made of: its liquid, and the skins of soap on both faces.
 
 use super::{
-    FilmIndex, Incidence, Polarised, REFERENCE_NM, SpectralIncidence, coated_reflectance, equivalent_extra_nm,
-    max_reflectance,
+    Coherence, FilmIndex, Incidence, Polarised, REFERENCE_NM, SpectralIncidence, coated_coherence, coated_reflectance,
+    equivalent_extra_nm, max_reflectance,
 };
 
 /// Index of water at the sodium line, at any temperature at most.
@@ -93,6 +93,16 @@ impl Wall {
             }
         }
     }
+
+    /// What a film of that total thickness makes of the coherence of s and p light.
+    pub fn coherence(&self, thickness_nm: f64) -> Coherence {
+        match self.skin {
+            None => self.incidence.coherence(thickness_nm, self.wavelength_nm),
+            Some(Skin { n, cos_theta, skin_nm }) => {
+                coated_coherence(n, skin_nm, cos_theta, thickness_nm, self.wavelength_nm)
+            }
+        }
+    }
 }
 
 /// Light of several wavelengths at one angle, for films of any thickness.
@@ -111,6 +121,15 @@ impl SpectralWall {
         match self {
             Self::Plain(incidence) => incidence.reflectances(thickness_nm),
             Self::Coated(walls) => walls.iter().map(|wall| wall.reflectance(thickness_nm)).collect(),
+        }
+    }
+
+    /// What a film of that total thickness makes of the coherence of s and p light at each wavelength.
+    #[must_use]
+    pub fn coherences(&self, thickness_nm: f64) -> Vec<Coherence> {
+        match self {
+            Self::Plain(incidence) => incidence.coherences(thickness_nm),
+            Self::Coated(walls) => walls.iter().map(|wall| wall.coherence(thickness_nm)).collect(),
         }
     }
 }

@@ -36,12 +36,14 @@
 //! d, as the GPU does, brings that to 1.1 (0.7 for cosθ ≥ 0.26), 0.08 in the mean. Refraction shifts a ray by less than the film's thickness, below 1 µm, so rays are straight.
 
 mod airy;
+mod coherence;
 mod index;
 mod liquids;
 mod material;
 mod skins;
 
 pub use airy::{Incidence, Polarised, SpectralIncidence, amplitudes, cos_refracted, max_reflectance, reflectance};
+pub use coherence::Coherence;
 pub use index::{FilmIndex, FilmIndexError, REFERENCE_NM};
 pub use material::{FilmMaterial, SpectralWall, WATER_INDEX, Wall};
-pub use skins::{SKIN_INDEX, coated_reflectance, equivalent_extra_nm};
+pub use skins::{SKIN_INDEX, coated_coherence, coated_reflectance, equivalent_extra_nm};

@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::Polarised;
+use glam::DVec2;
+
+use super::{Coherence, Polarised};
 
 /// Refractive index of a layer of soap molecules.
 pub const SKIN_INDEX: f64 = 1.45;
@@ -13,15 +15,37 @@ const BEST: f64 = 0.98;
 /// Reflectance of air | skin | liquid | skin | air, exact: the product of the layers' characteristic matrices (Macleod, *Thin-Film Optical
 /// Filters*, ch. 2). `thickness_nm` is total; a film thinner than both skins is skin alone.
 pub fn coated_reflectance(n: f64, skin_nm: f64, cos_theta: f64, thickness_nm: f64, wavelength_nm: f64) -> Polarised {
+    if cos_theta > 0.0 {
+        let [s, p] = coated(n, skin_nm, cos_theta, thickness_nm, wavelength_nm);
+        Polarised { s: s.reflectance(), p: p.reflectance() }
+    } else {
+        Polarised { s: grazing(thickness_nm), p: grazing(thickness_nm) }
+    }
+}
+
+/// What the same film makes of the coherence of s and p light.
+pub fn coated_coherence(n: f64, skin_nm: f64, cos_theta: f64, thickness_nm: f64, wavelength_nm: f64) -> Coherence {
+    if cos_theta <= 0.0 {
+        return Coherence::at_grazing(grazing(thickness_nm));
+    }
+    let [s, p] = coated(n, skin_nm, cos_theta, thickness_nm, wavelength_nm);
+    let ([r_s, t_s], [r_p, t_p]) = (s.amplitudes(), p.amplitudes());
+    // The matrices are for fields along the face, and p light's changes its sign against the ray's when it is reflected.
+    Coherence { passed: t_s.rotate(conjugate(t_p)), reflected: -r_s.rotate(conjugate(r_p)) }
+}
+
+/// Skin, liquid and skin, for s and for p light.
+fn coated(n: f64, skin_nm: f64, cos_theta: f64, thickness_nm: f64, wavelength_nm: f64) -> [Layer; 2] {
     let thickness_nm = thickness_nm.abs();
     let skin_nm = skin_nm.min(0.5 * thickness_nm);
     let [core, skin] = [n, SKIN_INDEX].map(|n| n_cos(n, cos_theta));
     let phase = |n_cos: f64, nm: f64| TAU * n_cos * nm / wavelength_nm;
     let phases = [phase(skin, skin_nm), phase(core, thickness_nm - 2.0 * skin_nm)];
     // Admittances relative to air's.
-    let s = reflectance([skin / cos_theta, core / cos_theta], phases);
-    let p = reflectance([SKIN_INDEX.powi(2) * cos_theta / skin, n * n * cos_theta / core], phases);
-    if cos_theta > 0.0 { Polarised { s, p } } else { Polarised { s: grazing(thickness_nm), p: grazing(thickness_nm) } }
+    [
+        Layer::coated([skin / cos_theta, core / cos_theta], phases),
+        Layer::coated([SKIN_INDEX.powi(2) * cos_theta / skin, n * n * cos_theta / core], phases),
+    ]
 }
 
 /// Right at grazing everything that is there reflects everything.
@@ -34,14 +58,7 @@ fn n_cos(n: f64, cos_theta: f64) -> f64 {
     (n * n - 1.0 + cos_theta * cos_theta).sqrt()
 }
 
-/// |r|² of skin, core, skin in air. Without absorption a matrix is [[a, i b], [i c, d]] with real a, b, c, d.
-fn reflectance([skin, core]: [f64; 2], [skin_phase, core_phase]: [f64; 2]) -> f64 {
-    let outer = Layer::new(skin, skin_phase);
-    let Layer { a, b, c, d } = outer.then(&Layer::new(core, core_phase)).then(&outer);
-    let reflected = (a - d).powi(2) + (b - c).powi(2);
-    reflected / ((a + d).powi(2) + (b + c).powi(2))
-}
-
+/// The characteristic matrix of a layer, or of several: without absorption [[a, i b], [i c, d]] with real a, b, c, d.
 struct Layer {
     a: f64,
     b: f64,
@@ -55,6 +72,12 @@ impl Layer {
         Self { a: cos, b: sin / admittance, c: sin * admittance, d: cos }
     }
 
+    /// Skin, core, skin.
+    fn coated([skin, core]: [f64; 2], [skin_phase, core_phase]: [f64; 2]) -> Self {
+        let outer = Self::new(skin, skin_phase);
+        outer.then(&Self::new(core, core_phase)).then(&outer)
+    }
+
     fn then(&self, next: &Self) -> Self {
         Self {
             a: self.a * next.a - self.b * next.c,
@@ -63,6 +86,28 @@ impl Layer {
             d: self.d * next.d - self.c * next.b,
         }
     }
+
+    /// |r|² in air.
+    fn reflectance(&self) -> f64 {
+        let Self { a, b, c, d } = *self;
+        let reflected = (a - d).powi(2) + (b - c).powi(2);
+        reflected / ((a + d).powi(2) + (b + c).powi(2))
+    }
+
+    /// Complex r and t in air, of the field along the face: the conjugates of (a − d + i (b − c)) / (a + d + i (b + c)) and of
+    /// 2 / (a + d + i (b + c)), for the matrix is for fields as e^i(ωt − kz) and a [`Coherence`] for such as e^i(kz − ωt).
+    fn amplitudes(&self) -> [DVec2; 2] {
+        let Self { a, b, c, d } = *self;
+        let incoming = DVec2::new(a + d, b + c);
+        // Of the conjugate.
+        let inverse = incoming / incoming.length_squared();
+        [DVec2::new(a - d, c - b).rotate(inverse), 2.0 * inverse]
+    }
+}
+
+/// Of a complex number, as [`DVec2::rotate`] multiplies them.
+fn conjugate(number: DVec2) -> DVec2 {
+    number.with_y(-number.y)
 }
 
 /// What two skins add to the thickness of a plain film of the same liquid that looks nearly like the coated one, nm.
