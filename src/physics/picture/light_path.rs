@@ -8,6 +8,7 @@ use super::{
     PictureScene,
     bath::{mirrored_part, past_meniscus},
     walls::{Line, Surface, Wall},
+    weights::Weights,
 };
 use crate::physics::{
     colour::{daylight_scale, responses},
@@ -20,8 +21,8 @@ const MAX_REFLECTIONS: u32 = 64;
 const NO_PLANE: f64 = 1e-6;
 /// How far the cosines of two hits of one bubble may be apart by rounding where they are the same.
 const SAME_COS: f64 = 1e-12;
-/// Part of a polarisation that may be left in the other's plane by rounding.
-const SAME_PLANE: f64 = 1e-15;
+/// Sine of the angle that two planes of incidence may be apart by rounding where they are the same.
+const SAME_PLANE: f64 = 3e-8;
 
 /// A scene, ready to have rays followed through it.
 pub(super) struct LightPath<'a> {
@@ -31,6 +32,8 @@ pub(super) struct LightPath<'a> {
     responses: Vec<DMat3>,
     /// Their sum: what is seen of light that met no film.
     seen: DMat3,
+    /// Whether a ray meets all walls in one plane of incidence, as those of one round bubble, with its mirror image in a bath.
+    one_plane: bool,
     /// Height of the bath over the eye, in metres.
     bath_m: Option<f64>,
 }
@@ -38,9 +41,9 @@ pub(super) struct LightPath<'a> {
 /// A ray between two reflections, and what is seen of light that arrives along it.
 struct Branch {
     line: Line,
-    /// For each wavelength, the part that is seen of light which is all s, and of light which is all p.
-    weights: Vec<Polarised>,
-    /// Unit vector across the plane of incidence that s and p refer to: the electric field of s light.
+    weights: Weights,
+    /// Unit vector across the plane of incidence that s and p refer to: the electric field of s light. That of p light is the line's direction
+    /// × this.
     across: DVec3,
     /// Walls that have reflected it.
     reflections: u32,
@@ -66,7 +69,8 @@ impl<'a> LightPath<'a> {
         let surfaces: Vec<Surface> = scene.spheres.iter().map(|sphere| Surface::new(sphere, eye_m)).collect();
         // Where nothing stands on it, any height below the eye does.
         let level_m = || scene.spheres.first().map_or(-1.0, |sphere| sphere.center_m.z - eye_m.z);
-        Self { scene, surfaces, responses, seen, bath_m: scene.on_bath.then(level_m) }
+        let one_plane = matches!(&scene.spheres[..], [sphere] if sphere.stretch == DMat3::IDENTITY);
+        Self { scene, surfaces, responses, seen, one_plane, bath_m: scene.on_bath.then(level_m) }
     }
 
     /// The colour that is seen along a ray from the eye, a unit vector.
@@ -76,7 +80,7 @@ impl<'a> LightPath<'a> {
             return self.seen * self.arriving(ray, 0);
         }
         let (across, seen) = self.polarisation(ray);
-        let weights = vec![seen; self.responses.len()];
+        let weights = Weights::new(seen, self.responses.len());
         self.follow(Branch { line, weights, across, reflections: 0, met: Vec::new() })
     }
 
@@ -104,8 +108,9 @@ impl<'a> LightPath<'a> {
                     }
                 }
                 let Some(line) = self.beyond_bath(&branch.line) else { break };
-                branch.dim(mirrored_part(line.direction.z));
+                branch.weights.dim(mirrored_part(line.direction.z));
                 // The mirror image of s light is s light.
+                branch.weights.mirror();
                 branch.across.z = -branch.across.z;
                 branch.line = line;
             }
@@ -117,7 +122,7 @@ impl<'a> LightPath<'a> {
     fn reflected(&self, branch: &mut Branch, wall: &Wall) -> DVec3 {
         let sphere = &self.scene.spheres[wall.bubble];
         if self.bath_m.is_some() {
-            branch.dim(past_meniscus(wall.place.z, sphere.radius_m));
+            branch.weights.dim(past_meniscus(wall.place.z, sphere.radius_m));
         }
         let thickness_nm = (sphere.thickness_nm)(wall.place);
         // Where there is no film there is no plane of incidence either.
@@ -125,13 +130,12 @@ impl<'a> LightPath<'a> {
             return DVec3::ZERO;
         }
         branch.turn_to(wall);
-        let incidence = branch.met(wall, || Rc::new(sphere.optics.spectral_wall(wall.cos_theta)));
-        let mut weights = incidence.reflectances(thickness_nm);
-        for (left, reflected) in branch.weights.iter_mut().zip(&mut weights) {
-            let reflectance = *reflected;
-            *reflected = left.times(reflectance);
-            *left = left.times(reflectance.rest());
+        if self.one_plane {
+            // Nothing is seen of it without another turn.
+            branch.weights.drop_coherence();
         }
+        let incidence = branch.met(wall, || Rc::new(sphere.optics.spectral_wall(wall.cos_theta)));
+        let weights = branch.weights.take_reflected(&incidence, thickness_nm);
         let direction = branch.line.direction;
         let line = Line {
             origin_m: self.surfaces[wall.bubble].point_m(wall.place),
@@ -144,13 +148,13 @@ impl<'a> LightPath<'a> {
 
     /// Whether splitting what is left of a branch is pointless.
     fn is_negligible(&self, branch: &Branch) -> bool {
-        branch.weights.iter().all(|left| left.s + left.p < self.scene.negligible)
+        branch.weights.totals().all(|seen| seen < self.scene.negligible)
     }
 
     /// The colour of the light that arrives from as far as a branch looks, past all walls.
     fn rest(&self, branch: &Branch) -> DVec3 {
-        let seen = self.responses.iter().zip(&branch.weights);
-        let matrix = seen.fold(DMat3::ZERO, |sum, (response, seen)| sum + *response * (seen.s + seen.p));
+        let seen = self.responses.iter().zip(branch.weights.totals());
+        let matrix = seen.fold(DMat3::ZERO, |sum, (response, seen)| sum + *response * seen);
         matrix * self.arriving(branch.line.direction, branch.reflections)
     }
 
@@ -195,13 +199,6 @@ impl<'a> LightPath<'a> {
 }
 
 impl Branch {
-    /// Leaves a part of its light.
-    fn dim(&mut self, part: f64) {
-        if part < 1.0 {
-            self.weights.iter_mut().for_each(|left| *left = Polarised { s: part * left.s, p: part * left.p });
-        }
-    }
-
     /// Turns s and p to the plane of incidence at a wall.
     fn turn_to(&mut self, wall: &Wall) {
         let across = self.line.direction.cross(wall.normal);
@@ -209,12 +206,9 @@ impl Branch {
             return;
         }
         let across = across.normalize();
-        let kept = self.across.dot(across).powi(2);
-        let turned = 1.0 - kept;
-        if turned > SAME_PLANE {
-            for left in &mut self.weights {
-                *left = Polarised { s: kept * left.s + turned * left.p, p: kept * left.p + turned * left.s };
-            }
+        let sine = self.line.direction.cross(self.across).dot(across);
+        if sine.abs() > SAME_PLANE {
+            self.weights.turn(self.across.dot(across), sine);
         }
         self.across = across;
     }

@@ -15,21 +15,21 @@
 //!
 //! where v is the ray, v₀ its outer reflection and vₖ its direction after k inner reflections. From inside the bubble the sum starts at hit 1.
 //!
-//! From bubble to bubble, and on a stretched one from hit to hit, the plane of incidence turns. A turn by φ makes cos²φ s + sin²φ p of s, and
-//! the same of p with the two exchanged. Left out is the coherence of s and p: after a wall the two are taken for light of two lamps. Without a
-//! polariser that is exact for light that meets walls in one plane or two. Behind one it is exact for the first plane only, and a bubble that is
-//! seen in another or through it shows less of the polariser than it should: the nearer film seems to take away polarisation that lies between its
-//! s and p.
+//! From bubble to bubble, and on a stretched one from hit to hit, the plane of incidence turns. A turn mixes s and p with their coherence, which
+//! has a complex weight of its own and which each wall multiplies by t_s t_p* or r_s r_p*, its phases included (see `weights.rs`). So a nearly
+//! clear film before another leaves polarised light as it is, whatever its plane.
 //!
-//! What is and is not exact: the products of walls are formed at each wavelength of the light, and only their sum becomes a colour. RGB
-//! surroundings stand for spectra (see [`Uplift`](super::colour::Uplift)), so that coloured light too is the full spectral answer. Rays are
-//! straight (refraction shifts them by less than the film's thickness). What stands behind the bubbles is seen straight through them only,
-//! not in reflections.
+//! What is and is not exact: along a path light may have any polarisation, elliptic too, and meet walls in any number of planes. The products of
+//! walls are formed at each wavelength of the light, and only their sum becomes a colour. RGB surroundings stand for spectra (see
+//! [`Uplift`](super::colour::Uplift)), so that coloured light too is the full spectral answer. Light of different paths does not interfere.
+//! Surroundings are unpolarised, and a bath mirrors without polarising (see `bath.rs`). Rays are straight (refraction shifts them by less than the
+//! film's thickness). What stands behind the bubbles is seen straight through them only, not in reflections.
 
 mod bath;
 mod light_path;
 mod view;
 mod walls;
+mod weights;
 
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;

@@ -1,5 +1,7 @@
 use glam::{DMat3, DVec2, DVec3};
 
+mod polarised;
+
 use super::{FilmSphere, PictureCamera, PictureScene, bath::mirrored_part, light_path::LightPath};
 use crate::physics::{
     colour::{BT2020, FilmOptics, Illuminant, Walls, bt709_to_bt2020, daylight_scale, seen_light},
@@ -141,23 +143,6 @@ fn coloured_light_meets_the_film_as_a_spectrum() {
     assert!((single / product - 1.0).abs().max_element() > 0.2, "{single} {product}");
 }
 
-/// At Brewster's angle a polariser that passes only p light sees no film, one across it twice the unpolarised reflection.
-#[test]
-fn a_polariser_takes_the_reflection_at_brewsters_angle() {
-    let optics = FilmOptics::new(FilmIndex::Constant(4.0 / 3.0), &Illuminant::default());
-    // A ray at Brewster's angle: sin θ = n / √(1 + n²) = 0.8.
-    let camera = PictureCamera { eye_m: DVec3::new(4.0, 0.8, 0.0), ..camera(4.0, 0.6) };
-    let lit = only_from(reflected(DVec3::NEG_X, DVec3::new(0.6, 0.8, 0.0)));
-    let front = |polariser| {
-        let bubble = vec![sphere(&optics, DVec3::ZERO, 300.0)];
-        let scene = PictureScene { camera, surroundings: &lit, polariser, ..scene(&optics, bubble) };
-        LightPath::new(&scene).colour(DVec3::NEG_X)
-    };
-    let (unpolarised, s, p) = (front(None), front(Some(DVec3::Z)), front(Some(DVec3::Y)));
-    assert!(unpolarised.min_element() > 0.01, "{unpolarised}");
-    assert!(p.max_element() < 1e-12 && (s - 2.0 * unpolarised).abs().max_element() < 1e-12, "{s} {p} {unpolarised}");
-}
-
 /// Bubbles in a row, whose walls all have one plane of incidence, before a white card in a black room: each wall leaves 1 − R of s and of
 /// p light, and no reflection brings any.
 #[test]
@@ -255,22 +240,6 @@ fn the_order_of_bubbles_does_not_matter() {
         rays(40).map(|ray| LightPath::new(&scene).colour(ray)).collect::<Vec<_>>()
     });
     assert_eq!(one, other);
-}
-
-#[test]
-fn a_bubble_of_no_thickness_in_front_changes_nothing() {
-    let optics = water();
-    let seen = |spheres| {
-        let polariser = Some(DVec3::new(0.0, 0.6, 0.8));
-        let scene = PictureScene { surroundings: &varied, polariser, ..scene(&optics, spheres) };
-        let paths = LightPath::new(&scene);
-        (0..81).map(|k| paths.colour(scene.camera.ray(SIZE, DVec2::new(f64::from(k % 9), f64::from(k / 9))))).collect()
-    };
-    let film = || sphere(&optics, DVec3::ZERO, 300.0);
-    let none = FilmSphere { radius_m: 0.8, ..sphere(&optics, DVec3::new(2.0, 0.2, 0.1), 0.0) };
-    let [with, without]: [Vec<DVec3>; 2] = [vec![none, film()], vec![film()]].map(seen);
-    let error = with.iter().zip(&without).map(|(a, b)| (*a - *b).abs().max_element()).fold(0.0, f64::max);
-    assert!(error < 1e-12, "{error}");
 }
 
 /// Reflectance and transmittance of walls one behind another at normal incidence, reflections between them included: the adding of layers
