@@ -16,7 +16,7 @@ use crate::{
 #[derive(Args)]
 #[command(after_help = "Example:\n  soapfilm verify\n  soapfilm verify optics picture --json checks.json")]
 pub struct Arguments {
-    /// What to verify: some of optics, picture, transport, flow, rims and stability, or all
+    /// What to verify: some of optics, picture, crowd, transport, flow, rims and stability, or all
     #[arg(default_value = "all", value_name = "PART", value_parser = parts)]
     parts: Vec<Parts>,
     /// Also run the checks that take longer than minutes

@@ -84,7 +84,9 @@ pub struct Placed {
     pub among: Vec<usize>,
     /// Other bubbles that it mirrors too.
     pub mirrored: Vec<usize>,
-    /// Whether bubbles like it mirror others in this picture: they share a pipeline.
+    /// Whether it is drawn like bubbles of clusters, which are added to the picture so far.
+    pub adds: bool,
+    /// Whether it is drawn like bubbles that mirror others.
     pub mirrors: bool,
 }
 
@@ -106,8 +108,9 @@ pub fn composition(key: &DrawKey) -> Vec<Placed> {
             let overlaps = |other: &usize| *other != member && rect.overlaps(&rects[*other]);
             let among: Vec<usize> = cluster.iter().copied().filter(overlaps).collect();
             let mirrored = mirrored(key, member, &among);
-            let mirrors = !among.is_empty() || !mirrored.is_empty();
-            placed[member] = Some(Placed { rect: rect.clone(), layer, behind_layer, among, mirrored, mirrors });
+            let adds = !among.is_empty();
+            let mirrors = adds || !mirrored.is_empty();
+            placed[member] = Some(Placed { rect: rect.clone(), layer, behind_layer, among, mirrored, adds, mirrors });
         }
     }
     let mut placed: Vec<Placed> = placed.into_iter().flatten().collect();
@@ -115,17 +118,20 @@ pub fn composition(key: &DrawKey) -> Vec<Placed> {
     placed
 }
 
-/// Makes bubbles alike that differ by little: each kind of bubble has shaders of its own, which take longer to compile than a frame takes.
+/// Makes bubbles alike that differ by little: each kind of bubble has shaders of its own, which take longer to compile than a frame takes. Those of
+/// the spectral quality are so large that llvmpipe does not keep many of them.
 fn share_pipelines(key: &DrawKey, placed: &mut [Placed]) {
     if placed.iter().any(|placed| placed.layer > 0 || !placed.among.is_empty()) {
         for placed in &mut *placed {
             (placed.layer, placed.behind_layer) = (placed.layer + 1, placed.behind_layer + 1);
         }
     }
-    if placed.iter().any(|placed| !placed.mirrored.is_empty()) {
-        for (bubble, placed) in key.bubbles.iter().zip(placed) {
-            placed.mirrors |= most_mirrored(key, bubble) > 0;
-        }
+    let [any_adds, any_mirrors] =
+        [placed.iter().any(|placed| placed.adds), placed.iter().any(|placed| !placed.mirrored.is_empty())];
+    for (bubble, placed) in key.bubbles.iter().zip(placed) {
+        let most_mirrored = most_mirrored(key, bubble);
+        placed.adds |= any_adds && most_mirrored == MOST_MIRRORED_SPECTRAL;
+        placed.mirrors |= any_mirrors && most_mirrored > 0;
     }
 }
 
@@ -163,13 +169,16 @@ fn clusters(key: &DrawKey) -> Vec<Vec<usize>> {
     clusters
 }
 
+/// How many others a bubble mirrors at most at the spectral quality.
+const MOST_MIRRORED_SPECTRAL: usize = 32;
+
 /// How many others a bubble mirrors at most.
 fn most_mirrored(key: &DrawKey, bubble: &BubbleKey) -> usize {
     match key.lighting.films[bubble.material].quadrature.quality {
         _ if radius_pixels(key, bubble) < SMALLEST_PIXELS => 0,
         Quality::Fast => 0,
         Quality::Standard => 8,
-        Quality::Spectral => 32,
+        Quality::Spectral => MOST_MIRRORED_SPECTRAL,
     }
 }
 
@@ -189,4 +198,104 @@ fn mirrored(key: &DrawKey, index: usize, among: &[usize]) -> Vec<usize> {
     seen.sort_by(|a, b| size(b).total_cmp(&size(a)));
     seen.truncate(most);
     seen
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{collections::BTreeMap, sync::Arc};
+
+    use glam::DVec3;
+
+    use super::*;
+    use crate::{
+        physics::{
+            colour::{Gamut, Illuminant},
+            environment::CubeMap,
+        },
+        plan::{Moment, Pace, Resources, Shot, request},
+        scene::{Bubble, Camera, Film, FilmStateName, Scene, View},
+    };
+
+    /// Bubbles of 40 mm at places before an eye at (0.6, 0, 0) m that looks along -x, by the place in the scene of each.
+    fn placed(centers_m: &[[f64; 3]], quality: Quality) -> Vec<Placed> {
+        let film = Film { state: FilmStateName::Uniform, ..Film::default() };
+        let bubble = |center_m: &[f64; 3]| Bubble {
+            center_m: *center_m,
+            radius_mm: 40.0,
+            film: film.clone(),
+            ..Bubble::default()
+        };
+        let scene = Scene {
+            bubbles: centers_m.iter().map(bubble).collect(),
+            camera: Camera { azimuth_deg: 0.0, elevation_deg: 0.0, distance_m: 0.6, ..Camera::default() },
+            view: View { quality, ..View::default() },
+            ..Scene::default()
+        };
+        let resources = Resources {
+            environment: Arc::new(CubeMap::constant(DVec3::ONE)),
+            illuminant: Arc::new(Illuminant::default()),
+            spectral_lights: Vec::new(),
+            liquids: BTreeMap::new(),
+        };
+        let shot = Shot {
+            size: [1280, 720],
+            moment: Moment::default(),
+            full_precision: false,
+            gamut: Gamut::Srgb,
+            yardstick: false,
+            pace: Pace::Whole,
+        };
+        let key = request(&scene, &resources, &shot).unwrap().picture.draw;
+        let composition = composition(&key);
+        let mut placed: Vec<(usize, Placed)> = key.bubbles.iter().map(|bubble| bubble.index).zip(composition).collect();
+        placed.sort_by_key(|(index, _)| *index);
+        placed.into_iter().map(|(_, placed)| placed).collect()
+    }
+
+    fn layers(centers_m: &[[f64; 3]]) -> Vec<usize> {
+        placed(centers_m, Quality::Standard).iter().map(|placed| placed.layer).collect()
+    }
+
+    #[test]
+    fn bubbles_side_by_side_are_drawn_at_once() {
+        assert_eq!(layers(&[[0.0; 3]]), [0]);
+        assert_eq!(layers(&[[0.0, -0.1, 0.0], [0.0, 0.0, 0.0], [0.0, 0.1, 0.0]]), [0, 0, 0]);
+    }
+
+    #[test]
+    fn the_nearer_bubble_is_drawn_later_whatever_the_order_in_the_file() {
+        let [near, middle, far] = [[0.1, 0.0, 0.0], [0.0, 0.01, 0.0], [-0.1, 0.0, 0.01]];
+        assert_eq!(layers(&[near, middle, far]), [3, 2, 1]);
+        assert_eq!(layers(&[far, near, middle]), [1, 3, 2]);
+        assert_eq!(layers(&[near, [0.0, 0.15, 0.0], far]), [2, 1, 1], "one of them is beside the others");
+    }
+
+    #[test]
+    fn bubbles_that_intersect_are_a_cluster_over_what_is_behind_all_of_them() {
+        let placed = placed(&[[0.1, 0.0, 0.0], [0.05, 0.02, 0.0], [-0.15, 0.0, 0.0], [0.1, 0.1, 0.0]], Quality::Fast);
+        let behind: Vec<_> = placed.iter().map(|placed| (placed.layer, placed.behind_layer)).collect();
+        assert_eq!(behind, [(3, 2), (2, 2), (1, 1), (1, 1)]);
+        let among: Vec<_> = placed.iter().map(|placed| placed.among.len()).collect();
+        assert_eq!(among, [1, 1, 0, 0]);
+        assert!(placed[0].mirrors && !placed[3].mirrors);
+    }
+
+    #[test]
+    fn bubbles_mirror_those_that_look_large_from_them() {
+        let centers_m = [[0.0, -0.05, 0.0], [0.0, 0.05, 0.0], [-9.0, 0.3, 0.0]];
+        let mirrored = |quality| placed(&centers_m, quality).into_iter().map(|placed| placed.mirrored.len());
+        assert_eq!(mirrored(Quality::Standard).collect::<Vec<_>>(), [1, 1, 0]);
+        assert_eq!(mirrored(Quality::Fast).sum::<usize>(), 0);
+    }
+
+    #[test]
+    fn a_rectangle_holds_the_whole_outline_within_some_rows() {
+        let rect = placed(&[[0.0; 3]], Quality::Fast)[0].rect.clone();
+        // tan of the limb, over the height of a pixel on the plane one metre before the eye.
+        let radius = (0.04_f64 / 0.6).asin().tan() / (2.0 * 15.0_f64.to_radians().tan() / 720.0);
+        let [low, high] = [rect.rows.start, rect.rows.end].map(f64::from);
+        assert!(low < 360.0 - radius && low > 355.0 - radius && high > 360.0 + radius && high < 365.0 + radius);
+        assert_eq!(rect.within(&(0..100)), None);
+        assert_eq!(rect.within(&(0..360)).map(|part| part.rows), Some(rect.rows.start..360));
+    }
 }

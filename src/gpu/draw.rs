@@ -188,13 +188,13 @@ impl DrawPass {
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
             let first_other = shared.others.first[place];
-            for ring in bubble_rings(key, bubble, films) {
+            for ring in bubble_rings(key, bubble, placed, films) {
                 let vertices = if ring.edges_rad.is_some() { 2 * (SIDES + 1) } else { 3 };
                 let drawn = Drawn { bubble, placed, first_other, ring: &ring, colours: &colours, film: &film, hole };
                 pass.layers[placed.layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
             }
             pass.layers[placed.behind_layer].behind.push(placed.rect.clone());
-            if !placed.among.is_empty() {
+            if placed.adds {
                 pass.layers[placed.layer].so_far.push(placed.rect.clone());
             }
         }
@@ -305,12 +305,25 @@ fn pixel_span(bubble: &BubbleKey, size: u32, axis: usize) -> [u32; 2] {
     })
 }
 
-fn bubble_rings(key: &DrawKey, bubble: &BubbleKey, FilmColours { quadrature, .. }: &FilmColours) -> Vec<Ring> {
-    match key.yardstick {
-        true => vec![disc(&key.camera, bubble)],
-        false => rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film),
+fn bubble_rings(
+    key: &DrawKey,
+    bubble: &BubbleKey,
+    placed: &Placed,
+    FilmColours { quadrature, .. }: &FilmColours,
+) -> Vec<Ring> {
+    if key.yardstick {
+        return vec![disc(&key.camera, bubble)];
     }
+    let mut rings = rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film);
+    if placed.adds || placed.mirrors {
+        rings.iter_mut().for_each(|ring| ring.inner_reflections = ring.inner_reflections.min(MAX_INNER_WITH_OTHERS));
+    }
+    rings
 }
+
+/// Inner reflections that are followed at most where other bubbles are seen too. Shaders that follow more of them there are so large that llvmpipe
+/// compiles them anew for each bubble.
+const MAX_INNER_WITH_OTHERS: u32 = 7;
 
 /// Iterations that the loops of one fragment may take in all: llvmpipe ends them after 65,535, without a word.
 const MAX_ITERATIONS: u32 = 60_000;
@@ -342,7 +355,7 @@ fn ring_overrides(
         SKINS: colours.films.quadrature.optics.film.skin_nm > 0.0,
         ON_RING: bubble.cap.is_some() && !key.on_bath,
         OVER_OTHERS: placed.layer > 0,
-        AMONG_OTHERS: !placed.among.is_empty(),
+        AMONG_OTHERS: placed.adds,
         MIRRORS_OTHERS: placed.mirrors,
         INNER: ring.inner_reflections,
     }

@@ -8,7 +8,7 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 24] = presets![
+const PRESETS: [(&str, &str); 25] = presets![
     "default",
     "fresh",
     "bands",
@@ -30,6 +30,7 @@ const PRESETS: [(&str, &str); 24] = presets![
     "two_lights",
     "polarised",
     "trio",
+    "pair",
     "inside",
     "far",
     "furnace",

@@ -15,3 +15,9 @@ fn colours_of_films_match_the_spectral_sum() {
 fn pictures_in_coloured_light_match_the_f64_pictures() {
     hold(Part::Picture, 4);
 }
+
+/// Random bubbles seen through and in one another.
+#[test]
+fn bubbles_through_bubbles_match_the_f64_pictures() {
+    hold(Part::Crowd, 5);
+}
