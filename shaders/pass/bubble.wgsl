@@ -43,7 +43,7 @@ override AMONG_OTHERS: u32;
 // 1: the bubble mirrors other bubbles.
 override MIRRORS_OTHERS: u32;
 
-// Mirrors `BubbleUniform` in src/gpu/passes/bubble.rs.
+// Mirrors `BubbleBlock` in src/gpu/passes/bubble.rs.
 struct Bubble {
     // From the eye to the center.
     to_center_m: vec3f,
@@ -84,7 +84,8 @@ struct Bubble {
 @group(0) @binding(1) var<uniform> light: Light;
 @group(0) @binding(2) var environment: texture_cube<f32>;
 @group(0) @binding(3) var environment_sampler: sampler;
-@group(0) @binding(4) var<uniform> bubble: Bubble;
+// Not a uniform: lavapipe compiles a shader anew for each value of a uniform that a branch or a loop depends on.
+@group(0) @binding(4) var<storage, read> bubble: Bubble;
 @group(0) @binding(5) var<uniform> axes: TableAxes;
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;

@@ -12,7 +12,7 @@ use super::{
     passes::{
         backdrop::{Backdrop, LightUniform, ViewUniform},
         bake_table::{Table, TableOverrides, table_sampler},
-        bubble::{BubbleUniform, OtherBubble, RingOverrides, Shade, ShadeMirror},
+        bubble::{BubbleBlock, OtherBubble, RingOverrides, Shade, ShadeMirror},
         open_hole::OpenHole,
     },
     quadrature::Quadrature,
@@ -248,7 +248,7 @@ impl Shared<'_> {
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
         let Self { key, lighting, view, light, environment, table_sampler, behind, so_far, others, films } = self;
         let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
-        let uniform = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
+        let bubble = &gpu.storage("bubble", &[bubble_block(key, drawn)]);
         let coloured = film_colours.table.as_ref().is_some_and(|table| table.coloured);
         let shade = Shade {
             shape: ring_overrides(key, lighting, drawn),
@@ -258,7 +258,7 @@ impl Shared<'_> {
             light,
             environment: &environment.view,
             environment_sampler: &environment.sampler,
-            bubble: uniform,
+            bubble,
             axes: &table.axes,
             table: &table.view,
             table_sampler,
@@ -405,7 +405,7 @@ fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUniform {
     }
 }
 
-fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform {
+fn bubble_block(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleBlock {
     let Drawn { bubble, placed, first_other, ring, film: shown, .. } = drawn;
     let film = &drawn.colours.films.quadrature.optics.film;
     let [inner, outer] = ring.corners();
@@ -414,7 +414,7 @@ fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform {
         FilmKey::Field(field) => (0.0, field.cells),
     };
     let [x, y, z] = DVec3::AXES.map(|axis| bubble.to_film * axis);
-    BubbleUniform {
+    BubbleBlock {
         to_center_m: floats(bubble.center_m - key.camera.eye_m),
         radius_m: bubble.radius_m as f32,
         inner,

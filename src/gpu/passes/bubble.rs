@@ -19,7 +19,7 @@ use crate::{
 
 shader_struct! {
     /// One ring of a bubble: see `shaders/pass/bubble.wgsl`.
-    pub struct BubbleUniform {
+    pub struct BubbleBlock {
         /// From the eye to the center: the difference of two places in f64, so that a scene looks the same wherever it stands.
         pub to_center_m: [f32; 3],
         /// Radius.
@@ -149,7 +149,7 @@ kernels! {
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
         @3 environment_sampler: Sampler;
-        @4 bubble: Uniform<BubbleUniform>;
+        @4 bubble: Read<BubbleBlock>;
         @5 axes: Uniform<TableAxes>;
         @6 table: Texture2dArray;
         @7 table_sampler: Sampler;
@@ -177,7 +177,7 @@ kernels! {
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
         @3 environment_sampler: Sampler;
-        @4 bubble: Uniform<BubbleUniform>;
+        @4 bubble: Read<BubbleBlock>;
         @15 picture_behind: Texture2d;
         @16 picture_so_far: Texture2d;
     }
