@@ -54,7 +54,7 @@ const INNER: Edit = edit(
     "    if (INNER > 1u) {\n        let a = last;",
     "    if (INNER > 99u) {\n        let a = last;",
 );
-const LIMB: Edit = edit("pass/bubble.wgsl", "    if (SUPERSAMPLED == 0u) {", "    if (SUPERSAMPLED < 2u) {");
+const LIMB: Edit = edit("pass/bubble.wgsl", "    if (SAMPLES == 1u) {", "    if (SAMPLES < 3u) {");
 
 /// Parts by name.
 const PARTS: [(&str, &[Edit]); 10] = [

@@ -24,8 +24,8 @@ import package::sphere::silhouette::{Silhouette, silhouette};
 override UNIFORM_FILM: u32;
 // 1: cells are larger than pixels, and the film is looked up through its flow map at each of them.
 override MAGNIFIED: u32;
-// 1: pixels are means over more samples than one: near the outline, and of bubbles of a few pixels, whose film is finer than a pixel.
-override SUPERSAMPLED: u32;
+// Samples along each side of a pixel: 1, or more near the outline, and for bubbles of a few pixels, whose film is finer than a pixel.
+override SAMPLES: u32;
 // 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
 override OUTLINE: u32;
 // 1: the bubble is an ellipsoid. It is traced where it is round: `unstretch` takes the picture there, `stretch` back.
@@ -36,6 +36,8 @@ override BURST: u32;
 override SKINS: u32;
 // 1: the film ends at a ring.
 override ON_RING: u32;
+// 1: the eye is inside the bubble.
+override INSIDE: u32;
 // 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
 override OVER_OTHERS: u32;
 // 1: walls of other bubbles lie between those of the bubble, which then adds to `picture_so_far`.
@@ -72,20 +74,23 @@ struct Bubble {
     map_cells: u32,
     // Height of the ring that the film ends at, over the radius.
     rim_z: f32,
-    // Its part of `lists`: the first, how many whose walls lie between its own, and with those that it mirrors only.
+}
+
+// The bubble's part of `lists`: the first, how many whose walls lie between its own, and with those that it mirrors only. They are no uniforms:
+// lavapipe compiles a shader anew for each value of a uniform that a loop depends on. All else is: where llvmpipe takes derivatives, it reads zeros
+// from storage for pixels beside a triangle.
+// Mirrors `ListPart` in src/gpu/passes/bubble.rs.
+struct ListPart {
     first_other: u32,
     among: u32,
     mirrored: u32,
-    // Samples along each side of a pixel.
-    samples: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var<uniform> light: Light;
 @group(0) @binding(2) var environment: texture_cube<f32>;
 @group(0) @binding(3) var environment_sampler: sampler;
-// Not a uniform: lavapipe compiles a shader anew for each value of a uniform that a branch or a loop depends on.
-@group(0) @binding(4) var<storage, read> bubble: Bubble;
+@group(0) @binding(4) var<uniform> bubble: Bubble;
 @group(0) @binding(5) var<uniform> axes: TableAxes;
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;
@@ -101,6 +106,7 @@ struct Bubble {
 @group(0) @binding(17) var<storage, read> others: array<OtherBubble>;
 @group(0) @binding(18) var<storage, read> lists: array<u32>;
 @group(0) @binding(19) var films: texture_2d_array<f32>;
+@group(0) @binding(20) var<storage, read> part: ListPart;
 
 // Sides of the polygons that rings are made of.
 override SIDES: u32;
@@ -224,8 +230,8 @@ fn mirrored_light(point: vec3f, direction: vec3f, footprint: f32) -> vec3f {
     let origin_m = bubble.to_center_m + bubble.radius_m * from_round(point);
     var nearest = 0u;
     var chord = Chord(FAR_M, FAR_M, 0.0);
-    for (var k = 0u; k < bubble.mirrored; k++) {
-        let number = lists[bubble.first_other + k];
+    for (var k = 0u; k < part.mirrored; k++) {
+        let number = lists[part.first_other + k];
         let found = chord_through(others[number], origin_m, direction);
         if (found.far_m > 0.0 && found.near_m < chord.near_m) {
             chord = found;
@@ -269,7 +275,7 @@ fn passed_others(path: Path) -> Passed {
     let middle_m = dot(bubble.to_center_m, path.direction);
     let half_m = path.half_chord * bubble.radius_m;
     var next = next_chord(path.direction, middle_m + half_m, 0u);
-    while (next.k < bubble.among) {
+    while (next.k < part.among) {
         let other = others[next.number];
         for (var wall = 0u; wall < 2u; wall++) {
             let distance_m = select(next.chord.near_m, next.chord.far_m, wall == 1u);
@@ -291,14 +297,14 @@ struct NextChord {
 
 // The first such bubble from a place in the list on. Most of the list is missed: what is costly is done for the rest alone.
 fn next_chord(direction: vec3f, end_m: f32, first: u32) -> NextChord {
-    for (var k = first; k < bubble.among; k++) {
-        let number = lists[bubble.first_other + k];
+    for (var k = first; k < part.among; k++) {
+        let number = lists[part.first_other + k];
         let chord = chord_through(others[number], vec3f(0.0), direction);
         if (chord.far_m > 0.0 && chord.near_m < end_m) {
             return NextChord(k, number, chord);
         }
     }
-    return NextChord(bubble.among, 0u, Chord(-1.0, -1.0, 0.0));
+    return NextChord(part.among, 0u, Chord(-1.0, -1.0, 0.0));
 }
 
 // What a wall leaves of light that passes it.
@@ -397,7 +403,7 @@ fn spread_nm(path: Path, walls_nm: vec4f) -> vec4f {
     let path_nm = cos_t * walls_nm;
     let across = dpdx(path_nm);
     let down = dpdy(path_nm);
-    return sqrt(across * across + down * down) / (f32(bubble.samples) * cos_t);
+    return sqrt(across * across + down * down) / (f32(SAMPLES) * cos_t);
 }
 
 // Four hits more, and where the ray is after them.
@@ -588,7 +594,7 @@ fn path_along(direction: vec3f, width: f32, position: vec2f) -> Path {
 }
 
 fn eye_is_inside() -> bool {
-    return length(to_round(bubble.to_center_m)) <= bubble.radius_m;
+    return INSIDE == 1u;
 }
 
 // The outline, a sphere's where the bubble is round.
@@ -635,10 +641,10 @@ fn mean_radiance(position: vec2f, side: u32) -> vec3f {
 
 @fragment
 fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    if (SUPERSAMPLED == 0u) {
+    if (SAMPLES == 1u) {
         return vec4f(storable(sample_radiance(position.xy, 1.0)), 1.0);
     }
-    return vec4f(storable(mean_radiance(position.xy, bubble.samples)), 1.0);
+    return vec4f(storable(mean_radiance(position.xy, SAMPLES)), 1.0);
 }
 
 // The yardstick of the frame's cost: a plain mirror with one filtered environment lookup.

@@ -12,7 +12,7 @@ use super::{
     passes::{
         backdrop::{Backdrop, LightUniform, ViewUniform},
         bake_table::{Table, TableOverrides, table_sampler},
-        bubble::{BubbleBlock, OtherBubble, RingOverrides, Shade, ShadeMirror},
+        bubble::{BubbleUniform, ListPart, OtherBubble, RingOverrides, Shade, ShadeMirror},
         open_hole::OpenHole,
     },
     quadrature::Quadrature,
@@ -248,7 +248,8 @@ impl Shared<'_> {
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
         let Self { key, lighting, view, light, environment, table_sampler, behind, so_far, others, films } = self;
         let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
-        let bubble = &gpu.storage("bubble", &[bubble_block(key, drawn)]);
+        let bubble = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
+        let part = &gpu.storage("part of the lists", &[list_part(drawn)]);
         let coloured = film_colours.table.as_ref().is_some_and(|table| table.coloured);
         let shade = Shade {
             shape: ring_overrides(key, lighting, drawn),
@@ -274,6 +275,7 @@ impl Shared<'_> {
             others: &others.bubbles,
             lists: &others.lists,
             films,
+            part,
         };
         let format = radiance_format(key.full_precision);
         match (key.yardstick, ring.edges_rad) {
@@ -344,7 +346,7 @@ fn ring_overrides(
     RingOverrides {
         UNIFORM_FILM: matches!(bubble.film, FilmKey::Uniform(_)),
         MAGNIFIED: bubble.magnified,
-        SUPERSAMPLED: ring.samples > 1,
+        SAMPLES: ring.samples.min(max_samples(colours.quadrature)),
         OUTLINE: ring.outline,
         FILTERED: bubble.filtered,
         STRETCHED: bubble.stretch != DMat3::IDENTITY,
@@ -354,6 +356,7 @@ fn ring_overrides(
         ON_BATH: key.on_bath,
         SKINS: colours.films.quadrature.optics.film.skin_nm > 0.0,
         ON_RING: bubble.cap.is_some() && !key.on_bath,
+        INSIDE: ring.edges_rad.is_none(),
         OVER_OTHERS: placed.layer > 0,
         AMONG_OTHERS: placed.adds,
         MIRRORS_OTHERS: placed.mirrors,
@@ -405,8 +408,8 @@ fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUniform {
     }
 }
 
-fn bubble_block(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleBlock {
-    let Drawn { bubble, placed, first_other, ring, film: shown, .. } = drawn;
+fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform {
+    let Drawn { bubble, ring, film: shown, .. } = drawn;
     let film = &drawn.colours.films.quadrature.optics.film;
     let [inner, outer] = ring.corners();
     let (thickness_nm, cells) = match &bubble.film {
@@ -414,7 +417,7 @@ fn bubble_block(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleBlock {
         FilmKey::Field(field) => (0.0, field.cells),
     };
     let [x, y, z] = DVec3::AXES.map(|axis| bubble.to_film * axis);
-    BubbleBlock {
+    BubbleUniform {
         to_center_m: floats(bubble.center_m - key.camera.eye_m),
         radius_m: bubble.radius_m as f32,
         inner,
@@ -431,11 +434,15 @@ fn bubble_block(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleBlock {
         skins_nm: (2.0 * film.skin_nm).max(1e-3) as f32,
         map_cells: shown.map_cells,
         rim_z: bubble.cap.map_or(-2.0, |cap| cap.rim_z as f32),
+        padding: [0.0; 3],
+    }
+}
+
+fn list_part(Drawn { placed, first_other, .. }: &Drawn<'_>) -> ListPart {
+    ListPart {
         first_other: *first_other,
         among: placed.among.len() as u32,
         mirrored: (placed.among.len() + placed.mirrored.len()) as u32,
-        samples: ring.samples.min(max_samples(drawn.colours.quadrature)),
-        padding: [0; 3],
     }
 }
 

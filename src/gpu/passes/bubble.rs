@@ -19,7 +19,7 @@ use crate::{
 
 shader_struct! {
     /// One ring of a bubble: see `shaders/pass/bubble.wgsl`.
-    pub struct BubbleBlock {
+    pub struct BubbleUniform {
         /// From the eye to the center: the difference of two places in f64, so that a scene looks the same wherever it stands.
         pub to_center_m: [f32; 3],
         /// Radius.
@@ -52,16 +52,20 @@ shader_struct! {
         pub map_cells: u32,
         /// Height of the ring that the film ends at, over the radius.
         pub rim_z: f32,
-        /// Its part of the lists of others: the first.
+        /// Fills 16 bytes.
+        pub padding: [f32; 3],
+    }
+}
+
+shader_struct! {
+    /// A bubble's part of the lists of others: see `shaders/pass/bubble.wgsl`.
+    pub struct ListPart {
+        /// The first.
         pub first_other: u32,
         /// How many whose walls lie between its own.
         pub among: u32,
         /// How many with those that it mirrors only.
         pub mirrored: u32,
-        /// Samples along each side of a pixel.
-        pub samples: u32,
-        /// Fills 16 bytes.
-        pub padding: [u32; 3],
     }
 }
 
@@ -106,8 +110,8 @@ overrides! {
         override UNIFORM_FILM: bool;
         /// Whether the film is looked up through its flow map.
         override MAGNIFIED: bool;
-        /// Whether there are more samples than one in a pixel.
-        override SUPERSAMPLED: bool;
+        /// Samples along each side of a pixel.
+        override SAMPLES: u32 in [1, 4];
         /// Whether the bubble's outline crosses the ring.
         override OUTLINE: bool;
         /// Whether the film is finer than pixels, and what it reflects is filtered.
@@ -126,6 +130,8 @@ overrides! {
         override SKINS: bool;
         /// Whether the film ends at a ring.
         override ON_RING: bool;
+        /// Whether the eye is inside the bubble.
+        override INSIDE: bool;
         /// Whether other bubbles may be behind the bubble.
         override OVER_OTHERS: bool;
         /// Whether walls of others lie between its own.
@@ -149,7 +155,7 @@ kernels! {
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
         @3 environment_sampler: Sampler;
-        @4 bubble: Read<BubbleBlock>;
+        @4 bubble: Uniform<BubbleUniform>;
         @5 axes: Uniform<TableAxes>;
         @6 table: Texture2dArray;
         @7 table_sampler: Sampler;
@@ -165,6 +171,7 @@ kernels! {
         @17 others: Read<[OtherBubble]>;
         @18 lists: Read<[u32]>;
         @19 films: Texture2dArray;
+        @20 part: Read<ListPart>;
     }
     draw ring, everywhere as shade;
 
@@ -177,7 +184,7 @@ kernels! {
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
         @3 environment_sampler: Sampler;
-        @4 bubble: Read<BubbleBlock>;
+        @4 bubble: Uniform<BubbleUniform>;
         @15 picture_behind: Texture2d;
         @16 picture_so_far: Texture2d;
     }

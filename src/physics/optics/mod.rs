@@ -40,10 +40,12 @@ mod coherence;
 mod index;
 mod liquids;
 mod material;
+mod polarised;
 mod skins;
 
-pub use airy::{Incidence, Polarised, SpectralIncidence, amplitudes, cos_refracted, max_reflectance, reflectance};
+pub use airy::{Incidence, SpectralIncidence, amplitudes, cos_refracted, max_reflectance, reflectance};
 pub use coherence::Coherence;
 pub use index::{FilmIndex, FilmIndexError, REFERENCE_NM};
 pub use material::{FilmMaterial, SpectralWall, WATER_INDEX, Wall};
+pub use polarised::Polarised;
 pub use skins::{SKIN_INDEX, coated_coherence, coated_reflectance, equivalent_extra_nm};
