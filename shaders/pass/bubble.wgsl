@@ -599,6 +599,9 @@ fn eye_is_inside() -> bool {
 
 // The outline, a sphere's where the bubble is round.
 fn outline(plane: vec3f, width: f32) -> Silhouette {
+    if (INSIDE == 1u) {
+        return Silhouette(1.0, normalize(plane));
+    }
     if (STRETCHED == 0u) {
         return silhouette(view, bubble.to_center_m, bubble.radius_m, plane, width);
     }

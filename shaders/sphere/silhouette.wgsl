@@ -10,15 +10,12 @@ struct Silhouette {
     inside: vec3f,
 }
 
-// `to_center_m` leads from the eye to the center. `plane` is the sample's point on the plane one metre before the eye, relative to the eye;
+// `to_center_m` leads from the eye, which is outside, to the center. `plane` is the sample's point on the plane one metre before the eye, relative to the eye;
 // `width` is the side of its square in pixels.
 // The distance to the outline is measured as an angle, asin(R/D) minus the angle to the center, and divided by how fast that angle
 // changes from pixel to pixel.
 fn silhouette(view: View, to_center_m: vec3f, radius_m: f32, plane: vec3f, width: f32) -> Silhouette {
     let distance = length(to_center_m);
-    if (distance <= radius_m) {
-        return Silhouette(1.0, normalize(plane));
-    }
     let to_center = to_center_m / distance;
     let ray = normalize(plane);
     // The part of the ray across the axis to the center; its length is the sine of the angle between them.
