@@ -11,7 +11,7 @@ fn film_at(film: texture_2d_array<f32>, direction: vec3f, cells: u32) -> f32 {
     return film_part_at(film, direction, cells, vec2u(0u));
 }
 
-// The same of a film that lies in a part of a larger texture.
+// Thickness of a film that is stored in a part of a larger texture, from the texel `origin` on.
 fn film_part_at(film: texture_2d_array<f32>, direction: vec3f, cells: u32, origin: vec2u) -> f32 {
     let at = locate(direction, cells);
     let base = floor(at.cell);

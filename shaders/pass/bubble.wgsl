@@ -45,7 +45,7 @@ override AMONG_OTHERS: u32;
 // 1: the bubble mirrors other bubbles.
 override MIRRORS_OTHERS: u32;
 
-// Mirrors `BubbleBlock` in src/gpu/passes/bubble.rs.
+// Mirrors `BubbleUniform` in src/gpu/passes/bubble.rs.
 struct Bubble {
     // From the eye to the center.
     to_center_m: vec3f,

@@ -63,7 +63,7 @@ impl PixelRect {
         overlap(&self.columns, &other.columns) && overlap(&self.rows, &other.rows)
     }
 
-    /// Tiles that it touches, of a picture that is so many of them wide.
+    /// The tiles that it touches, in a picture that is `across` tiles wide.
     fn tiles(&self, across: u32) -> impl Iterator<Item = usize> + use<> {
         let span = |pixels: &Range<u32>| pixels.start / TILE..pixels.end.div_ceil(TILE);
         let columns = span(&self.columns);
@@ -84,9 +84,7 @@ pub struct Placed {
     pub among: Vec<usize>,
     /// Other bubbles that it mirrors too.
     pub mirrored: Vec<usize>,
-    /// Whether it is drawn like bubbles of clusters, which are added to the picture so far.
-    pub adds: bool,
-    /// Whether it is drawn like bubbles that mirror others.
+    /// Whether it is drawn by the shaders that mirror others.
     pub mirrors: bool,
 }
 
@@ -108,9 +106,8 @@ pub fn composition(key: &DrawKey) -> Vec<Placed> {
             let overlaps = |other: &usize| *other != member && rect.overlaps(&rects[*other]);
             let among: Vec<usize> = cluster.iter().copied().filter(overlaps).collect();
             let mirrored = mirrored(key, member, &among);
-            let adds = !among.is_empty();
-            let mirrors = adds || !mirrored.is_empty();
-            placed[member] = Some(Placed { rect: rect.clone(), layer, behind_layer, among, mirrored, adds, mirrors });
+            let mirrors = !among.is_empty() || !mirrored.is_empty();
+            placed[member] = Some(Placed { rect: rect.clone(), layer, behind_layer, among, mirrored, mirrors });
         }
     }
     let mut placed: Vec<Placed> = placed.into_iter().flatten().collect();
@@ -118,20 +115,17 @@ pub fn composition(key: &DrawKey) -> Vec<Placed> {
     placed
 }
 
-/// Makes bubbles alike that differ by little: each kind of bubble has shaders of its own, which take longer to compile than a frame takes. Those of
-/// the spectral quality are so large that llvmpipe does not keep many of them.
+/// Draws bubbles by the same shaders that differ by little: to compile shaders for each kind takes longer than a frame.
 fn share_pipelines(key: &DrawKey, placed: &mut [Placed]) {
     if placed.iter().any(|placed| placed.layer > 0 || !placed.among.is_empty()) {
         for placed in &mut *placed {
             (placed.layer, placed.behind_layer) = (placed.layer + 1, placed.behind_layer + 1);
         }
     }
-    let [any_adds, any_mirrors] =
-        [placed.iter().any(|placed| placed.adds), placed.iter().any(|placed| !placed.mirrored.is_empty())];
-    for (bubble, placed) in key.bubbles.iter().zip(placed) {
-        let most_mirrored = most_mirrored(key, bubble);
-        placed.adds |= any_adds && most_mirrored == MOST_MIRRORED_SPECTRAL;
-        placed.mirrors |= any_mirrors && most_mirrored > 0;
+    if placed.iter().any(|placed| !placed.mirrored.is_empty()) {
+        for (bubble, placed) in key.bubbles.iter().zip(placed) {
+            placed.mirrors |= max_mirrored(key, bubble) > 0;
+        }
     }
 }
 
@@ -169,23 +163,20 @@ fn clusters(key: &DrawKey) -> Vec<Vec<usize>> {
     clusters
 }
 
-/// How many others a bubble mirrors at most at the spectral quality.
-const MOST_MIRRORED_SPECTRAL: usize = 32;
-
 /// How many others a bubble mirrors at most.
-fn most_mirrored(key: &DrawKey, bubble: &BubbleKey) -> usize {
+fn max_mirrored(key: &DrawKey, bubble: &BubbleKey) -> usize {
     match key.lighting.films[bubble.material].quadrature.quality {
         _ if radius_pixels(key, bubble) < SMALLEST_PIXELS => 0,
         Quality::Fast => 0,
         Quality::Standard => 8,
-        Quality::Spectral => MOST_MIRRORED_SPECTRAL,
+        Quality::Spectral => 32,
     }
 }
 
 /// Bubbles that a bubble mirrors: those that look largest from it.
 fn mirrored(key: &DrawKey, index: usize, among: &[usize]) -> Vec<usize> {
     let bubble = &key.bubbles[index];
-    let most = most_mirrored(key, bubble);
+    let most = max_mirrored(key, bubble);
     if most == 0 {
         return Vec::new();
     }

@@ -22,8 +22,10 @@ use super::{
     timing::Recorder,
     uniform_buffer::UniformBuffer,
 };
-use crate::physics::colour::unseen;
-use crate::plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmColours, FilmKey, Lighting};
+use crate::{
+    physics::colour::unseen,
+    plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmColours, FilmKey, Lighting},
+};
 
 /// What a draw reads that other passes left.
 pub struct DrawInputs<'a> {
@@ -175,26 +177,27 @@ impl DrawPass {
             others,
             films: &inputs.atlas.view,
         };
-        let unread: Vec<Table> =
-            lighting.films.iter().map(|film| Table::unread(gpu, &film.quadrature.optics)).collect();
+        // Fills the binding where the quality has no table.
+        let unread = |films: &FilmColours| films.table.is_none().then(|| Table::unread(gpu, &films.quadrature.optics));
+        let unread: Vec<Option<Table>> = lighting.films.iter().map(unread).collect();
         let (no_film, no_hole) = (NoFilm::new(gpu), OpenHole::new(gpu));
         let count = inputs.composition.iter().map(|placed| placed.layer + 1).max().unwrap_or(0);
         pass.layers.resize_with(count, Layer::default);
         for (place, (bubble, placed)) in key.bubbles.iter().zip(inputs.composition).enumerate() {
             let Some((table, quadrature)) = (inputs.colours)(bubble.material) else { continue };
             let films = &lighting.films[bubble.material];
-            let table = table.filter(|_| films.table.is_some()).unwrap_or(&unread[bubble.material]);
+            let Some(table) = unread[bubble.material].as_ref().or(table) else { continue };
             let colours = Colours { films, table, quadrature };
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
             let first_other = shared.others.first[place];
-            for ring in bubble_rings(key, bubble, placed, films) {
+            for ring in bubble_rings(key, bubble, films) {
                 let vertices = if ring.edges_rad.is_some() { 2 * (SIDES + 1) } else { 3 };
                 let drawn = Drawn { bubble, placed, first_other, ring: &ring, colours: &colours, film: &film, hole };
                 pass.layers[placed.layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
             }
             pass.layers[placed.behind_layer].behind.push(placed.rect.clone());
-            if placed.adds {
+            if !placed.among.is_empty() {
                 pass.layers[placed.layer].so_far.push(placed.rect.clone());
             }
         }
@@ -307,25 +310,12 @@ fn pixel_span(bubble: &BubbleKey, size: u32, axis: usize) -> [u32; 2] {
     })
 }
 
-fn bubble_rings(
-    key: &DrawKey,
-    bubble: &BubbleKey,
-    placed: &Placed,
-    FilmColours { quadrature, .. }: &FilmColours,
-) -> Vec<Ring> {
-    if key.yardstick {
-        return vec![disc(&key.camera, bubble)];
+fn bubble_rings(key: &DrawKey, bubble: &BubbleKey, FilmColours { quadrature, .. }: &FilmColours) -> Vec<Ring> {
+    match key.yardstick {
+        true => vec![disc(&key.camera, bubble)],
+        false => rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film),
     }
-    let mut rings = rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film);
-    if placed.adds || placed.mirrors {
-        rings.iter_mut().for_each(|ring| ring.inner_reflections = ring.inner_reflections.min(MAX_INNER_WITH_OTHERS));
-    }
-    rings
 }
-
-/// Inner reflections that are followed at most where other bubbles are seen too. Shaders that follow more of them there are so large that llvmpipe
-/// compiles them anew for each bubble.
-const MAX_INNER_WITH_OTHERS: u32 = 7;
 
 /// Iterations that the loops of one fragment may take in all: llvmpipe ends them after 65,535, without a word.
 const MAX_ITERATIONS: u32 = 60_000;
@@ -358,7 +348,7 @@ fn ring_overrides(
         ON_RING: bubble.cap.is_some() && !key.on_bath,
         INSIDE: ring.edges_rad.is_none(),
         OVER_OTHERS: placed.layer > 0,
-        AMONG_OTHERS: placed.adds,
+        AMONG_OTHERS: !placed.among.is_empty(),
         MIRRORS_OTHERS: placed.mirrors,
         INNER: ring.inner_reflections,
     }
@@ -416,7 +406,6 @@ fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform {
         FilmKey::Uniform(thickness_nm) => (*thickness_nm as f32, 0),
         FilmKey::Field(field) => (0.0, field.cells),
     };
-    let [x, y, z] = DVec3::AXES.map(|axis| bubble.to_film * axis);
     BubbleUniform {
         to_center_m: floats(bubble.center_m - key.camera.eye_m),
         radius_m: bubble.radius_m as f32,
@@ -426,7 +415,7 @@ fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform {
         cells,
         tracer_cells: shown.tracer_cells,
         evaporated_nm: bubble.evaporated_nm as f32,
-        to_film: DMat3::from_cols(x, y, z).into(),
+        to_film: bubble.to_film.into(),
         stretch: bubble.stretch.into(),
         unstretch: bubble.stretch.inverse().into(),
         black_nm: BLACK_FILM_NM as f32,

@@ -14,8 +14,8 @@ pub struct FilmAtlas {
 }
 
 impl FilmAtlas {
-    /// Where films will lie that are so many texels wide, in squares as large as the largest of them, and the size of the texture; as many as it
-    /// has room for.
+    /// The place of each film, and the size of the texture that holds them. Films lie in equal squares; those that a texture of `limit` texels has no
+    /// room for have no place.
     fn laid_out(films: &BTreeMap<usize, Shown<'_>>, limit: u32) -> (BTreeMap<usize, [u32; 2]>, [u32; 2]) {
         let side = films.values().map(|film| film.texture.width()).max().unwrap_or(1);
         let columns = (limit / side).min((films.len() as f64).sqrt().ceil() as u32).max(1);

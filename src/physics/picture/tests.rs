@@ -243,7 +243,7 @@ fn the_order_of_bubbles_does_not_matter() {
 }
 
 /// Reflectance and transmittance of walls one behind another at normal incidence, reflections between them included: the adding of layers
-/// (H. C. van de Hulst, *Multiple Light Scattering*, 1980, ch. 4), with walls that are the same from both sides.
+/// (H. C. van de Hulst, *Multiple Light Scattering*, 1980, ch. 4), with walls that reflect alike on both sides.
 struct Stack {
     /// From the front, from the back.
     reflectance: [f64; 2],
