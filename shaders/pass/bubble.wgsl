@@ -6,17 +6,18 @@ import package::film::control::{Balance, balanced};
 import package::film::hole::{HOLE_MERIDIANS, Rim, TAU, angle_from, meridian_of, mixed, pierced};
 import package::film::shown::film_at;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
+import package::light::others::{AMONG_OTHERS, mirrored_light, passed_others};
 import package::light::stored::storable;
 import package::light::water::{crossing, past_meniscus, upward};
 import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::quadrature::QuadratureSample;
-import package::optics::film_colour::{FILTERED, film_reflection, reflection_at};
+import package::optics::film_colour::{FILTERED, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls};
 import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
 import package::sphere::lookup::{map_at, tracer_at};
-import package::sphere::others::{Chord, OtherBubble, chord_through, other_nm, place_on};
+import package::sphere::others::OtherBubble;
 import package::sphere::path::{Path, footprint, polarisation_along};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
@@ -40,8 +41,6 @@ override ON_RING: u32;
 override INSIDE: u32;
 // 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
 override OVER_OTHERS: u32;
-// 1: walls of other bubbles lie between those of the bubble, which then adds to `picture_so_far`.
-override AMONG_OTHERS: u32;
 // 1: the bubble mirrors other bubbles.
 override MIRRORS_OTHERS: u32;
 
@@ -221,96 +220,6 @@ fn beside(direction: vec3f, footprint: f32, position: vec2f) -> vec3f {
 
 fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
     return environment_radiance(environment, environment_sampler, light, upward(direction), footprint);
-}
-
-// Light from a direction, as seen at a point of the unit sphere: from the surroundings, through the nearest bubble on the way and with what that
-// mirrors of them.
-fn mirrored_light(point: vec3f, direction: vec3f, footprint: f32) -> vec3f {
-    var seen = surroundings(direction, footprint);
-    let origin_m = bubble.to_center_m + bubble.radius_m * from_round(point);
-    var nearest = 0u;
-    var chord = Chord(FAR_M, FAR_M, 0.0);
-    for (var k = 0u; k < part.mirrored; k++) {
-        let number = lists[part.first_other + k];
-        let found = chord_through(others[number], origin_m, direction);
-        if (found.far_m > 0.0 && found.near_m < chord.near_m) {
-            chord = found;
-            nearest = number;
-        }
-    }
-    if (chord.far_m == FAR_M) {
-        return seen;
-    }
-    let other = others[nearest];
-    // The far wall, then the near one, unless the ray starts inside.
-    for (var wall = 0u; wall < 2u; wall++) {
-        let distance_m = select(chord.far_m, chord.near_m, wall == 1u);
-        let place = place_on(other, origin_m + distance_m * direction);
-        let step = surroundings(reflect(direction, place), footprint) - seen;
-        seen += select(vec3f(0.0), reflected_light(other, place, chord.cos_theta, step), distance_m > 0.0);
-    }
-    return seen;
-}
-
-// Farther than any bubble.
-const FAR_M: f32 = 1e30;
-
-// What a wall of another bubble reflects of light, as light.
-fn reflected_light(other: OtherBubble, place: vec3f, cos_theta: f32, step: vec3f) -> vec3f {
-    let film = FilmPoint(cos_theta, other_nm(films, other, place), 0.0);
-    return light.unseen * (light.scale * reflection_at(table, table_sampler, axes, film, vec2f(0.5), step));
-}
-
-// What other bubbles leave of light on its way from the bubble's front and back wall.
-struct Passed {
-    front: vec3f,
-    back: vec3f,
-}
-
-fn passed_others(path: Path) -> Passed {
-    var passed = Passed(vec3f(1.0), vec3f(1.0));
-    if (AMONG_OTHERS == 0u) {
-        return passed;
-    }
-    let middle_m = dot(bubble.to_center_m, path.direction);
-    let half_m = path.half_chord * bubble.radius_m;
-    var next = next_chord(path.direction, middle_m + half_m, 0u);
-    while (next.k < part.among) {
-        let other = others[next.number];
-        for (var wall = 0u; wall < 2u; wall++) {
-            let distance_m = select(next.chord.near_m, next.chord.far_m, wall == 1u);
-            let left = wall_left(other, next.chord, distance_m, path.direction);
-            passed.front *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle_m - half_m);
-            passed.back *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle_m + half_m);
-        }
-        next = next_chord(path.direction, middle_m + half_m, next.k + 1u);
-    }
-    return passed;
-}
-
-// A bubble of the cluster that a ray meets before some distance: its place in the list, its number, and where.
-struct NextChord {
-    k: u32,
-    number: u32,
-    chord: Chord,
-}
-
-// The first such bubble from a place in the list on. Most of the list is missed: what is costly is done for the rest alone.
-fn next_chord(direction: vec3f, end_m: f32, first: u32) -> NextChord {
-    for (var k = first; k < part.among; k++) {
-        let number = lists[part.first_other + k];
-        let chord = chord_through(others[number], vec3f(0.0), direction);
-        if (chord.far_m > 0.0 && chord.near_m < end_m) {
-            return NextChord(k, number, chord);
-        }
-    }
-    return NextChord(part.among, 0u, Chord(-1.0, -1.0, 0.0));
-}
-
-// What a wall leaves of light that passes it.
-fn wall_left(other: OtherBubble, chord: Chord, distance_m: f32, direction: vec3f) -> vec3f {
-    let place = place_on(other, distance_m * direction);
-    return max(1.0 - reflected_light(other, place, chord.cos_theta, vec3f(1.0)), vec3f(0.0));
 }
 
 fn dimmed(steps: mat4x3f, first: vec3f, later: vec3f) -> mat4x3f {

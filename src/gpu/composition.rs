@@ -10,7 +10,7 @@
 //! ```
 //!
 //! where B is the light straight behind the whole cluster and E what each wall mirrors. So each bubble of a cluster adds its own walls' part to
-//! the picture, in any order, and takes from it what others leave (`passed_others` in `shaders/pass/bubble.wgsl`).
+//! the picture, in any order, and takes from it what others leave (`passed_others` in `shaders/light/others.wgsl`).
 
 use std::ops::Range;
 

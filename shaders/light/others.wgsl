@@ -1,0 +1,114 @@
+// What other bubbles do to light: they are seen in a bubble's mirror, and they dim what its walls reflect.
+//
+// The pass that draws bubbles declares what this reads: `bubble`, `others`, its `part` of their `lists`, `films`, the table, the light, and the
+// functions `surroundings` and `from_round`.
+
+import package::optics::film_colour::reflection_at;
+import package::optics::table::FilmPoint;
+import package::sphere::others::{Chord, OtherBubble, chord_through, other_nm, place_on};
+import package::sphere::path::Path;
+
+// 1: walls of other bubbles lie between those of the bubble, which then adds to `picture_so_far`.
+override AMONG_OTHERS: u32;
+
+// A bubble that a ray meets: its number and where.
+struct Meeting {
+    number: u32,
+    chord: Chord,
+}
+
+// Farther than any bubble.
+const FAR_M: f32 = 1e30;
+
+// Light from a direction, as seen at a point of the unit sphere: from the surroundings, through the two nearest bubbles on the way and with what
+// those mirror of them.
+fn mirrored_light(point: vec3f, direction: vec3f, footprint: f32) -> vec3f {
+    let origin_m = bubble.to_center_m + bubble.radius_m * from_round(point);
+    var first = Meeting(0u, Chord(FAR_M, FAR_M, 0.0));
+    var second = first;
+    for (var k = 0u; k < part.mirrored; k++) {
+        let number = lists[part.first_other + k];
+        let met = Meeting(number, chord_through(others[number], origin_m, direction));
+        if (met.chord.far_m > 0.0 && met.chord.near_m < second.chord.near_m) {
+            second = met;
+            if (met.chord.near_m < first.chord.near_m) {
+                second = first;
+                first = met;
+            }
+        }
+    }
+    var seen = surroundings(direction, footprint);
+    // The farther bubble first, and of each bubble the far wall, then the near one, unless the ray starts inside.
+    for (var wall = 0u; wall < 4u; wall++) {
+        var met = second;
+        if (wall > 1u) {
+            met = first;
+        }
+        let distance_m = select(met.chord.far_m, met.chord.near_m, (wall & 1u) == 1u);
+        if (distance_m > 0.0 && distance_m < FAR_M) {
+            let other = others[met.number];
+            let place = place_on(other, origin_m + distance_m * direction);
+            let step = surroundings(reflect(direction, place), footprint) - seen;
+            seen += reflected_light(other, place, met.chord.cos_theta, step);
+        }
+    }
+    return seen;
+}
+
+// What a wall of another bubble reflects of light, as light.
+fn reflected_light(other: OtherBubble, place: vec3f, cos_theta: f32, step: vec3f) -> vec3f {
+    let film = FilmPoint(cos_theta, other_nm(films, other, place), 0.0);
+    return light.unseen * (light.scale * reflection_at(table, table_sampler, axes, film, vec2f(0.5), step));
+}
+
+// What other bubbles leave of light on its way from the bubble's front and back wall.
+struct Passed {
+    front: vec3f,
+    back: vec3f,
+}
+
+fn passed_others(path: Path) -> Passed {
+    var passed = Passed(vec3f(1.0), vec3f(1.0));
+    if (AMONG_OTHERS == 0u) {
+        return passed;
+    }
+    let middle_m = dot(bubble.to_center_m, path.direction);
+    let half_m = path.half_chord * bubble.radius_m;
+    var next = next_chord(path.direction, middle_m + half_m, 0u);
+    while (next.k < part.among) {
+        let other = others[next.number];
+        for (var wall = 0u; wall < 2u; wall++) {
+            let distance_m = select(next.chord.near_m, next.chord.far_m, wall == 1u);
+            let left = wall_left(other, next.chord, distance_m, path.direction);
+            passed.front *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle_m - half_m);
+            passed.back *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle_m + half_m);
+        }
+        next = next_chord(path.direction, middle_m + half_m, next.k + 1u);
+    }
+    return passed;
+}
+
+// A bubble of the cluster that a ray meets before some distance: its place in the list, its number, and where.
+struct NextChord {
+    k: u32,
+    number: u32,
+    chord: Chord,
+}
+
+// The first such bubble from a place in the list on. Most of the list is missed: what is costly is done for the rest alone.
+fn next_chord(direction: vec3f, end_m: f32, first: u32) -> NextChord {
+    for (var k = first; k < part.among; k++) {
+        let number = lists[part.first_other + k];
+        let chord = chord_through(others[number], vec3f(0.0), direction);
+        if (chord.far_m > 0.0 && chord.near_m < end_m) {
+            return NextChord(k, number, chord);
+        }
+    }
+    return NextChord(part.among, 0u, Chord(-1.0, -1.0, 0.0));
+}
+
+// What a wall leaves of light that passes it.
+fn wall_left(other: OtherBubble, chord: Chord, distance_m: f32, direction: vec3f) -> vec3f {
+    let place = place_on(other, distance_m * direction);
+    return max(1.0 - reflected_light(other, place, chord.cos_theta, vec3f(1.0)), vec3f(0.0));
+}
