@@ -10,9 +10,9 @@
 // reflectances, which must be formed wavelength by wavelength.
 
 import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, n_cos_refracted};
-import package::optics::airy::{peak_reflectances, surface_reflectance};
 import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::FILTERED;
+import package::optics::shares::{s_of_colour, share_of_s};
 
 // 1: the quadrature gives everything. 0: it gives the products, and single walls come from the table.
 override EVERYTHING: u32;
@@ -41,29 +41,6 @@ struct Walls {
     third: Hits,
     // Steps of light at further hits, where the film is taken to be as thick as at the last one: at grazing they lie close together.
     further: array<vec3f, 12>,
-}
-
-// How much of what a wall reflects is s light, as a factor on its colour: 1 for half, 2 for all. Films that reflect next to nothing and films that
-// reflect most share it differently between s and p.
-struct ShareOfS {
-    black: f32,
-    bright: f32,
-    // The most that a film reflects at this angle, mean of s and p.
-    max_reflectance: f32,
-}
-
-fn share_of_s(n: f32, cos_theta: f32) -> ShareOfS {
-    let r2 = surface_reflectance(n, cos_theta);
-    let thin = r2 * (1.0 - r2.yx) * (1.0 - r2.yx);
-    let peak = peak_reflectances(n, cos_theta);
-    // Nothing is reflected by index 1.
-    let black = 2.0 * thin.x / max(thin.x + thin.y, 1e-30);
-    return ShareOfS(black, 2.0 * peak.x / max(peak.x + peak.y, 1e-30), max(0.5 * (peak.x + peak.y), 1e-30));
-}
-
-fn s_of_colour(colour: vec3f, share: ShareOfS) -> vec3f {
-    let brightness = clamp(colour / share.max_reflectance, vec3f(0.0), vec3f(1.0));
-    return colour * mix(vec3f(share.black), vec3f(share.bright), brightness);
 }
 
 // L - B from colours: an approximation for films that reflect little, white light and no polariser. `colours` are those of the first four

@@ -73,6 +73,8 @@ struct Bubble {
     map_cells: u32,
     // Height of the ring that the film ends at, over the radius.
     rim_z: f32,
+    // How much thicker the bubble is than the film shows.
+    thickness_factor: f32,
 }
 
 // The bubble's part of `lists`: the first, how many whose walls lie between its own, and with those that it mirrors only. They are no uniforms:
@@ -174,6 +176,7 @@ fn thickness_nm(place: vec3f) -> f32 {
             thickness_nm = film_at(film, direction, bubble.cells);
         }
     }
+    thickness_nm *= bubble.thickness_factor;
     thickness_nm = max(thickness_nm - bubble.evaporated_nm, min(thickness_nm, bubble.black_nm));
     if (BURST == 1u) {
         return with_hole(bubble.to_film * point, thickness_nm);

@@ -24,6 +24,8 @@ struct OtherBubble {
     skins_nm: f32,
     // Height of the ring that the film ends at, over the radius.
     rim_z: f32,
+    // How much thicker the bubble is than the film shows.
+    thickness_factor: f32,
 }
 
 // Where a ray meets a bubble's walls: distances from the ray's origin, and the cosine of incidence. Walls behind the origin have negative
@@ -60,6 +62,7 @@ fn other_nm(films: texture_2d_array<f32>, other: OtherBubble, place: vec3f) -> f
     if (other.cells > 0u) {
         nm = film_part_at(films, other.to_film * upward(place), other.cells, other.origin);
     }
+    nm *= other.thickness_factor;
     nm = max(nm - other.evaporated_nm, min(nm, other.black_nm));
     return nm + other.extra_nm * min(nm / other.skins_nm, 1.0);
 }

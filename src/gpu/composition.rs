@@ -12,15 +12,16 @@
 //! where B is the light straight behind the whole cluster and E what each wall mirrors. So each bubble of a cluster adds its own walls' part to
 //! the picture, in any order, and takes from it what others leave (`passed_others` in `shaders/light/others.wgsl`).
 
-use std::ops::Range;
+use std::{collections::BTreeMap, ops::Range};
 
+use glam::{DVec2, DVec3};
+
+use super::passes::small_bubbles::TILE;
 use crate::{
     plan::{BubbleKey, DrawKey},
     scene::Quality,
 };
 
-/// Side of the tiles that overlaps are found by, in pixels.
-const TILE: u32 = 16;
 /// Radius in pixels of the smallest bubbles that are more than one over the other: in smaller ones nobody sees which wall is in front, or others in
 /// a mirror.
 const SMALLEST_PIXELS: f64 = 12.0;
@@ -37,10 +38,9 @@ pub struct PixelRect {
 }
 
 impl PixelRect {
-    /// All pixels that a bubble's rings touch, with a little more: rings are polygons around the outline.
+    /// All pixels that may show a bubble within some bounds in clip coordinates, with a little more: rings are polygons around the outline.
     #[must_use]
-    fn around(bubble: &BubbleKey, [width, height]: [u32; 2]) -> Self {
-        let [low, high] = bubble.bounds;
+    pub fn around([low, high]: [DVec2; 2], [width, height]: [u32; 2]) -> Self {
         let span = |low: f64, high: f64, size: u32| {
             let [low, high] = [low, high].map(|clip| 0.5 * (clip + 1.0) * f64::from(size));
             let margin = 2.0 + 1e-3 * (high - low);
@@ -58,13 +58,26 @@ impl PixelRect {
         (!rows.is_empty() && !self.columns.is_empty()).then(|| Self { columns: self.columns.clone(), rows })
     }
 
+    /// How many there are.
+    #[must_use]
+    pub fn pixels(&self) -> u64 {
+        self.columns.len() as u64 * self.rows.len() as u64
+    }
+
+    /// The smallest one that holds both.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        let both = |a: &Range<u32>, b: &Range<u32>| a.start.min(b.start)..a.end.max(b.end);
+        Self { columns: both(&self.columns, &other.columns), rows: both(&self.rows, &other.rows) }
+    }
+
     fn overlaps(&self, other: &Self) -> bool {
         let overlap = |a: &Range<u32>, b: &Range<u32>| a.start < b.end && b.start < a.end;
         overlap(&self.columns, &other.columns) && overlap(&self.rows, &other.rows)
     }
 
     /// The tiles that it touches, in a picture that is `across` tiles wide.
-    fn tiles(&self, across: u32) -> impl Iterator<Item = usize> + use<> {
+    pub fn tiles(&self, across: u32) -> impl Iterator<Item = usize> + use<> {
         let span = |pixels: &Range<u32>| pixels.start / TILE..pixels.end.div_ceil(TILE);
         let columns = span(&self.columns);
         span(&self.rows).flat_map(move |row| columns.clone().map(move |column| (row * across + column) as usize))
@@ -88,39 +101,121 @@ pub struct Placed {
     pub mirrors: bool,
 }
 
-/// The place of each bubble of a picture, whose bubbles are listed farthest first.
+/// How a picture is put together.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Composition {
+    /// The place of each bubble of the picture's list.
+    pub placed: Vec<Placed>,
+    /// Small bubbles by their layer and their material: their places in the picture's list of small ones, farthest first.
+    pub small: BTreeMap<[usize; 2], Vec<usize>>,
+}
+
+impl Composition {
+    /// How many layers there are, at least the backdrop's.
+    #[must_use]
+    pub fn layers(&self) -> usize {
+        let small = self.small.keys().map(|[layer, _]| *layer);
+        self.placed.iter().map(|placed| placed.layer).chain(small).max().map_or(1, |last| last + 1)
+    }
+}
+
+/// What is drawn in a tile so far.
+#[derive(Clone, Copy, Default)]
+struct TileState {
+    /// The first layer that is free.
+    free: usize,
+    /// The layer and the material of the small bubbles that were drawn last, if nothing was drawn over them since.
+    small: Option<[usize; 2]>,
+}
+
+/// Puts a picture together, whose bubbles are listed farthest first.
 #[must_use]
-pub fn composition(key: &DrawKey) -> Vec<Placed> {
-    let rects: Vec<PixelRect> = key.bubbles.iter().map(|bubble| PixelRect::around(bubble, key.size)).collect();
-    let [across, down] = key.size.map(|pixels| pixels.div_ceil(TILE));
-    // The first layer that is free in each tile.
-    let mut free = vec![0; (across * down) as usize];
-    let first_free = |free: &[usize], rect: &PixelRect| rect.tiles(across).map(|tile| free[tile]).max().unwrap_or(0);
-    let mut placed: Vec<Option<Placed>> = vec![None; key.bubbles.len()];
+pub fn composition(key: &DrawKey) -> Composition {
+    let mut stack = Stack::new(key);
+    let power = |center_m: DVec3, radius_m: f64| center_m.distance_squared(key.camera.eye_m) - radius_m.powi(2);
+    let mut small = key.small.iter().map(|small| power(small.center_m, small.radius_m)).enumerate().peekable();
     for cluster in clusters(key) {
-        let behind_layer = cluster.iter().map(|member| first_free(&free, &rects[*member])).max().unwrap_or(0);
-        for &member in &cluster {
-            let rect = &rects[member];
-            let layer = first_free(&free, rect).max(behind_layer);
-            rect.tiles(across).for_each(|tile| free[tile] = layer + 1);
-            let overlaps = |other: &usize| *other != member && rect.overlaps(&rects[*other]);
-            let among: Vec<usize> = cluster.iter().copied().filter(overlaps).collect();
-            let mirrored = mirrored(key, member, &among);
-            let mirrors = !among.is_empty() || !mirrored.is_empty();
-            placed[member] = Some(Placed { rect: rect.clone(), layer, behind_layer, among, mirrored, mirrors });
+        let nearest = cluster.last().map(|member| &key.bubbles[*member]);
+        let nearest = nearest.map_or(0.0, |nearest| power(nearest.center_m, nearest.radius_m));
+        while let Some((place, _)) = small.next_if(|(_, power)| *power >= nearest) {
+            stack.add_small(place);
+        }
+        stack.add_cluster(&cluster);
+    }
+    small.for_each(|(place, _)| stack.add_small(place));
+    let mut composition = Composition { placed: stack.placed.into_iter().flatten().collect(), small: stack.small };
+    share_pipelines(key, &mut composition);
+    composition
+}
+
+/// A picture that is put together, from behind.
+struct Stack<'a> {
+    key: &'a DrawKey,
+    rects: Vec<PixelRect>,
+    /// Tiles side by side.
+    across: u32,
+    tiles: Vec<TileState>,
+    placed: Vec<Option<Placed>>,
+    small: BTreeMap<[usize; 2], Vec<usize>>,
+}
+
+impl<'a> Stack<'a> {
+    fn new(key: &'a DrawKey) -> Self {
+        let [across, down] = key.size.map(|pixels| pixels.div_ceil(TILE));
+        Self {
+            key,
+            rects: key.bubbles.iter().map(|bubble| PixelRect::around(bubble.bounds, key.size)).collect(),
+            across,
+            tiles: vec![TileState::default(); (across * down) as usize],
+            placed: vec![None; key.bubbles.len()],
+            small: BTreeMap::new(),
         }
     }
-    let mut placed: Vec<Placed> = placed.into_iter().flatten().collect();
-    share_pipelines(key, &mut placed);
-    placed
+
+    /// The first layer that is free wherever a rectangle is.
+    fn first_free(&self, rect: &PixelRect) -> usize {
+        rect.tiles(self.across).map(|tile| self.tiles[tile].free).max().unwrap_or(0)
+    }
+
+    fn add_cluster(&mut self, cluster: &[usize]) {
+        let behind_layer = cluster.iter().map(|member| self.first_free(&self.rects[*member])).max().unwrap_or(0);
+        for &member in cluster {
+            let rect = self.rects[member].clone();
+            let layer = self.first_free(&rect).max(behind_layer);
+            rect.tiles(self.across).for_each(|tile| self.tiles[tile] = TileState { free: layer + 1, small: None });
+            let overlaps = |other: &usize| *other != member && rect.overlaps(&self.rects[*other]);
+            let among: Vec<usize> = cluster.iter().copied().filter(overlaps).collect();
+            let mirrored = mirrored(self.key, member, &among);
+            let mirrors = !among.is_empty() || !mirrored.is_empty();
+            self.placed[member] = Some(Placed { rect, layer, behind_layer, among, mirrored, mirrors });
+        }
+    }
+
+    /// Small bubbles of one material share a layer, in which each lies over those before it.
+    fn add_small(&mut self, place: usize) {
+        let small = &self.key.small[place];
+        let material = self.key.lent[small.lent].material;
+        let rect = PixelRect::around(small.bounds, self.key.size);
+        let layer_of = |tile: &TileState| match tile.small {
+            Some([layer, of]) if of == material => layer,
+            _ => tile.free,
+        };
+        let Some(layer) = rect.tiles(self.across).map(|tile| layer_of(&self.tiles[tile])).max() else { return };
+        let state = TileState { free: layer + 1, small: Some([layer, material]) };
+        rect.tiles(self.across).for_each(|tile| self.tiles[tile] = state);
+        self.small.entry([layer, material]).or_default().push(place);
+    }
 }
 
 /// Draws bubbles by the same shaders that differ by little: to compile shaders for each kind takes longer than a frame.
-fn share_pipelines(key: &DrawKey, placed: &mut [Placed]) {
-    if placed.iter().any(|placed| placed.layer > 0 || !placed.among.is_empty()) {
+fn share_pipelines(key: &DrawKey, composition: &mut Composition) {
+    let Composition { placed, small } = composition;
+    // Small bubbles are always drawn over a picture.
+    if !small.is_empty() || placed.iter().any(|placed| placed.layer > 0 || !placed.among.is_empty()) {
         for placed in &mut *placed {
             (placed.layer, placed.behind_layer) = (placed.layer + 1, placed.behind_layer + 1);
         }
+        *small = std::mem::take(small).into_iter().map(|([layer, of], places)| ([layer + 1, of], places)).collect();
     }
     if placed.iter().any(|placed| !placed.mirrored.is_empty()) {
         for (bubble, placed) in key.bubbles.iter().zip(placed) {
@@ -195,8 +290,6 @@ fn mirrored(key: &DrawKey, index: usize, among: &[usize]) -> Vec<usize> {
 mod tests {
     use std::{collections::BTreeMap, sync::Arc};
 
-    use glam::DVec3;
-
     use super::*;
     use crate::{
         physics::{
@@ -237,7 +330,7 @@ mod tests {
             pace: Pace::Whole,
         };
         let key = request(&scene, &resources, &shot).unwrap().picture.draw;
-        let composition = composition(&key);
+        let composition = composition(&key).placed;
         let mut placed: Vec<(usize, Placed)> = key.bubbles.iter().map(|bubble| bubble.index).zip(composition).collect();
         placed.sort_by_key(|(index, _)| *index);
         placed.into_iter().map(|(_, placed)| placed).collect()

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::{
     abilities::missing_for_measurement,
-    composition::{Placed, composition},
+    composition::{Composition, composition},
     device::{Gpu, GpuError},
     draw::{DrawInputs, DrawPass, pixels_shaded, strips},
     environment::Environment,
@@ -22,10 +22,7 @@ use super::{
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{
-        BubbleKey, DrawKey, FieldKey, FilmKey, FrameRequest, GpuState, OpenHoleKey, Pass, Plan, TableKey, TonemapKey,
-        plan,
-    },
+    plan::{DrawKey, FieldKey, FilmKey, FrameRequest, GpuState, OpenHoleKey, Pass, Plan, TableKey, TonemapKey, plan},
 };
 
 /// Cells stepped in one submission, so that none runs long: about 50 ms on a software rasteriser.
@@ -319,7 +316,7 @@ impl Renderer {
         }
         let format = radiance_format(key.full_precision);
         let composition = composition(key);
-        let has_layers = composition.iter().any(|placed| placed.layer > 0);
+        let has_layers = composition.layers() > 1;
         let drawn_size = if has_layers { key.size } else { [1, 1] };
         for slot in &mut self.products.drawn {
             *slot = Some(Target::fit(slot.take(), &self.gpu, "drawn", drawn_size, format));
@@ -342,14 +339,15 @@ impl Renderer {
     }
 
     /// Copies the films of bubbles that others show to one texture.
-    fn gather_films(&mut self, key: &DrawKey, composition: &[Placed]) {
-        let shown_by_others = composition.iter().flat_map(|placed| placed.among.iter().chain(&placed.mirrored));
-        let film = |place: &usize| {
-            let BubbleKey { index, film, .. } = &key.bubbles[*place];
-            let field = matches!(film, FilmKey::Field(_)).then(|| self.products.films.get(*index)?.as_ref())??;
-            Some((*index, field.field.shown()))
+    fn gather_films(&mut self, key: &DrawKey, composition: &Composition) {
+        let of_others = composition.placed.iter().flat_map(|placed| placed.among.iter().chain(&placed.mirrored));
+        let of_others = of_others.map(|place| &key.bubbles[*place]).map(|bubble| (bubble.index, &bubble.film));
+        let lent = key.lent.iter().filter(|_| !key.small.is_empty()).map(|lent| (lent.index, &lent.film));
+        let film = |(index, film): (usize, &FilmKey)| {
+            let field = matches!(film, FilmKey::Field(_)).then(|| self.products.films.get(index)?.as_ref())??;
+            Some((index, field.field.shown()))
         };
-        let films: BTreeMap<usize, Shown<'_>> = shown_by_others.filter_map(film).collect();
+        let films: BTreeMap<usize, Shown<'_>> = of_others.chain(lent).filter_map(film).collect();
         let mut recorder = Recorder::new(&self.gpu);
         let (is_needed, atlas) = (!films.is_empty(), FilmAtlas::of(self.products.atlas.take(), &mut recorder, &films));
         if is_needed {
@@ -362,7 +360,7 @@ impl Renderer {
     fn draw_light(
         &mut self,
         key: &DrawKey,
-        composition: &[Placed],
+        composition: &Composition,
         light: usize,
         target: &Target,
     ) -> Result<(), GpuError> {

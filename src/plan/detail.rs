@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use crate::scene::{Boundary, Bubble, Change, Detail, Scene};
+use crate::scene::{Boundary, Bubble, Change, Detail, Film, Scene};
 
 /// Rows of the picture that bubbles are measured in.
 const ROWS: f64 = 1080.0;
@@ -23,9 +23,18 @@ const MIN_FLOW_CELLS: u32 = 64;
 #[must_use]
 pub fn film_grids(scene: &Scene, index: usize) -> [u32; 2] {
     let bubble = &scene.bubbles[index];
-    let cells = bubble.film.cells;
+    grids(&bubble.film, settled(scene, index, bubble))
+}
+
+/// The same of a film that bubbles share, which is seen on small ones most of the time.
+pub(super) fn shared_grids(film: &Film) -> [u32; 2] {
+    grids(film, if film.detail == Detail::Auto { Detail::Half } else { film.detail })
+}
+
+fn grids(film: &Film, detail: Detail) -> [u32; 2] {
+    let cells = film.cells;
     let all = [cells, cells.div_ceil(4).max(MIN_FLOW_CELLS)];
-    match settled(scene, index, bubble) {
+    match detail {
         Detail::Half => all.map(|cells| cells.div_ceil(2).max(MIN_CELLS)),
         Detail::Auto | Detail::Full => all,
     }

@@ -1,8 +1,8 @@
 //! Plans the fields of films: where one starts from, its steps, and what is shown.
 
-use std::ops::Range;
+use std::{collections::BTreeMap, ops::Range};
 
-use super::{FieldKey, FieldState, Moment, Pace, Pass, Planner, Reason};
+use super::{DrawKey, FieldKey, FieldState, FilmKey, Moment, Pace, Pass, Planner, Reason};
 
 /// Cells of all films together that are stepped per frame while a window waits for films to catch up.
 const CELLS_PER_FRAME: u64 = 800_000;
@@ -34,6 +34,26 @@ impl Planner {
     /// The tick that a film has reached. The film that is furthest behind goes first, so that none waits for ever.
     pub(super) fn reached_tick(&self, film: usize) -> u64 {
         self.after.fields.get(film).and_then(Option::as_ref).map_or(0, |field| field.key.moment.tick)
+    }
+
+    /// Plans the fields of all films in sight, each once, and puts what will be shown in their place.
+    pub(super) fn fields(&mut self, draw: &mut DrawKey) {
+        let mut shown: BTreeMap<usize, FieldKey> = BTreeMap::new();
+        for (index, film) in draw.films_mut() {
+            if let FilmKey::Field(field) = film {
+                shown.entry(index).or_insert_with(|| field.clone());
+            }
+        }
+        let mut order: Vec<usize> = shown.keys().copied().collect();
+        order.sort_by_key(|film| self.reached_tick(*film));
+        for film in order {
+            shown.entry(film).and_modify(|field| *field = self.field(film, field));
+        }
+        for (index, film) in draw.films_mut() {
+            if let FilmKey::Field(field) = film {
+                field.clone_from(&shown[&index]);
+            }
+        }
     }
 
     /// Plans a film's field and returns the key of what will be shown.

@@ -15,19 +15,23 @@ use crate::{
         flow::{AIR_DRAG, FlowForces},
         timeline::{Spans, Timeline},
     },
-    scene::{Blow, Bubble, Change, FilmStateName, Flow, Motion, Scene, Stir},
+    scene::{Blow, Bubble, Change, Event, FilmStateName, Flow, Motion, Stir},
 };
 
-/// All that ever happens to the bubbles of a scene, which moves so.
-pub(super) fn courses(scene: &Scene, motions: &Timeline<Motion>, turns: &Turns) -> Vec<Course> {
-    let mut changes = vec![Vec::new(); scene.bubbles.len()];
-    for event in &scene.events {
+/// All that ever happens to bubbles that move so, by the events that befall them.
+pub(super) fn courses(bubbles: &[Bubble], events: &[Event], motions: &Timeline<Motion>, turns: &Turns) -> Vec<Course> {
+    let mut changes = vec![Vec::new(); bubbles.len()];
+    for event in events {
         // What happens to bubbles that are not there happens to none.
         let Some(changes) = event.change.bubble().and_then(|bubble| changes.get_mut(bubble)) else { continue };
         changes.push((event.tick, &event.change));
     }
-    let bubbles = scene.bubbles.iter().zip(changes).enumerate();
-    bubbles.map(|(index, (bubble, changes))| course(bubble, index, &changes, motions, turns)).collect()
+    bubbles
+        .iter()
+        .zip(changes)
+        .enumerate()
+        .map(|(index, (bubble, changes))| course(bubble, index, &changes, motions, turns))
+        .collect()
 }
 
 /// What happens to one bubble.

@@ -6,6 +6,7 @@
 //! fewer cells.
 
 mod checkpoints;
+mod crowd;
 mod detail;
 mod fields;
 mod films;
@@ -23,8 +24,8 @@ pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary, FilmColours,
-    FilmKey, FlowLaw, FreeFlow, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey,
-    QuadratureKey, RestingFilm, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
+    FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey,
+    QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
 };
 pub use pass::{Pass, Reason};
 pub use request::{Resources, Shot, SpectralLight, request};
@@ -45,7 +46,7 @@ pub enum Pace {
 pub struct FrameRequest {
     /// The finished picture; the keys of everything before it are inside.
     pub picture: TonemapKey,
-    /// For each bubble of the scene, in sight or not, whether its film can move: fields of no other films are kept.
+    /// For each film, in sight or not, whether it can move: fields of no other films are kept.
     pub has_field: Vec<bool>,
     /// How much work may be done at once.
     pub pace: Pace,
@@ -148,7 +149,10 @@ impl fmt::Display for Plan {
                 Pass::StepField { film, ticks, .. } => format!("film {film}, ticks {}..{}", ticks.start, ticks.end),
                 Pass::ShowField { film, key } => format!("film {film} at {}", key.moment),
                 Pass::OpenHole { film, key } => format!("film {film}, {:.4} s after it burst", key.hole.seconds),
-                Pass::Draw(key) => format!("{}x{}, bubbles: {}", key.size[0], key.size[1], key.bubbles.len()),
+                Pass::Draw(key) => {
+                    let [width, height] = key.size;
+                    format!("{width}x{height}, bubbles: {}", key.bubbles.len() + key.small.len())
+                }
                 Pass::Tonemap(key) => format!("exposure {} EV", key.exposure_ev),
                 Pass::FitQuadrature { key, .. } => {
                     format!("{} wavelengths, {}, films to {} nm", key.count(), key.quality.name(), key.range_nm)
@@ -193,14 +197,10 @@ pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
             planner.environment(light, &lighting.environment);
         }
     }
-    let mut order: Vec<usize> = (0..draw.bubbles.len()).collect();
-    order.sort_by_key(|index| planner.reached_tick(draw.bubbles[*index].index));
-    for index in order {
-        if let FilmKey::Field(field) = &mut draw.bubbles[index].film {
-            *field = planner.field(request.picture.draw.bubbles[index].index, field);
-        }
-        if let Some(hole) = draw.bubbles[index].open_hole() {
-            planner.hole(draw.bubbles[index].index, hole);
+    planner.fields(draw);
+    for bubble in &draw.bubbles {
+        if let Some(hole) = bubble.open_hole() {
+            planner.hole(bubble.index, hole);
         }
     }
     planner.picture(&picture);

@@ -5,8 +5,10 @@ use std::{collections::BTreeMap, sync::Arc};
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LightKey, Lighting,
-    Moment, OpticsKey, Pace, QuadratureKey, Story, TableKey, TonemapKey, exposed_ev,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LentFilm, LightKey,
+    Lighting, Moment, OpticsKey, Pace, QuadratureKey, Story, TableKey, TonemapKey,
+    crowd::{InSight, in_sight},
+    exposed_ev,
     films::{cap, has_field},
     range_nm,
 };
@@ -90,16 +92,19 @@ impl Story {
             .enumerate()
             .filter_map(|(index, bubble)| visible(self, &camera, shot, index, bubble))
             .collect();
-        let materials = materials(scene, resources)?;
-        bubbles.iter_mut().for_each(|bubble| bubble.material = materials.of_bubble[bubble.index]);
+        let InSight { bubbles: made, small, mut lent } = in_sight(self, self.lenders(), &camera, shot);
+        bubbles.extend(made);
+        let materials = materials(self, resources)?;
+        bubbles.iter_mut().for_each(|bubble| bubble.material = materials.of_film[bubble.index]);
+        lent.iter_mut().for_each(|lent| lent.material = materials.of_film[lent.index]);
         // By the power of the eye with respect to each sphere, which orders all spheres that do not intersect as the eye sees them.
         let power = |bubble: &BubbleKey| bubble.center_m.distance_squared(camera.eye_m) - bubble.radius_m.powi(2);
         bubbles.sort_by(|a, b| power(b).total_cmp(&power(a)));
-        let films = materials.of_films(&bubbles);
+        let films = materials.in_sight(&bubbles, &lent);
+        let are_many = bubbles.len() + small.len() > 1 || !small.is_empty();
         let own =
             SpectralLight { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
-        let lighting =
-            |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &films, bubbles.len() > 1);
+        let lighting = |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &films, are_many);
         let light = light(scene, resources, &camera);
         let draw = DrawKey {
             size: shot.size,
@@ -114,6 +119,8 @@ impl Story {
                 .map(|source| lighting(source, light_of(scene, source, light)))
                 .collect(),
             bubbles,
+            small,
+            lent,
             on_bath: bath_m.is_some(),
         };
         let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
@@ -121,7 +128,7 @@ impl Story {
         let balance = if balances { white_balance(&resources.illuminant) } else { DMat3::IDENTITY };
         let exposure_ev = scene.view.exposure_ev;
         let picture = TonemapKey { draw, exposure_ev, balance, gamut: shot.gamut, dither };
-        Ok(FrameRequest { picture, has_field: scene.bubbles.iter().map(has_field).collect(), pace: shot.pace })
+        Ok(FrameRequest { picture, has_field: self.owners().iter().map(has_field).collect(), pace: shot.pace })
     }
 }
 
@@ -205,36 +212,38 @@ fn table(scene: &Scene, source: &SpectralLight, light: &LightKey, full: TableKey
 struct Materials {
     /// Each material once, in the order of the bubbles.
     list: Vec<FilmMaterial>,
-    /// The place in the list of each bubble's film.
-    of_bubble: Vec<usize>,
+    /// The place in the list of each film's material.
+    of_film: Vec<usize>,
 }
 
 impl Materials {
     /// Each material, and the range of thicknesses that films of it have which are in sight.
-    fn of_films(&self, bubbles: &[BubbleKey]) -> Vec<(FilmMaterial, f64)> {
+    fn in_sight(&self, bubbles: &[BubbleKey], lent: &[LentFilm]) -> Vec<(FilmMaterial, f64)> {
         let mut thickest = vec![0.0_f64; self.list.len()];
-        bubbles
-            .iter()
-            .for_each(|bubble| thickest[bubble.material] = thickest[bubble.material].max(thickest_nm(bubble)));
+        let mut add = |material: usize, nm: f64| thickest[material] = thickest[material].max(nm);
+        bubbles.iter().for_each(|bubble| add(bubble.material, bubble.thickness_factor * thickest_nm(&bubble.film)));
+        // Not by the bubbles that happen to be in sight: the table must not change with them.
+        lent.iter().for_each(|lent| add(lent.material, lent.max_thickness_factor * thickest_nm(&lent.film)));
         self.list.iter().cloned().zip(thickest.into_iter().map(range_nm)).collect()
     }
 }
 
 /// The materials of all films of a scene, in sight or not.
-fn materials(scene: &Scene, resources: &Resources) -> Result<Materials, Fault> {
+fn materials(story: &Story, resources: &Resources) -> Result<Materials, Fault> {
     let mut named: Vec<(&FilmIndexName, f64)> = Vec::new();
-    let mut materials = Materials { list: Vec::new(), of_bubble: Vec::new() };
-    for (number, Bubble { film, .. }) in scene.bubbles.iter().enumerate() {
+    let mut materials = Materials { list: Vec::new(), of_film: Vec::new() };
+    for (number, Bubble { film, .. }) in story.owners().iter().enumerate() {
         let name = (&film.index, film.skin_nm);
         let known = named.iter().position(|known| *known == name);
         let place = known.unwrap_or(named.len());
         if known.is_none() {
             let index = film_index(&film.index, resources);
-            let refused = |error| Fault::unusable("index", error).inside("film").inside_item("bubble", number);
+            let (list, number) = story.place_of_film(number);
+            let refused = |error| Fault::unusable("index", error).inside("film").inside_item(list, number);
             materials.list.push(FilmMaterial { index: index.map_err(refused)?, skin_nm: film.skin_nm });
             named.push(name);
         }
-        materials.of_bubble.push(place);
+        materials.of_film.push(place);
     }
     if materials.list.is_empty() {
         // What the light's own colour is told from.
@@ -253,15 +262,15 @@ fn film_index(index: &FilmIndexName, resources: &Resources) -> Result<FilmIndex,
     }
 }
 
-fn thickest_nm(bubble: &BubbleKey) -> f64 {
-    match &bubble.film {
+fn thickest_nm(film: &FilmKey) -> f64 {
+    match film {
         FilmKey::Uniform(thickness_nm) => *thickness_nm,
         FilmKey::Field(field) => field.initial.range_nm().1,
     }
 }
 
 /// Radius in pixels below which a film's field cannot be seen: it is drawn with its mean thickness.
-const SMALLEST_FIELD_PIXELS: f64 = 0.75;
+pub(super) const SMALLEST_FIELD_PIXELS: f64 = 0.75;
 
 /// A bubble as the picture sees it, if any pixel can.
 fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
@@ -297,6 +306,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         filtered: age.hole.is_none() && is_filtered(&film, radius_pixels),
         magnified: is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m)),
         film,
+        thickness_factor: 1.0,
         hole: age.hole,
         cap: cap(bubble),
     })
@@ -305,7 +315,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
 /// Pixels that a cell of a film must span for the film to be looked up at each pixel: below that, a cell is interpolated well enough.
 const MAGNIFIED_CELL_PIXELS: f64 = 3.0;
 
-fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f64) -> bool {
+pub(super) fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f64) -> bool {
     let FilmKey::Field(field) = film else { return false };
     // From inside, and for the nearest point from outside, the film is nearer than the center.
     let nearest_m = (distance_m - radius_m).abs().max(1e-3 * radius_m);
@@ -315,7 +325,7 @@ fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f
 
 /// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples per pixel
 /// see that better than a filter which takes the film to change evenly from pixel to pixel.
-fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
+pub(super) fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
     let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < 1.0);
     is_finer && samples(radius_pixels) == 1
 }
@@ -325,7 +335,7 @@ const RING_SAMPLES: u32 = 2;
 
 /// Samples along a pixel's side: bubbles of few pixels need more, for their film and their reflections are finer than a pixel. About as many
 /// rays meet every such bubble, 50 000 to 80 000, a quarter of what a bubble takes that fills a picture of 1280 x 720.
-fn samples(radius_pixels: f64) -> u32 {
+pub(super) fn samples(radius_pixels: f64) -> u32 {
     match radius_pixels {
         r if r < 9.0 => 16,
         r if r < 13.0 => 12,
@@ -339,7 +349,7 @@ fn samples(radius_pixels: f64) -> u32 {
 }
 
 /// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; `None` if it is outside.
-fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
+pub(super) fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
     let offset = center_m - camera.eye_m;
     let depth = offset.dot(camera.forward);
     if depth < -radius_m {

@@ -6,7 +6,8 @@ use glam::{DQuat, DVec3};
 
 use super::{
     FilmKey, Moment,
-    detail::film_grids,
+    crowd::{Lender, owners},
+    detail::{film_grids, shared_grids},
     films::{film, has_field},
     laws::courses,
     turns::Turns,
@@ -16,7 +17,7 @@ use crate::{
         bubble::{Age, LifeCycle},
         timeline::Timeline,
     },
-    scene::{Bubble, Event, Motion, Scene},
+    scene::{Bubble, Event, Generator, Motion, Scene},
 };
 
 /// A scene and its story. It reads as the scene, and changes by [`Story::change`] alone, so that both always agree. What follows from the scene
@@ -32,7 +33,9 @@ pub struct Story {
 #[derive(Debug)]
 struct Plot {
     /// The parts that it follows from.
-    source: (Motion, Vec<Bubble>, Vec<Event>),
+    source: (Motion, Vec<Bubble>, Vec<Generator>, Vec<Event>),
+    owners: Vec<Bubble>,
+    lenders: Vec<Lender>,
     motions: Timeline<Motion>,
     turns: Turns,
     life_cycles: Vec<LifeCycle>,
@@ -69,6 +72,25 @@ impl Story {
         self.plot().turns.at(ticks)
     }
 
+    /// The bubbles of the scene, and then one for each film that generators lend: the index of a film is that of its owner.
+    #[must_use]
+    pub fn owners(&self) -> &[Bubble] {
+        &self.plot().owners
+    }
+
+    /// The list of the scene that names a film, and the item there: a bubble or a generator.
+    pub(super) fn place_of_film(&self, index: usize) -> (&'static str, usize) {
+        if index < self.bubbles.len() {
+            return ("bubble", index);
+        }
+        ("generator", self.lenders().partition_point(|lender| lender.first_owner() <= index) - 1)
+    }
+
+    /// What the generators of the scene make.
+    pub(super) fn lenders(&self) -> &[Lender] {
+        &self.plot().lenders
+    }
+
     /// Where the center of a bubble is at a time in seconds, m; the origin for a bubble that there is not.
     #[must_use]
     pub fn center_m(&self, index: usize, time_s: f64) -> DVec3 {
@@ -95,17 +117,20 @@ impl Story {
 
     /// What the film of a bubble of the scene is at an age.
     pub(super) fn film_of_age(&self, index: usize, age: &Age) -> FilmKey {
-        film(&self.bubbles[index], age, self.grids()[index], &self.motion)
+        film(&self.owners()[index], age, self.grids()[index], &self.motion)
     }
 
     /// Cells along a panel's edge of a bubble's film, and of its flow where that is coarser; `None` for a film of one thickness.
     #[must_use]
     pub fn field_grids(&self, index: usize) -> Option<[u32; 2]> {
-        self.bubbles.get(index).filter(|bubble| has_field(bubble)).map(|_| self.grids()[index])
+        self.owners().get(index).filter(|bubble| has_field(bubble)).map(|_| self.grids()[index])
     }
 
     fn grids(&self) -> &[[u32; 2]] {
-        self.grids.get_or_init(|| (0..self.bubbles.len()).map(|index| film_grids(self, index)).collect())
+        self.grids.get_or_init(|| {
+            let own = (0..self.bubbles.len()).map(|index| film_grids(self, index));
+            own.chain(self.owners()[self.bubbles.len()..].iter().map(|owner| shared_grids(&owner.film))).collect()
+        })
     }
 
     fn plot(&self) -> &Plot {
@@ -125,14 +150,22 @@ impl Plot {
     fn new(scene: &Scene) -> Self {
         let motions = scene.motions().collect();
         let turns = Turns::new(&motions, scene.motion.tick_s);
-        let life_cycles = courses(scene, &motions, &turns).into_iter().map(LifeCycle::new).collect();
-        let source = (scene.motion.clone(), scene.bubbles.clone(), scene.events.clone());
-        Self { source, motions, turns, life_cycles }
+        let (mut all, mut lenders) = (scene.bubbles.clone(), Vec::new());
+        for generator in &scene.generators {
+            lenders.push(Lender::new(generator, all.len(), scene.motion.tick_s));
+            all.extend(owners(generator));
+        }
+        let mut courses = courses(&all, &scene.events, &motions, &turns).into_iter();
+        let mut life_cycles: Vec<LifeCycle> = courses.by_ref().take(scene.bubbles.len()).map(LifeCycle::new).collect();
+        let renewals = lenders.iter().flat_map(Lender::renewals);
+        life_cycles.extend(courses.zip(renewals).map(|(course, renewal)| LifeCycle::shared(course, renewal)));
+        let source = (scene.motion.clone(), scene.bubbles.clone(), scene.generators.clone(), scene.events.clone());
+        Self { source, owners: all, lenders, motions, turns, life_cycles }
     }
 
     /// Whether it follows from a scene.
     fn is_of(&self, scene: &Scene) -> bool {
-        let (motion, bubbles, events) = &self.source;
-        (motion, bubbles, events) == (&scene.motion, &scene.bubbles, &scene.events)
+        let (motion, bubbles, generators, events) = &self.source;
+        (motion, bubbles, generators, events) == (&scene.motion, &scene.bubbles, &scene.generators, &scene.events)
     }
 }

@@ -71,7 +71,7 @@ section! {
 }
 
 impl Film {
-    fn check(&self) -> Checked {
+    pub(super) fn check(&self) -> Checked {
         if self.state == FilmStateName::Uniform && (0.0..MIN_FLOWING_NM).contains(&self.thickness_nm) {
             return Self { thickness_nm: MIN_FLOWING_NM, ..self.clone() }.check();
         }

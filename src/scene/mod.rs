@@ -12,7 +12,9 @@ mod check;
 mod document;
 mod error;
 mod event;
+mod generator;
 mod light;
+mod memory;
 mod motion;
 mod preset;
 mod section;
@@ -32,6 +34,7 @@ pub use camera::{Camera, CameraKeys};
 pub use check::Fault;
 pub use error::{Problem, SceneError};
 pub use event::{Blow, BlowKeys, Change, Drag, DragKeys, Event, Prick, PrickKeys, Stir, StirKeys};
+pub use generator::{Generator, GeneratorKeys, Layout};
 pub use light::{
     Backdrop, Environment, Light, LightKeys, LightPatch, LightPatchKeys, MAX_PATCHES, Quality, View, ViewKeys,
 };
@@ -43,13 +46,11 @@ pub use source::SceneSource;
 pub use words::{nearest, shorten};
 
 use check::Checked;
+use memory::Memory;
 use serde::{Deserialize, Serialize};
 
 /// The version of the scene format that this program reads and writes.
 pub const VERSION: u32 = 1;
-
-/// The largest number of bubbles in one scene: what the uniform buffers of every supported GPU hold.
-pub const MAX_BUBBLES: usize = 42;
 
 /// Everything that decides a picture, apart from its size, its quality and the moment it shows.
 ///
@@ -59,9 +60,12 @@ pub const MAX_BUBBLES: usize = 42;
 pub struct Scene {
     /// Version of the format: [`VERSION`].
     pub version: u32,
-    /// The bubbles, at most [`MAX_BUBBLES`]. A file without any `[[bubble]]` has one default bubble; `bubble = []` has none.
+    /// The bubbles that have films of their own. A file without any `[[bubble]]` has one default bubble; `bubble = []` has none.
     #[serde(rename = "bubble")]
     pub bubbles: Vec<Bubble>,
+    /// Bubbles that share films, many at once.
+    #[serde(rename = "generator", skip_serializing_if = "Vec::is_empty")]
+    pub generators: Vec<Generator>,
     /// From where it is seen.
     pub camera: Camera,
     /// What lights it.
@@ -81,6 +85,7 @@ impl Default for Scene {
         Self {
             version: VERSION,
             bubbles: vec![Bubble::default()],
+            generators: Vec::new(),
             camera: Camera::default(),
             light: Light::default(),
             view: View::default(),
@@ -166,7 +171,9 @@ impl Scene {
             Environment::Tent | Environment::Windows => None,
         };
         let patches = self.light.patches.iter_mut().map(|patch| &mut patch.illuminant);
-        let liquids = self.bubbles.iter_mut().filter_map(|bubble| match &mut bubble.film.index {
+        let films = self.bubbles.iter_mut().map(|bubble| &mut bubble.film);
+        let films = films.chain(self.generators.iter_mut().map(|generator| &mut generator.film));
+        let liquids = films.filter_map(|film| match &mut film.index {
             FilmIndexName::Named(name) => Some(name),
             FilmIndexName::Water | FilmIndexName::Constant(_) => None,
         });
@@ -176,8 +183,9 @@ impl Scene {
 
     fn check(&self) -> Checked {
         check::in_range("version", self.version, VERSION..=VERSION)?;
-        check::at_most("bubble", self.bubbles.len(), MAX_BUBBLES)?;
         check::each("bubble", &self.bubbles, Bubble::check)?;
+        check::each("generator", &self.generators, Generator::check)?;
+        self.check_memory()?;
         self.camera.check_ranges().map_err(|fault| fault.inside("camera"))?;
         self.light.check().map_err(|fault| fault.inside("light"))?;
         self.view.check_ranges().map_err(|fault| fault.inside("view"))?;
@@ -185,6 +193,20 @@ impl Scene {
         check::each("event", &self.events, |event| event.check(self.bubbles.len()))?;
         self.check_boundaries()?;
         self.check_order()
+    }
+
+    /// Refuses more films and more bubbles than there is memory for, before any is made.
+    fn check_memory(&self) -> Checked {
+        let mut memory = Memory::default();
+        for (index, bubble) in self.bubbles.iter().enumerate() {
+            memory
+                .add_films(&bubble.film, 1)
+                .map_err(|reason| Fault::new("film", reason).inside_item("bubble", index))?;
+        }
+        for (index, generator) in self.generators.iter().enumerate() {
+            memory.add_bubbles(generator).map_err(|fault| fault.inside_item("generator", index))?;
+        }
+        Ok(())
     }
 
     /// A bath is one plane that all bubbles stand on, and films that end somewhere do not turn that end away.
@@ -195,6 +217,11 @@ impl Scene {
             if let Some(other) = self.bubbles.iter().position(|bubble| !stands(bubble)) {
                 let reason = "is not on the bath that others stand on; give all bubbles `boundary = \"bath\"` and the same height";
                 return Err(Fault::new("boundary", reason).inside_item("bubble", other));
+            }
+            if !self.generators.is_empty() {
+                let reason =
+                    "makes bubbles over a bath, which cannot be drawn yet; leave out the bath or the generator";
+                return Err(Fault::new("layout", reason).inside_item("generator", 0));
             }
             let lifts =
                 |event: &Event| matches!(&event.change, Change::Drag(drag) if drag.to_m[2] != first.center_m[2]);

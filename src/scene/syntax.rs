@@ -3,7 +3,7 @@
 use super::check::BACKSLASHES;
 use super::error::{Located, Problem};
 use super::words::shorten;
-use super::{Bubble, Change, Event, Light, LightPatch, Scene, View};
+use super::{Bubble, Change, Event, Generator, Light, LightPatch, Scene, View};
 use toml::Table;
 use toml::de::Error;
 
@@ -14,6 +14,7 @@ const LONGEST_QUOTE: usize = 60;
 pub(super) fn every_key() -> Table {
     let scene = Scene {
         bubbles: vec![Bubble::default()],
+        generators: vec![Generator::default()],
         light: Light {
             constant: Some([0.0; 3]),
             patches: vec![LightPatch { radiance: Some([0.0; 3]), ..LightPatch::default() }],

@@ -92,7 +92,10 @@ impl Asked {
         let mut close_up = loaded.clone();
         look_at(&mut close_up.scene, bubble, time_s);
         let mut request = shot(&close_up, SIZE, moment, false)?;
-        request.picture.draw.bubbles.retain(|key| key.index == bubble);
+        let draw = &mut request.picture.draw;
+        draw.bubbles.retain(|key| key.index == bubble);
+        draw.small.clear();
+        draw.lent.clear();
         let key = request.picture.draw.bubbles.first().cloned().ok_or(Error::NoFilm { bubble, time_s })?;
         Ok(Self { request, key, cells: film_grids(&close_up.scene, bubble)[0] })
     }

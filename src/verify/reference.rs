@@ -109,11 +109,12 @@ fn in_light(
             thickness_nm,
         })
     };
+    let bubbles = key.all_bubbles();
     let scene = PictureScene {
         size: key.size,
         camera: camera(&key.camera),
         light: optics[0].weights(),
-        spheres: key.bubbles.iter().map(sphere).collect::<Result<_, _>>()?,
+        spheres: bubbles.iter().map(sphere).collect::<Result<_, _>>()?,
         surroundings: &surroundings,
         backdrop: match light.backdrop {
             BackdropKey::Environment => None,
@@ -121,8 +122,8 @@ fn in_light(
         },
         polariser: light.polariser,
         on_bath: key.on_bath,
-        negligible: if key.bubbles.len() > 1 { NEGLIGIBLE_OF_MANY } else { NEGLIGIBLE_OF_ONE },
-        samples: key.bubbles.iter().map(|bubble| bubble.samples).fold(SAMPLES, u32::max),
+        negligible: if bubbles.len() > 1 { NEGLIGIBLE_OF_MANY } else { NEGLIGIBLE_OF_ONE },
+        samples: bubbles.iter().map(|bubble| bubble.samples).fold(SAMPLES, u32::max),
     };
     Ok(seen(&scene))
 }
@@ -180,14 +181,14 @@ pub fn film_thickness<'a>(
             Box::new(move |direction| film.value(direction))
         }
     };
-    let (to_film, evaporated_nm, cap) = (key.to_film, key.evaporated_nm, key.cap);
+    let BubbleKey { to_film, evaporated_nm, cap, thickness_factor, .. } = *key;
     let film_nm = move |direction: DVec3| {
         let direction = match cap {
             Some(cap) if on_bath => cap.folded(direction),
             Some(cap) if !cap.contains(direction) => return 0.0,
             _ => direction,
         };
-        remaining_nm(field(direction), evaporated_nm)
+        remaining_nm(thickness_factor * field(direction), evaporated_nm)
     };
     Ok(match key.hole {
         None => Box::new(move |direction| film_nm(to_film * direction)),

@@ -1,9 +1,10 @@
 //! Draws the linear picture: the backdrop, then the bubbles, layer by layer, each ring by ring.
 
+mod small;
 mod values;
 
 use super::{
-    composition::{PixelRect, Placed},
+    composition::{Composition, PixelRect, Placed},
     device::{Gpu, GpuError},
     environment::Environment,
     film_atlas::FilmAtlas,
@@ -23,7 +24,10 @@ use super::{
     uniform_buffer::UniformBuffer,
 };
 use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting};
-use values::{backdrop_colour, bubble_uniform, light_uniform, list_part, other_bubble, ring_overrides, view_uniform};
+use values::{
+    backdrop_colour, bubble_uniform, light_uniform, list_part, other_bubble, ring_overrides, small_bubbles,
+    view_uniform,
+};
 
 /// What a draw reads that other passes left.
 pub struct DrawInputs<'a> {
@@ -36,7 +40,7 @@ pub struct DrawInputs<'a> {
     /// The hole in a film that bursts, by the film's index.
     pub hole: &'a dyn Fn(usize) -> Option<&'a OpenHole>,
     /// How the bubbles lie over one another.
-    pub composition: &'a [Placed],
+    pub composition: &'a Composition,
     /// The pictures of what is behind a layer, and of all before it; as large as the picture if there is more than one layer.
     pub drawn: [&'a Target; 2],
     /// Films of bubbles that others show.
@@ -69,6 +73,8 @@ struct Layer {
     so_far: Vec<PixelRect>,
     /// The rings of all bubbles, each with its number of vertices.
     rings: Vec<(Drawable, u32)>,
+    /// Small bubbles of a material each, with the pixels that show them.
+    small: Vec<(Drawable, PixelRect)>,
 }
 
 /// What stands behind all bubbles.
@@ -105,7 +111,7 @@ struct Others {
 impl Others {
     fn new(gpu: &Gpu, key: &DrawKey, lighting: &Lighting, inputs: &DrawInputs<'_>) -> Self {
         let (mut lists, mut first) = (Vec::new(), Vec::new());
-        for placed in inputs.composition {
+        for placed in &inputs.composition.placed {
             first.push(lists.len() as u32);
             lists.extend(placed.among.iter().chain(&placed.mirrored).map(|place| *place as u32));
         }
@@ -176,9 +182,8 @@ impl DrawPass {
         let unread = |films: &FilmColours| films.table.is_none().then(|| Table::unread(gpu, &films.quadrature.optics));
         let unread: Vec<Option<Table>> = lighting.films.iter().map(unread).collect();
         let (no_film, no_hole) = (NoFilm::new(gpu), OpenHole::new(gpu));
-        let count = inputs.composition.iter().map(|placed| placed.layer + 1).max().unwrap_or(0);
-        pass.layers.resize_with(count, Layer::default);
-        for (place, (bubble, placed)) in key.bubbles.iter().zip(inputs.composition).enumerate() {
+        pass.layers.resize_with(inputs.composition.layers(), Layer::default);
+        for (place, (bubble, placed)) in key.bubbles.iter().zip(&inputs.composition.placed).enumerate() {
             let Some((table, quadrature)) = (inputs.colours)(bubble.material) else { continue };
             let films = &lighting.films[bubble.material];
             let Some(table) = unread[bubble.material].as_ref().or(table) else { continue };
@@ -196,6 +201,13 @@ impl DrawPass {
                 pass.layers[placed.layer].so_far.push(placed.rect.clone());
             }
         }
+        let all = small_bubbles(key, lighting, inputs.atlas);
+        for ([layer, material], places) in &inputs.composition.small {
+            let Some((Some(table), _)) = (inputs.colours)(*material) else { continue };
+            let Some((small, rect)) = shared.small(gpu, table, &all, places)? else { continue };
+            pass.layers[*layer].behind.push(rect.clone());
+            pass.layers[*layer].small.push((small, rect));
+        }
         Ok(pass)
     }
 
@@ -212,22 +224,29 @@ impl DrawPass {
             // The first rows clear the whole picture.
             BackdropDraw::Colour(colour) => (None, (rows.start == 0).then_some(*colour)),
         };
-        let draw = |recorder: &mut Recorder<'_>, rings: &[(Drawable, u32)], backdrop: Option<&Drawable>, clear| {
+        let draw = |recorder: &mut Recorder<'_>, layer: &Layer, backdrop: Option<&Drawable>, clear| {
+            let mut draws = 0;
             recorder.render("draw", &target.view, clear, |pass| {
                 pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
                 backdrop.into_iter().for_each(|backdrop| backdrop.draw(pass, 3));
-                rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
+                layer.rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
+                for (small, rect) in &layer.small {
+                    let Some(PixelRect { columns, rows }) = rect.within(rows) else { continue };
+                    pass.set_scissor_rect(columns.start, rows.start, columns.len() as u32, rows.len() as u32);
+                    small.draw(pass, 3);
+                    draws += 1;
+                }
             });
-            recorder.counts.draws += u64::from(backdrop.is_some()) + rings.len() as u64;
+            recorder.counts.draws += u64::from(backdrop.is_some()) + layer.rings.len() as u64 + draws;
         };
-        let mut layers = self.layers.iter();
-        draw(recorder, layers.next().map_or(&[], |layer| &layer.rings), backdrop, colour);
-        for layer in layers {
+        let Some((first, later)) = self.layers.split_first() else { return };
+        draw(recorder, first, backdrop, colour);
+        for layer in later {
             for (rects, to) in [(&layer.behind, behind), (&layer.so_far, so_far)] {
                 let parts = rects.iter().filter_map(|rect| rect.within(rows));
                 parts.for_each(|part| copy_part(recorder.encoder(), target, to, &part));
             }
-            draw(recorder, &layer.rings, None, None);
+            draw(recorder, layer, None, None);
         }
     }
 }
@@ -288,21 +307,9 @@ impl Shared<'_> {
 /// Pixels that the picture's draws cover: all of the backdrop, and each bubble's bounding rectangle.
 #[must_use]
 pub fn pixels_shaded(key: &DrawKey) -> u64 {
-    let [width, height] = key.size.map(u64::from);
-    let bubble = |bubble: &BubbleKey| {
-        let [x, y] =
-            [0, 1].map(|axis| pixel_span(bubble, key.size[axis], axis)).map(|[low, high]| u64::from(high - low));
-        x * y
-    };
-    width * height + key.bubbles.iter().map(bubble).sum::<u64>()
-}
-
-/// First and last pixel of a bounding rectangle along one axis.
-fn pixel_span(bubble: &BubbleKey, size: u32, axis: usize) -> [u32; 2] {
-    bubble.bounds.map(|corner| {
-        let clip = if axis == 0 { corner.x } else { corner.y };
-        ((clip + 1.0) * 0.5 * f64::from(size)).round().clamp(0.0, f64::from(size)) as u32
-    })
+    let bounds = key.bubbles.iter().map(|bubble| bubble.bounds).chain(key.small.iter().map(|small| small.bounds));
+    let bubbles: u64 = bounds.map(|bounds| PixelRect::around(bounds, key.size).pixels()).sum();
+    key.size.map(u64::from).iter().product::<u64>() + bubbles
 }
 
 fn bubble_rings(key: &DrawKey, bubble: &BubbleKey, FilmColours { quadrature, .. }: &FilmColours) -> Vec<Ring> {

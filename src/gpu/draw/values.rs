@@ -14,7 +14,7 @@ use crate::{
         quadrature::Quadrature,
     },
     physics::colour::unseen,
-    plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmKey, Lighting},
+    plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmKey, Lighting, SmallBubble},
 };
 
 /// The largest half float: the twin of `storable` in `shaders/light/stored.wgsl`.
@@ -29,6 +29,21 @@ const ITERATIONS_BESIDE_QUADRATURE: u32 = 64;
 /// Samples along each side of a pixel for which a fragment's loops run to their end.
 fn max_samples(quadrature: &Quadrature) -> u32 {
     (MAX_ITERATIONS / (quadrature.count + ITERATIONS_BESIDE_QUADRATURE)).isqrt()
+}
+
+/// Samples that all small bubbles of a picture may take, as many as a bubble takes that fills a picture.
+const SMALL_SAMPLES: f64 = 600_000.0;
+
+/// Samples along each side of a pixel of small bubbles, of which a tile has `most` at most.
+pub(super) fn max_small_samples(key: &DrawKey, most: u32) -> u32 {
+    let radius_pixels =
+        |small: &SmallBubble| small.radius_m / small.center_m.distance(key.camera.eye_m) / key.camera.pixel_height_m;
+    // Bubbles of less than a pixel are sampled as often as those of a pixel.
+    let area = |small: &SmallBubble| std::f64::consts::PI * (radius_pixels(small) + 1.0).powi(2);
+    let pixels: f64 = key.small.iter().map(area).sum();
+    let affordable = |samples: &u32| f64::from(samples.pow(2)) * pixels <= SMALL_SAMPLES;
+    let ends = |samples: &u32| samples.pow(2).saturating_mul(most) <= MAX_ITERATIONS;
+    [4, 2].into_iter().find(|samples| affordable(samples) && ends(samples)).unwrap_or(1)
 }
 
 /// The constants of a ring's shaders.
@@ -130,7 +145,8 @@ pub(super) fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform 
         skins_nm: (2.0 * film.skin_nm).max(1e-3) as f32,
         map_cells: shown.map_cells,
         rim_z: bubble.cap.map_or(-2.0, |cap| cap.rim_z as f32),
-        padding: [0.0; 3],
+        thickness_factor: bubble.thickness_factor as f32,
+        padding: [0.0; 2],
     }
 }
 
@@ -145,25 +161,61 @@ pub(super) fn list_part(Drawn { placed, first_other, .. }: &Drawn<'_>) -> ListPa
 
 /// A bubble as others show it.
 pub(super) fn other_bubble(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey, atlas: &FilmAtlas) -> OtherBubble {
-    let film = &lighting.films[bubble.material].quadrature.optics.film;
-    let (origin, cells, thickness_nm) = match (&bubble.film, atlas.place(bubble.index)) {
-        (FilmKey::Uniform(thickness_nm), _) => ([0; 2], 0, *thickness_nm),
-        (FilmKey::Field(field), Some(origin)) => (origin, field.cells, 0.0),
-        (FilmKey::Field(field), None) => ([0; 2], 0, field.initial.mean_nm()),
-    };
     OtherBubble {
         to_center_m: floats(bubble.center_m - key.camera.eye_m),
         radius_m: bubble.radius_m as f32,
         to_film: bubble.to_film.into(),
+        evaporated_nm: bubble.evaporated_nm as f32,
+        // What a bath mirrors is as much of the bubble.
+        rim_z: bubble.cap.filter(|_| !key.on_bath).map_or(-2.0, |cap| cap.rim_z as f32),
+        thickness_factor: bubble.thickness_factor as f32,
+        ..film_of_others(lighting, bubble.material, (bubble.index, &bubble.film), atlas)
+    }
+}
+
+/// All small bubbles, in the order of the key.
+pub(super) fn small_bubbles(key: &DrawKey, lighting: &Lighting, atlas: &FilmAtlas) -> Vec<OtherBubble> {
+    let lent = key.lent.iter().map(|lent| OtherBubble {
+        evaporated_nm: lent.evaporated_nm as f32,
+        ..film_of_others(lighting, lent.material, (lent.index, &lent.film), atlas)
+    });
+    let lent: Vec<OtherBubble> = lent.collect();
+    let small = key.small.iter().map(|small| OtherBubble {
+        to_center_m: floats(small.center_m - key.camera.eye_m),
+        radius_m: small.radius_m as f32,
+        to_film: small.to_film(&key.lent[small.lent]).into(),
+        thickness_factor: small.thickness_factor as f32,
+        ..lent[small.lent]
+    });
+    small.collect()
+}
+
+/// What others show of a film, on a bubble that has no place yet.
+fn film_of_others(
+    lighting: &Lighting,
+    material: usize,
+    (index, film): (usize, &FilmKey),
+    atlas: &FilmAtlas,
+) -> OtherBubble {
+    let (origin, cells, thickness_nm) = match (film, atlas.place(index)) {
+        (FilmKey::Uniform(thickness_nm), _) => ([0; 2], 0, *thickness_nm),
+        (FilmKey::Field(field), Some(origin)) => (origin, field.cells, 0.0),
+        (FilmKey::Field(field), None) => ([0; 2], 0, field.initial.mean_nm()),
+    };
+    let film = &lighting.films[material].quadrature.optics.film;
+    OtherBubble {
+        to_center_m: [0.0; 3],
+        radius_m: 0.0,
+        to_film: DMat3::IDENTITY.into(),
         origin,
         cells,
         thickness_nm: thickness_nm as f32,
-        evaporated_nm: bubble.evaporated_nm as f32,
+        evaporated_nm: 0.0,
         black_nm: BLACK_FILM_NM as f32,
         extra_nm: film.equivalent_extra_nm() as f32,
         skins_nm: (2.0 * film.skin_nm).max(1e-3) as f32,
-        // What a bath mirrors is as much of the bubble.
-        rim_z: bubble.cap.filter(|_| !key.on_bath).map_or(-2.0, |cap| cap.rim_z as f32),
-        padding: [0.0; 3],
+        rim_z: -2.0,
+        thickness_factor: 1.0,
+        padding: [0.0; 2],
     }
 }

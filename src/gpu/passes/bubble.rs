@@ -52,8 +52,10 @@ shader_struct! {
         pub map_cells: u32,
         /// Height of the ring that the film ends at, over the radius.
         pub rim_z: f32,
+        /// How much thicker the bubble is than the film shows.
+        pub thickness_factor: f32,
         /// Fills 16 bytes.
-        pub padding: [f32; 3],
+        pub padding: [f32; 2],
     }
 }
 
@@ -94,8 +96,10 @@ shader_struct! {
         pub skins_nm: f32,
         /// Height of the ring that the film ends at, over the radius.
         pub rim_z: f32,
+        /// How much thicker the bubble is than the film shows.
+        pub thickness_factor: f32,
         /// Fills 16 bytes.
-        pub padding: [f32; 3],
+        pub padding: [f32; 2],
     }
 }
 

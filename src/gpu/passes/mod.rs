@@ -36,6 +36,7 @@ pub mod reset_map;
 pub mod sample_tracer;
 pub mod settle_tracer;
 pub mod show_film;
+pub mod small_bubbles;
 pub mod tonemap;
 pub mod trace_flow;
 pub mod trace_step;
@@ -80,6 +81,7 @@ pub fn kernels() -> Vec<Kernel> {
         sample_tracer::kernels(),
         settle_tracer::kernels(),
         show_film::kernels(),
+        small_bubbles::kernels(),
         tonemap::kernels(),
         trace_flow::kernels(),
         trace_step::kernels(),

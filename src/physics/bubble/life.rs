@@ -127,12 +127,41 @@ pub struct Age {
     pub hole: Option<Opening>,
 }
 
+/// When a film that bubbles share is blown anew, whatever became of it: at a tick, and again each time that a period has passed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Renewal {
+    /// The first tick at which it is blown anew; it is there from tick 0 on. 0 counts as the first beginning.
+    pub first_tick: u64,
+    /// Ticks from then on until it is blown anew again.
+    pub period_ticks: u64,
+}
+
+impl Renewal {
+    /// The tick at which the film of a tick was blown, and how many there were before it.
+    #[must_use]
+    pub fn born(&self, tick: u64) -> (u64, u32) {
+        let Some(since) = tick.checked_sub(self.first_tick) else { return (0, 0) };
+        let periods = since / self.period_ticks;
+        (self.first_tick + periods * self.period_ticks, periods as u32 + u32::from(self.first_tick > 0))
+    }
+}
+
 /// The lives of a bubble, each found once: with thousands of events there may be thousands of lives.
 #[derive(Debug)]
 pub struct LifeCycle {
     course: Course,
     path: CenterPath,
+    ending: Ending,
     found: Mutex<Found>,
+}
+
+/// What ends the lives of a bubble.
+#[derive(Clone, Copy, Debug)]
+enum Ending {
+    /// What happens to it.
+    Bursts,
+    /// Nothing, or the clock alone.
+    Renewed(Option<Renewal>),
 }
 
 /// The lives that have been asked for so far.
@@ -149,7 +178,13 @@ impl LifeCycle {
     #[must_use]
     pub fn new(course: Course) -> Self {
         let path = course.path(0, u64::MAX, course.rest_m, DVec3::ZERO, 1.0);
-        Self { course, path, found: Mutex::default() }
+        Self { course, path, ending: Ending::Bursts, found: Mutex::default() }
+    }
+
+    /// The lives of a film that bubbles share, which never bursts.
+    #[must_use]
+    pub fn shared(course: Course, renewal: Option<Renewal>) -> Self {
+        Self { ending: Ending::Renewed(renewal), ..Self::new(course) }
     }
 
     /// Where the center goes in all lives, m.
@@ -181,25 +216,30 @@ impl LifeCycle {
     fn life(&self, tick: u64) -> Arc<Life> {
         // What is found is whole even where another thread panicked.
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Ending::Renewed(renewal) = self.ending {
+            let (born, generation) = renewal.map_or((0, 0), |renewal| renewal.born(tick));
+            return found.latest(generation, || self.course.life(&self.path, born, generation, None));
+        }
         while let Some(born) = found.next_born().filter(|born| *born <= tick) {
             let generation = found.spans.len() as u32;
             found.spans.push((born, self.course.end(born, generation)));
         }
         // The first life begins at tick 0.
         let generation = found.spans.partition_point(|(born, _)| *born <= tick) - 1;
-        match &found.latest {
-            Some(life) if life.generation as usize == generation => life.clone(),
-            _ => {
-                let (born, end) = found.spans[generation];
-                let life = Arc::new(self.course.life(&self.path, born, generation as u32, end));
-                found.latest = Some(life.clone());
-                life
-            }
-        }
+        let (born, end) = found.spans[generation];
+        found.latest(generation as u32, || self.course.life(&self.path, born, generation as u32, end))
     }
 }
 
 impl Found {
+    /// Life number `generation`, which is made if another was asked for last.
+    fn latest(&mut self, generation: u32, make: impl FnOnce() -> Life) -> Arc<Life> {
+        match &self.latest {
+            Some(life) if life.generation == generation => life.clone(),
+            _ => self.latest.insert(Arc::new(make())).clone(),
+        }
+    }
+
     /// When the life after all those that were found begins, if there is another.
     fn next_born(&self) -> Option<u64> {
         self.spans.last().map_or(Some(0), |(_, end)| end.map(|end| end.next))

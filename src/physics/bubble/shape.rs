@@ -217,7 +217,7 @@ pub fn reach(stretch: DMat3) -> f64 {
 }
 
 /// v vᵀ − v²/3.
-fn traceless(v: DVec3) -> DMat3 {
+pub(super) fn traceless(v: DVec3) -> DMat3 {
     let outer = DMat3::from_cols(v.x * v, v.y * v, v.z * v);
     outer + DMat3::IDENTITY * (-v.length_squared() / 3.0)
 }

@@ -103,7 +103,7 @@ pub use law::{FlowLaw, FreeFlow, Split};
 pub use presets::Flow;
 pub use push::{FrozenPush, Push, gained};
 pub use pushes::Pushes;
-pub use random::{Random, fold_seed};
+pub use random::{Random, fold_seed, pcg3d};
 pub use regeneration::{PATCH_THICKNESS, Patch, Regeneration, patch_speed};
 pub use rest::{ASKING_S, STEADY, resting_speed, rests};
 pub use states::{InitialFilm, Profile};

@@ -10,7 +10,8 @@ mod step;
 pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};
 pub use optics::{OpticsKey, QuadratureKey, TableKey, range_nm};
 pub use picture::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, LightKey, Lighting, TonemapKey, exposed_ev,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, LentFilm, LightKey, Lighting, SmallBubble,
+    TonemapKey, exposed_ev,
 };
 pub use rest::RestingFilm;
 

@@ -28,7 +28,7 @@ impl PartialEq for EnvironmentKey {
 /// One bubble as the picture sees it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BubbleKey {
-    /// Index of the bubble in the scene, and of its film.
+    /// Index of its film, which for a bubble of the scene is the bubble's own.
     pub index: usize,
     /// Index of the material of its film in each of the [`Lighting`]s.
     pub material: usize,
@@ -53,6 +53,8 @@ pub struct BubbleKey {
     pub filtered: bool,
     /// The film.
     pub film: FilmKey,
+    /// How much thicker the bubble is than the film shows.
+    pub thickness_factor: f64,
     /// The hole in it, while it bursts.
     pub hole: Option<Opening>,
     /// The part of the sphere that has film, above a bath or within a ring; none for a whole sphere. On a bath its image is seen too.
@@ -65,6 +67,71 @@ impl BubbleKey {
     pub fn open_hole(&self) -> Option<OpenHoleKey> {
         let Self { evaporated_nm, radius_m, .. } = *self;
         self.hole.map(|hole| OpenHoleKey { film: self.film.clone(), evaporated_nm, radius_m, hole })
+    }
+}
+
+/// A film that bubbles of a generator share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LentFilm {
+    /// Index of the film.
+    pub index: usize,
+    /// Index of its material in each of the [`Lighting`]s.
+    pub material: usize,
+    /// The film.
+    pub film: FilmKey,
+    /// Takes directions of the world to it, as it is on a bubble that is not turned.
+    pub to_film: DMat3,
+    /// What has evaporated from it, in nm.
+    pub evaporated_nm: f64,
+    /// How much thicker a bubble that shows it can be.
+    pub max_thickness_factor: f64,
+}
+
+/// A bubble of a generator that is drawn with all others like it at once: round, whole, and with the reflections on two walls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SmallBubble {
+    /// Center in metres.
+    pub center_m: DVec3,
+    /// Radius in metres.
+    pub radius_m: f64,
+    /// Bounding rectangle in clip coordinates, lower left and upper right.
+    pub bounds: [DVec2; 2],
+    /// Its film's place in [`DrawKey::lent`].
+    pub lent: usize,
+    /// How far its film is turned about the vertical, radians.
+    pub turn_rad: f64,
+    /// How much thicker the bubble is than the film shows.
+    pub thickness_factor: f64,
+}
+
+impl SmallBubble {
+    /// Takes directions of the world to its film.
+    #[must_use]
+    pub fn to_film(&self, lent: &LentFilm) -> DMat3 {
+        lent.to_film * DMat3::from_rotation_z(self.turn_rad)
+    }
+
+    /// The bubble as it would be drawn alone, with the film that it shows.
+    #[must_use]
+    pub fn whole(&self, lent: &LentFilm) -> BubbleKey {
+        BubbleKey {
+            index: lent.index,
+            material: lent.material,
+            center_m: self.center_m,
+            radius_m: self.radius_m,
+            stretch: DMat3::IDENTITY,
+            bounds: self.bounds,
+            // A film of one thickness looks the same however it is turned.
+            to_film: if matches!(lent.film, FilmKey::Uniform(_)) { DMat3::IDENTITY } else { self.to_film(lent) },
+            evaporated_nm: lent.evaporated_nm,
+            samples: 1,
+            magnified: false,
+            filtered: false,
+            film: lent.film.clone(),
+            thickness_factor: self.thickness_factor,
+            hole: None,
+            cap: None,
+        }
     }
 }
 
@@ -128,6 +195,10 @@ pub struct DrawKey {
     pub spectral_lights: Vec<Lighting>,
     /// The bubbles that can be seen, farthest first.
     pub bubbles: Vec<BubbleKey>,
+    /// Small bubbles that can be seen, farthest first.
+    pub small: Vec<SmallBubble>,
+    /// The films that small bubbles show.
+    pub lent: Vec<LentFilm>,
     /// Whether they stand on a bath, which is a mirror of water at the height of their centers.
     pub on_bath: bool,
 }
@@ -168,16 +239,30 @@ impl DrawKey {
         std::iter::once(&self.lighting).chain(&self.spectral_lights)
     }
 
+    /// All bubbles in sight, the small ones too, each as it would be drawn alone.
+    #[must_use]
+    pub fn all_bubbles(&self) -> Vec<BubbleKey> {
+        let small = self.small.iter().map(|small| small.whole(&self.lent[small.lent]));
+        self.bubbles.iter().cloned().chain(small).collect()
+    }
+
+    /// The films of all bubbles in sight, each with its index; one may be named more than once.
+    pub fn films_mut(&mut self) -> impl Iterator<Item = (usize, &mut FilmKey)> {
+        let bubbles = self.bubbles.iter_mut().map(|bubble| (bubble.index, &mut bubble.film));
+        bubbles.chain(self.lent.iter_mut().map(|lent| (lent.index, &mut lent.film)))
+    }
+
     /// Whether a bubble in sight has a film of a material.
     #[must_use]
     pub fn shows(&self, material: usize) -> bool {
         self.bubbles.iter().any(|bubble| bubble.material == material)
+            || self.lent.iter().any(|lent| lent.material == material)
     }
 
     /// Whether any light from the environment can reach the picture.
     #[must_use]
     pub fn needs_environment(&self) -> bool {
-        !self.bubbles.is_empty() || self.lighting.light.backdrop == BackdropKey::Environment
+        !self.bubbles.is_empty() || !self.small.is_empty() || self.lighting.light.backdrop == BackdropKey::Environment
     }
 
     /// The first thing in which two pictures differ.
@@ -193,7 +278,7 @@ impl DrawKey {
             self.lighting.difference(&other.lighting)
         } else if self.spectral_lights != other.spectral_lights {
             "a light of another illuminant"
-        } else if self.bubbles != other.bubbles {
+        } else if self.bubbles != other.bubbles || self.small != other.small || self.lent != other.lent {
             "a bubble or its film"
         } else {
             "the way of drawing"

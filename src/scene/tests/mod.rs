@@ -39,6 +39,7 @@ fn setting(section: &str, key: &str, value: &str) -> String {
         _ if kind(section).is_some() => with_version(&format!("[[event]]\n{section}\n{key} = {value}\n")),
         "" => format!("{key} = {value}\n"),
         "bubble" => with_version(&format!("[[bubble]]\n{key} = {value}\n")),
+        "generator" => with_version(&format!("[[generator]]\n{key} = {value}\n")),
         "bubble.film" => with_version(&format!("[[bubble]]\n[bubble.film]\n{key} = {value}\n")),
         "light.patch" => with_version(&format!("[[light.patch]]\n{key} = {value}\n")),
         "event" => with_version(&format!("[[event]]\nkind = \"motion\"\nseed = 2\n{key} = {value}\n")),
@@ -62,6 +63,7 @@ fn tables() -> Vec<(&'static str, Vec<Key>)> {
         ("", vec![version]),
         ("bubble", Bubble::ALL_KEYS.to_vec()),
         ("bubble.film", Film::ALL_KEYS.to_vec()),
+        ("generator", Generator::ALL_KEYS.to_vec()),
         ("camera", Camera::ALL_KEYS.to_vec()),
         ("light", Light::ALL_KEYS.to_vec()),
         ("light.patch", LightPatch::ALL_KEYS.to_vec()),
@@ -106,6 +108,7 @@ fn defaults() -> toml::Table {
         Change::Prick(Prick::default()),
     ];
     let scene = Scene {
+        generators: vec![Generator::default()],
         light: Light { patches: vec![LightPatch::default()], ..Light::default() },
         events: changes.map(|change| Event { tick: 0, change }).into(),
         ..Scene::default()

@@ -1,0 +1,166 @@
+// Small bubbles, all of one layer at once: each pixel goes through the bubbles of its tile, the farthest first, and lays what a bubble reflects
+// over what is behind it. A bubble is round and whole, and two of its walls are looked up in the table; light that is reflected inside more than
+// once follows the mean over all thicknesses.
+
+import package::camera::view::{View, pixel_angle, view_plane};
+import package::light::environment::{Light, environment_radiance};
+import package::light::stored::storable;
+import package::optics::airy::{max_reflectance, surface_reflectance};
+import package::optics::film_colour::{COLOURED, POLARISED};
+import package::optics::shares::passed_before;
+import package::optics::table::{FilmPoint, TableAxes, table_coordinates};
+import package::sphere::others::{OtherBubble, chord_through, other_nm};
+import package::sphere::path::{Path, footprint, polarisation_along};
+import package::sphere::silhouette::silhouette;
+
+// Side of a tile in pixels.
+override TILE: u32;
+// Samples along each side of a pixel.
+override SAMPLES: u32;
+
+// The bubbles of a tile in `lists`.
+// Mirrors `SmallTile` in src/gpu/passes/small_bubbles.rs.
+struct Tile {
+    first: u32,
+    end: u32,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> light: Light;
+@group(0) @binding(2) var environment: texture_cube<f32>;
+@group(0) @binding(3) var environment_sampler: sampler;
+@group(0) @binding(4) var<uniform> axes: TableAxes;
+@group(0) @binding(5) var table: texture_2d_array<f32>;
+@group(0) @binding(6) var table_sampler: sampler;
+@group(0) @binding(7) var films: texture_2d_array<f32>;
+@group(0) @binding(8) var<storage, read> bubbles: array<OtherBubble>;
+@group(0) @binding(9) var<storage, read> lists: array<u32>;
+@group(0) @binding(10) var<storage, read> tiles: array<Tile>;
+@group(0) @binding(11) var picture_behind: texture_2d<f32>;
+
+// The whole picture; the pass cuts it to the tiles that have bubbles.
+@vertex
+fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+}
+
+// The first bubble of a tile from a place in the list on that a sample may show: most of the list is missed, and what is costly is done for the
+// rest alone.
+fn next_seen(ray: vec3f, pixel: f32, first: u32, end: u32) -> u32 {
+    for (var k = first; k < end; k++) {
+        let number = lists[k];
+        let to_center_m = bubbles[number].to_center_m;
+        let along_m = dot(to_center_m, ray);
+        let aside_m = to_center_m - along_m * ray;
+        let reach_m = bubbles[number].radius_m + pixel * along_m;
+        if (along_m > 0.0 && dot(aside_m, aside_m) < reach_m * reach_m) {
+            return k;
+        }
+    }
+    return end;
+}
+
+// A ray through a bubble, as wide as a part of a pixel.
+fn path_through(bubble: OtherBubble, direction: vec3f, pixel: f32) -> Path {
+    let eye = -bubble.to_center_m / bubble.radius_m;
+    let foot = eye - dot(eye, direction) * direction;
+    let cos_theta = sqrt(max(1.0 - dot(foot, foot), 0.0));
+    let distance = length(eye);
+    return Path(
+        direction,
+        direction,
+        foot,
+        cos_theta,
+        cos_theta,
+        pixel,
+        abs(dot(eye, direction)) / max(cos_theta, 1e-3),
+        length(foot) / distance,
+        -eye / distance,
+        cross(direction, foot),
+        vec2f(0.0),
+    );
+}
+
+fn surroundings(path: Path, direction: vec3f, turns: f32) -> vec3f {
+    return environment_radiance(environment, environment_sampler, light, direction, footprint(path, direction, turns));
+}
+
+// What a wall makes of light: a column for each primary.
+fn wall_colours(path: Path, nm: f32) -> mat3x3f {
+    let uv = table_coordinates(axes, FilmPoint(path.cos_theta, nm, 0.0));
+    let shares = polarisation_along(path, light.polariser);
+    let scale = max_reflectance(axes.index, path.cos_theta) * light.scale;
+    var columns = primaries(uv, 0u);
+    if (POLARISED == 1u) {
+        columns = shares.x * columns + shares.y * primaries(uv, select(1u, 3u, COLOURED == 1u));
+    }
+    return mat3x3f(scale * columns[0], scale * columns[1], scale * columns[2]);
+}
+
+fn primaries(uv: vec2f, first: u32) -> mat3x3f {
+    let red = textureSampleLevel(table, table_sampler, uv, first, 0.0).rgb;
+    if (COLOURED == 0u) {
+        return mat3x3f(vec3f(red.r, 0.0, 0.0), vec3f(0.0, red.g, 0.0), vec3f(0.0, 0.0, red.b));
+    }
+    let green = textureSampleLevel(table, table_sampler, uv, first + 1u, 0.0).rgb;
+    let blue = textureSampleLevel(table, table_sampler, uv, first + 2u, 0.0).rgb;
+    return mat3x3f(red, green, blue);
+}
+
+// What is seen along a ray that meets a bubble, with what is seen behind it.
+fn through_bubble(bubble: OtherBubble, path: Path, behind: vec3f) -> vec3f {
+    let front = path.foot - path.cos_theta * path.direction;
+    let back = path.foot + path.cos_theta * path.direction;
+    let outward = path.direction + 2.0 * path.cos_theta * front;
+    let inward = path.direction - 2.0 * path.cos_theta * back;
+    let next = back + 2.0 * path.cos_theta * inward;
+    let twice = inward - 2.0 * path.cos_theta * next;
+    let light_behind = light.unseen * behind;
+    let seen_inward = surroundings(path, inward, -2.0);
+    // One reflection more, by the mean reflectance over all thicknesses of s light, which outlasts p.
+    let r2 = surface_reflectance(axes.index, path.cos_theta).x;
+    let more = 2.0 * r2 / (1.0 + r2) * (surroundings(path, twice, -4.0) - seen_inward);
+    let outer = wall_colours(path, other_nm(films, bubble, front));
+    let inner = wall_colours(path, other_nm(films, bubble, back));
+    // The walls' reflectances for each primary of the picture: colours over white.
+    let over_white = 1.0 / (light.seen * vec3f(1.0));
+    let ones = vec3f(1.0);
+    let passed = passed_before(axes.index, path.cos_theta, over_white * (outer * ones), over_white * (inner * ones));
+    return behind + outer * (surroundings(path, outward, 2.0) - light_behind)
+        + passed * (inner * (seen_inward + more - light_behind));
+}
+
+// One sample of a tile's bubbles.
+fn sample_radiance(position: vec2f, width: f32, tile: Tile, backdrop: vec3f) -> vec3f {
+    let plane = view_plane(view, position);
+    let ray = normalize(plane);
+    let pixel = width * pixel_angle(view, ray);
+    var seen = backdrop;
+    var k = next_seen(ray, pixel, tile.first, tile.end);
+    while (k < tile.end) {
+        let bubble = bubbles[lists[k]];
+        let edge = silhouette(view, bubble.to_center_m, bubble.radius_m, plane, width);
+        let path = path_through(bubble, edge.inside, pixel);
+        seen = mix(seen, through_bubble(bubble, path, seen), edge.coverage);
+        k = next_seen(ray, pixel, k + 1u, tile.end);
+    }
+    return seen;
+}
+
+@fragment
+fn small_bubbles(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2u(position.xy);
+    let place = pixel / TILE;
+    let tile = tiles[place.y * ((u32(view.width) + TILE - 1u) / TILE) + place.x];
+    let behind = textureLoad(picture_behind, pixel, 0);
+    if (tile.first == tile.end) {
+        return behind;
+    }
+    let width = 1.0 / f32(SAMPLES);
+    var total = vec3f(0.0);
+    for (var k = 0u; k < SAMPLES * SAMPLES; k++) {
+        let offset = (vec2f(vec2u(k % SAMPLES, k / SAMPLES)) + 0.5) * width;
+        total += sample_radiance(vec2f(pixel) + offset, width, tile, behind.rgb);
+    }
+    return vec4f(storable(total * width * width), 1.0);
+}

@@ -1,0 +1,201 @@
+//! Bubbles of generators: which of them are in sight, and the films that they share.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::{
+    BubbleKey, CameraKey, FilmKey, LentFilm, Shot, SmallBubble, Story,
+    request::{SMALLEST_FIELD_PIXELS, bounds, is_filtered, is_magnified, samples},
+};
+use crate::{
+    physics::{
+        bubble::{Lending, Member, Origin, Renewal, Swarm, reach},
+        film::fold_seed,
+    },
+    scene::{Bubble, Film, Generator, Layout, Quality},
+};
+
+/// A generator, as what it makes.
+#[derive(Debug)]
+pub(super) struct Lender {
+    swarm: Swarm,
+    /// The first of its films among the owners of all films.
+    first_owner: usize,
+}
+
+impl Lender {
+    /// What a generator makes in a scene with ticks of a length in seconds.
+    pub fn new(generator: &Generator, first_owner: usize, tick_s: f64) -> Self {
+        let swarm = Swarm {
+            origin: match generator.layout {
+                Layout::Cloud => Origin::Cloud,
+                Layout::Grid => Origin::Grid,
+                Layout::Wand => Origin::Wand {
+                    direction: DVec3::from(generator.direction).normalize_or(DVec3::X),
+                    speed_m_s: generator.speed_m_s,
+                    spread_rad: generator.spread_deg.to_radians(),
+                },
+            },
+            count: generator.count,
+            seed: fold_seed(generator.seed),
+            center_m: generator.center_m.into(),
+            size_m: generator.size_m.into(),
+            radius_m: 1e-3 * generator.radius_mm,
+            radius_spread: generator.radius_spread,
+            thickness_m: 1e-9 * generator.film.thickness_nm,
+            thickness_spread: generator.thickness_spread,
+            lending: Lending {
+                films: generator.films,
+                life_s: (generator.life_s > 0.0).then_some(generator.life_s),
+                tick_s,
+            },
+            wind_m_s: DVec3::from(generator.wind_m_s) + generator.rise_m_s * DVec3::Z,
+            wander_m: 1e-3 * generator.wander_mm,
+            wobble: generator.wobble,
+        };
+        Self { swarm, first_owner }
+    }
+
+    /// The first of its films among the owners of all films.
+    pub fn first_owner(&self) -> usize {
+        self.first_owner
+    }
+
+    /// One of its films at the moment of a shot.
+    fn lent_film(&self, story: &Story, film: usize, shot: &Shot) -> Option<LentFilm> {
+        let index = self.first_owner + film;
+        let age = story.age(index, shot.moment)?;
+        let ticks = age.moment.ticks();
+        Some(LentFilm {
+            index,
+            material: 0,
+            film: story.film_of_age(index, &age),
+            to_film: DMat3::from_quat(story.film_turn(age.life.born as f64 + ticks).inverse()),
+            evaporated_nm: age.life.evaporation.nm(ticks),
+            max_thickness_factor: 1.0 + self.swarm.thickness_spread,
+        })
+    }
+
+    /// When each of its films is blown anew.
+    pub fn renewals(&self) -> impl Iterator<Item = Option<Renewal>> {
+        let Lending { films, .. } = self.swarm.lending;
+        let interval = self.swarm.lending.interval_ticks();
+        (0..films).map(move |film| {
+            let [first_tick, period_ticks] = [film, films].map(|films| Some(interval? * u64::from(films)));
+            Some(Renewal { first_tick: first_tick?, period_ticks: period_ticks? })
+        })
+    }
+}
+
+/// Bubbles in whose place the films of a generator move: of its mean size, where it is.
+pub(super) fn owners(generator: &Generator) -> impl Iterator<Item = Bubble> {
+    (0..generator.films).map(|number| Bubble {
+        center_m: generator.center_m,
+        radius_mm: generator.radius_mm,
+        film: Film { seed: generator.film.seed.wrapping_add(number.into()), ..generator.film.clone() },
+        ..Bubble::default()
+    })
+}
+
+/// What is in sight of the bubbles that generators make.
+#[derive(Debug, Default)]
+pub(super) struct InSight {
+    /// Those that are drawn like all others.
+    pub bubbles: Vec<BubbleKey>,
+    /// Those that are drawn as small ones, the farthest first.
+    pub small: Vec<SmallBubble>,
+    /// The films that they show.
+    pub lent: Vec<LentFilm>,
+}
+
+/// Radius in pixels below which a bubble is drawn as a small one, with all others like it at once: where only the outer and the first inner
+/// reflection can be told apart.
+fn small_below_pixels(quality: Quality) -> f64 {
+    match quality {
+        Quality::Fast => 64.0,
+        Quality::Standard => 32.0,
+        Quality::Spectral => 12.0,
+    }
+}
+
+/// Radius in pixels below which nothing of a bubble is seen: it covers a ten thousandth of a pixel.
+const INVISIBLE_PIXELS: f64 = 0.006;
+
+/// Finds the bubbles of all generators that a shot shows.
+pub(super) fn in_sight(story: &Story, lenders: &[Lender], camera: &CameraKey, shot: &Shot) -> InSight {
+    let mut sight = InSight::default();
+    let time_s = shot.moment.ticks() * story.motion.tick_s;
+    for lender in lenders {
+        // The place in the list of each of its films, once one is shown.
+        let mut places: Vec<Option<usize>> = vec![None; lender.swarm.lending.films as usize];
+        for member in lender.swarm.at(time_s) {
+            let Some((corners, radius_pixels)) = seen(camera, shot, member.center_m, member.radius_m) else { continue };
+            let film = member.film as usize;
+            if places[film].is_none() {
+                let Some(lent) = lender.lent_film(story, film, shot) else { continue };
+                places[film] = Some(sight.lent.len());
+                sight.lent.push(lent);
+            }
+            let Some(place) = places[film] else { continue };
+            if radius_pixels < small_below_pixels(story.view.quality) {
+                sight.small.push(small(&member, place, corners));
+            } else {
+                sight.bubbles.extend(large(lender, &member, &sight.lent[place], camera, shot, corners, radius_pixels));
+            }
+        }
+    }
+    let power = |small: &SmallBubble| small.center_m.distance_squared(camera.eye_m) - small.radius_m.powi(2);
+    sight.small.sort_unstable_by(|a, b| power(b).total_cmp(&power(a)));
+    sight
+}
+
+/// The bounding rectangle and the radius in pixels of a bubble that can be seen.
+fn seen(camera: &CameraKey, shot: &Shot, center_m: DVec3, radius_m: f64) -> Option<([DVec2; 2], f64)> {
+    let distance_m = center_m.distance(camera.eye_m).max(radius_m);
+    let radius_pixels = radius_m / distance_m / camera.pixel_height_m;
+    if radius_pixels < INVISIBLE_PIXELS {
+        return None;
+    }
+    Some((bounds(camera, shot.size, center_m, radius_m)?, radius_pixels))
+}
+
+fn small(member: &Member, lent: usize, bounds: [DVec2; 2]) -> SmallBubble {
+    SmallBubble {
+        center_m: member.center_m,
+        radius_m: member.radius_m,
+        bounds,
+        lent,
+        turn_rad: member.turn_rad,
+        thickness_factor: member.thickness,
+    }
+}
+
+fn large(
+    lender: &Lender,
+    member: &Member,
+    lent: &LentFilm,
+    camera: &CameraKey,
+    shot: &Shot,
+    corners: [DVec2; 2],
+    radius_pixels: f64,
+) -> Option<BubbleKey> {
+    let (center_m, radius_m) = (member.center_m, member.radius_m);
+    let stretch = lender.swarm.shape(member).stretch();
+    let bounds = match stretch == DMat3::IDENTITY {
+        true => corners,
+        false => bounds(camera, shot.size, center_m, radius_m * reach(stretch))?,
+    };
+    let bubble = small(member, 0, corners).whole(lent);
+    let film = match bubble.film {
+        FilmKey::Field(field) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(field.initial.mean_nm()),
+        film => film,
+    };
+    Some(BubbleKey {
+        stretch,
+        bounds,
+        samples: samples(radius_pixels),
+        filtered: is_filtered(&film, radius_pixels),
+        magnified: is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m)),
+        film,
+        ..bubble
+    })
+}
