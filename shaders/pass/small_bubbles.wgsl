@@ -152,10 +152,10 @@ fn small_bubbles(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy);
     let place = pixel / TILE;
     let tile = tiles[place.y * ((u32(view.width) + TILE - 1u) / TILE) + place.x];
-    let behind = textureLoad(picture_behind, pixel, 0);
     if (tile.first == tile.end) {
-        return behind;
+        discard;
     }
+    let behind = textureLoad(picture_behind, pixel, 0);
     let width = 1.0 / f32(SAMPLES);
     var total = vec3f(0.0);
     for (var k = 0u; k < SAMPLES * SAMPLES; k++) {

@@ -64,13 +64,6 @@ impl PixelRect {
         self.columns.len() as u64 * self.rows.len() as u64
     }
 
-    /// The smallest one that holds both.
-    #[must_use]
-    pub fn with(&self, other: &Self) -> Self {
-        let both = |a: &Range<u32>, b: &Range<u32>| a.start.min(b.start)..a.end.max(b.end);
-        Self { columns: both(&self.columns, &other.columns), rows: both(&self.rows, &other.rows) }
-    }
-
     fn overlaps(&self, other: &Self) -> bool {
         let overlap = |a: &Range<u32>, b: &Range<u32>| a.start < b.end && b.start < a.end;
         overlap(&self.columns, &other.columns) && overlap(&self.rows, &other.rows)

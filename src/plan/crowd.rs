@@ -4,7 +4,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     BubbleKey, CameraKey, FilmKey, LentFilm, Shot, SmallBubble, Story,
-    request::{SMALLEST_FIELD_PIXELS, bounds, is_filtered, is_magnified, samples},
+    request::{SMALLEST_FIELD_PIXELS, bounds, is_filtered, is_magnified},
 };
 use crate::{
     physics::{
@@ -112,8 +112,8 @@ pub(super) struct InSight {
 fn small_below_pixels(quality: Quality) -> f64 {
     match quality {
         Quality::Fast => 64.0,
-        Quality::Standard => 32.0,
-        Quality::Spectral => 12.0,
+        Quality::Standard => 40.0,
+        Quality::Spectral => 16.0,
     }
 }
 
@@ -184,7 +184,7 @@ fn large(
         true => corners,
         false => bounds(camera, shot.size, center_m, radius_m * reach(stretch))?,
     };
-    let bubble = small(member, 0, corners).whole(lent);
+    let bubble = small(member, 0, corners).whole(lent, camera);
     let film = match bubble.film {
         FilmKey::Field(field) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(field.initial.mean_nm()),
         film => film,
@@ -192,7 +192,6 @@ fn large(
     Some(BubbleKey {
         stretch,
         bounds,
-        samples: samples(radius_pixels),
         filtered: is_filtered(&film, radius_pixels),
         magnified: is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m)),
         film,

@@ -10,6 +10,7 @@ use super::{
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
+    keys::samples,
     range_nm,
 };
 use crate::{
@@ -332,21 +333,6 @@ pub(super) fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
 
 /// Samples along a pixel's side of a film that ends on a ring: its edge is not smoothed otherwise.
 const RING_SAMPLES: u32 = 2;
-
-/// Samples along a pixel's side: bubbles of few pixels need more, for their film and their reflections are finer than a pixel. About as many
-/// rays meet every such bubble, 50 000 to 80 000, a quarter of what a bubble takes that fills a picture of 1280 x 720.
-pub(super) fn samples(radius_pixels: f64) -> u32 {
-    match radius_pixels {
-        r if r < 9.0 => 16,
-        r if r < 13.0 => 12,
-        r if r < 18.0 => 8,
-        r if r < 26.0 => 6,
-        r if r < 36.0 => 4,
-        r if r < 50.0 => 3,
-        r if r < 64.0 => 2,
-        _ => 1,
-    }
-}
 
 /// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; `None` if it is outside.
 pub(super) fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {

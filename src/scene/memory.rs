@@ -5,10 +5,11 @@ use super::{Film, FilmStateName, Generator, check::Fault};
 /// The most that all films and bubbles of a scene may take, bytes.
 const MOST: f64 = 16.0 * GIGABYTE;
 const GIGABYTE: f64 = 1e9;
-/// What a moving film takes for each cell, bytes: its thickness, its map, its flow and their copies.
-const FILM_BYTES_PER_CELL: f64 = 400.0;
+/// What a moving film takes for each cell, bytes: its thickness, its map, its flow and their copies. By the address space that lavapipe takes for
+/// films of 256 and of 512 cells it is 111.
+const FILM_BYTES_PER_CELL: f64 = 120.0;
 /// What it takes beside its cells.
-const FILM_BYTES: f64 = 1e6;
+const FILM_BYTES: f64 = 0.5e6;
 /// What a bubble of a generator takes, on the processor and on the GPU.
 const BUBBLE_BYTES: f64 = 500.0;
 

@@ -8,7 +8,7 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 25] = presets![
+const PRESETS: [(&str, &str); 29] = presets![
     "default",
     "fresh",
     "bands",
@@ -31,6 +31,10 @@ const PRESETS: [(&str, &str); 25] = presets![
     "polarised",
     "trio",
     "pair",
+    "stream",
+    "cloud",
+    "swarm",
+    "origin",
     "inside",
     "far",
     "furnace",

@@ -14,7 +14,10 @@ use crate::{
     gpu::{GpuError, Renderer},
     physics::{colour::Illuminant, environment::CubeMap},
     plan::{DrawKey, Resources},
-    scene::{Backdrop, Bubble, Camera, Film, FilmIndexName, FilmStateName, Flow, Light, Motion, Quality, Scene, View},
+    scene::{
+        Backdrop, Bubble, Camera, Film, FilmIndexName, FilmStateName, Flow, Generator, Light, Motion, Quality, Scene,
+        View,
+    },
 };
 
 /// Pixels of each picture: bubbles have radii of 100 to 140, so that one sample is enough but near outlines.
@@ -38,6 +41,8 @@ struct Kind {
     coloured: bool,
     /// Whether films are of several liquids.
     mixed: bool,
+    /// Whether a generator makes the bubbles, and most are small.
+    made: bool,
     /// Distance of the eye from the middle, m.
     distance_m: f64,
     /// Factor on the distances of the bubbles from the middle.
@@ -51,11 +56,12 @@ impl Kind {
         intersect: false,
         coloured: false,
         mixed: false,
+        made: false,
         distance_m: 0.6,
         spread: 1.0,
     };
 
-    const ALL: [Self; 5] = [
+    const ALL: [Self; 7] = [
         Self::APART,
         Self { name: "apart, coloured light", coloured: true, ..Self::APART },
         Self { name: "apart, two liquids", counts: &[2, 6], mixed: true, ..Self::APART },
@@ -68,14 +74,22 @@ impl Kind {
             spread: 0.3,
             ..Self::APART
         },
+        Self { name: "small ones", counts: &[40], made: true, ..Self::APART },
+        Self { name: "small ones, coloured light", counts: &[40], made: true, coloured: true, ..Self::APART },
     ];
 }
 
 pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut renderer = Renderer::new(pollster::block_on(run.gpu.another())?);
-    furnace(run, &mut renderer)?;
+    if std::env::var("KIND").is_err() {
+        furnace(run, &mut renderer)?;
+    }
     // To compile the shaders of a kind of scene takes longer than all else: a short run takes the kind that has all in it.
-    let kinds: Vec<Kind> = Kind::ALL.into_iter().filter(|kind| run.extent >= Extent::Full || kind.intersect).collect();
+    let kinds: Vec<Kind> = Kind::ALL
+        .into_iter()
+        .filter(|kind| std::env::var("KIND").is_err() || kind.made)
+        .filter(|kind| run.extent >= Extent::Full || kind.intersect)
+        .collect();
     let (kinds, pixels) = run.short_or_full((&kinds[..1], 200), (&kinds[..], 400));
     kinds.iter().try_for_each(|kind| measure(run, &mut renderer, kind, pixels))
 }
@@ -135,10 +149,10 @@ fn measure(run: &mut Run<'_>, renderer: &mut Renderer, kind: &Kind, pixels: usiz
 /// Random pixels whose middle shows a bubble.
 fn covered(key: &DrawKey, count: usize, seed: usize) -> Vec<[u32; 2]> {
     let mut random = Random::new(1000 + seed as u64);
-    let camera = reference::camera(&key.camera);
+    let (camera, bubbles) = (reference::camera(&key.camera), key.all_bubbles());
     let shows = |[x, y]: [u32; 2]| {
         let ray = camera.ray(SIZE, DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5));
-        key.bubbles.iter().any(|bubble| {
+        bubbles.iter().any(|bubble| {
             let offset = bubble.center_m - key.camera.eye_m;
             let aside = offset.reject_from_normalized(ray).length();
             aside < bubble.radius_m && (offset.dot(ray) > 0.0 || offset.length() < bubble.radius_m)
@@ -154,6 +168,8 @@ fn random_scene(kind: &Kind, count: usize, seed: usize) -> Result<(Scene, Resour
     let grey = |[r, _, _]: [f64; 3]| DVec3::splat(0.2 + r);
     let saturated = |rgb: [f64; 3]| DVec3::from(rgb).powf(3.0);
     let environment = soft_lamps(&mut random, |rgb| if kind.coloured { saturated(rgb) } else { grey(rgb) });
+    let generators = if kind.made { vec![generator(count, seed)] } else { Vec::new() };
+    let count = if kind.made { 0 } else { count };
     let mut bubbles: Vec<Bubble> = Vec::new();
     while bubbles.len() < count {
         let bubble = random_bubble(kind, &mut random);
@@ -166,6 +182,7 @@ fn random_scene(kind: &Kind, count: usize, seed: usize) -> Result<(Scene, Resour
     }
     let scene = Scene {
         bubbles,
+        generators,
         camera: Camera { distance_m: kind.distance_m, azimuth_deg: 0.0, elevation_deg: 0.0, ..Camera::default() },
         light: Light::default(),
         view: View { backdrop: Backdrop::Radiance([0.05; 3]), ..View::default() },
@@ -179,6 +196,20 @@ fn random_scene(kind: &Kind, count: usize, seed: usize) -> Result<(Scene, Resour
         liquids: BTreeMap::new(),
     };
     Ok((scene, resources))
+}
+
+/// Bubbles with radii of 6 to 51 pixels.
+fn generator(count: usize, seed: usize) -> Generator {
+    Generator {
+        count: count as u32,
+        seed: seed as u64,
+        size_m: [0.12, 0.5, 0.3],
+        radius_mm: 10.0,
+        radius_spread: 0.8,
+        films: 3,
+        film: Film { state: FilmStateName::Rest, thickness_nm: 500.0, cells: 64, ..Film::default() },
+        ..Generator::default()
+    }
 }
 
 fn random_bubble(kind: &Kind, random: &mut Random) -> Bubble {

@@ -24,6 +24,7 @@ use super::{
     uniform_buffer::UniformBuffer,
 };
 use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting};
+use small::SmallDraw;
 use values::{
     backdrop_colour, bubble_uniform, light_uniform, list_part, other_bubble, ring_overrides, small_bubbles,
     view_uniform,
@@ -73,8 +74,8 @@ struct Layer {
     so_far: Vec<PixelRect>,
     /// The rings of all bubbles, each with its number of vertices.
     rings: Vec<(Drawable, u32)>,
-    /// Small bubbles of a material each, with the pixels that show them.
-    small: Vec<(Drawable, PixelRect)>,
+    /// Small bubbles, of a material each.
+    small: Vec<SmallDraw>,
 }
 
 /// What stands behind all bubbles.
@@ -204,9 +205,9 @@ impl DrawPass {
         let all = small_bubbles(key, lighting, inputs.atlas);
         for ([layer, material], places) in &inputs.composition.small {
             let Some((Some(table), _)) = (inputs.colours)(*material) else { continue };
-            let Some((small, rect)) = shared.small(gpu, table, &all, places)? else { continue };
-            pass.layers[*layer].behind.push(rect.clone());
-            pass.layers[*layer].small.push((small, rect));
+            let small = shared.small(gpu, table, &all, places)?;
+            pass.layers[*layer].behind.extend(small.rects.iter().cloned());
+            pass.layers[*layer].small.push(small);
         }
         Ok(pass)
     }
@@ -225,19 +226,14 @@ impl DrawPass {
             BackdropDraw::Colour(colour) => (None, (rows.start == 0).then_some(*colour)),
         };
         let draw = |recorder: &mut Recorder<'_>, layer: &Layer, backdrop: Option<&Drawable>, clear| {
-            let mut draws = 0;
             recorder.render("draw", &target.view, clear, |pass| {
                 pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
                 backdrop.into_iter().for_each(|backdrop| backdrop.draw(pass, 3));
                 layer.rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
-                for (small, rect) in &layer.small {
-                    let Some(PixelRect { columns, rows }) = rect.within(rows) else { continue };
-                    pass.set_scissor_rect(columns.start, rows.start, columns.len() as u32, rows.len() as u32);
-                    small.draw(pass, 3);
-                    draws += 1;
-                }
+                layer.small.iter().for_each(|small| small.draw.draw(pass, 3));
             });
-            recorder.counts.draws += u64::from(backdrop.is_some()) + layer.rings.len() as u64 + draws;
+            let draws = usize::from(backdrop.is_some()) + layer.rings.len() + layer.small.len();
+            recorder.counts.draws += draws as u64;
         };
         let Some((first, later)) = self.layers.split_first() else { return };
         draw(recorder, first, backdrop, colour);

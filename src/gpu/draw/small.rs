@@ -18,13 +18,13 @@ struct TileLists {
     tiles: Vec<SmallTile>,
     /// Places of bubbles in the list of all, those of a tile in a row.
     lists: Vec<u32>,
-    /// Pixels of all tiles that have bubbles.
-    rect: PixelRect,
+    /// Pixels of the tiles that have bubbles, as few rectangles.
+    rects: Vec<PixelRect>,
 }
 
 impl TileLists {
     /// The lists of bubbles, by their places and the pixels that may show each, in the order in which they are drawn.
-    fn new(bubbles: &[(usize, PixelRect)], [width, height]: [u32; 2]) -> Option<Self> {
+    fn new(bubbles: &[(usize, PixelRect)], [width, height]: [u32; 2]) -> Self {
         let [across, down] = [width, height].map(|pixels| pixels.div_ceil(TILE));
         // After the last bubble of each tile: first how many, then where.
         let mut ends = vec![0; (across * down) as usize];
@@ -44,8 +44,13 @@ impl TileLists {
                 ends[tile] += 1;
             }
         }
-        let rect = bubbles.iter().map(|(_, rect)| rect.clone()).reduce(|all, rect| all.with(&rect))?;
-        Some(Self { tiles, lists, rect })
+        let rects = runs(&tiles, across);
+        let rects = rects.map(|[row, first, end]| PixelRect {
+            columns: first * TILE..(end * TILE).min(width),
+            rows: row * TILE..((row + 1) * TILE).min(height),
+        });
+        let rects = rects.collect();
+        Self { tiles, lists, rects }
     }
 
     /// The most bubbles that a tile has.
@@ -54,23 +59,46 @@ impl TileLists {
     }
 }
 
+/// Tiles in a row that have bubbles: the row, the first column and the one after the last.
+fn runs(tiles: &[SmallTile], across: u32) -> impl Iterator<Item = [u32; 3]> {
+    let has_bubbles = |tile: &&SmallTile| tile.end > tile.first;
+    tiles.chunks(across as usize).enumerate().flat_map(move |(row, tiles)| {
+        let runs = tiles.chunk_by(move |a, b| has_bubbles(&a) == has_bubbles(&b));
+        let ends = runs.scan(0, |end, run| {
+            *end += run.len() as u32;
+            Some((run, *end))
+        });
+        ends.filter(move |(run, _)| run.first().as_ref().is_some_and(has_bubbles))
+            .map(move |(run, end)| [row as u32, end - run.len() as u32, end])
+    })
+}
+
+/// Small bubbles that are ready to be drawn together.
+pub(super) struct SmallDraw {
+    /// How they are drawn.
+    pub draw: Drawable,
+    /// Pixels that show them.
+    pub rects: Vec<PixelRect>,
+}
+
 impl Shared<'_> {
-    /// Makes some of all small bubbles ready, by their places, with the pixels that show them. `None` if no pixel does.
+    /// Makes some of all small bubbles ready, by their places.
     pub(super) fn small(
         &self,
         gpu: &Gpu,
         table: &Table,
         all: &[OtherBubble],
         places: &[usize],
-    ) -> Result<Option<(Drawable, PixelRect)>, GpuError> {
+    ) -> Result<SmallDraw, GpuError> {
         let key = self.key;
         let rects = places.iter().map(|place| (*place, PixelRect::around(key.small[*place].bounds, key.size)));
-        let rects: Vec<(usize, PixelRect)> = rects.filter(|(_, rect)| rect.pixels() > 0).collect();
-        let Some(lists) = TileLists::new(&rects, key.size) else { return Ok(None) };
+        let rects: Vec<(usize, PixelRect)> = rects.collect();
+        let lists = TileLists::new(&rects, key.size);
         let material = key.lent[key.small[places[0]].lent].material;
-        let coloured = self.lighting.films[material].table.as_ref().is_some_and(|table| table.coloured);
+        let films = &self.lighting.films[material];
+        let coloured = films.table.as_ref().is_some_and(|table| table.coloured);
         let small = SmallBubbles {
-            SAMPLES: max_small_samples(key, lists.most()),
+            SAMPLES: max_small_samples(key, films.quadrature.quality, lists.most()),
             FULL_PRECISION: key.full_precision,
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: self.lighting.light.polariser.is_some() },
             view: &self.view,
@@ -86,7 +114,8 @@ impl Shared<'_> {
             tiles: &gpu.storage("tiles", &lists.tiles),
             picture_behind: self.behind,
         };
-        Ok(Some((small.cover(gpu, radiance_format(key.full_precision))?, lists.rect)))
+        let draw = small.cover(gpu, radiance_format(key.full_precision))?;
+        Ok(SmallDraw { draw, rects: lists.rects })
     }
 }
 
@@ -98,13 +127,14 @@ mod tests {
     fn each_tile_lists_its_bubbles_in_their_order() {
         let rect = |columns, rows| PixelRect { columns, rows };
         let bubbles = [(5, rect(0..17, 0..4)), (2, rect(20..40, 3..20)), (9, rect(30..33, 0..16))];
-        let lists = TileLists::new(&bubbles, [48, 32]).unwrap();
+        let lists = TileLists::new(&bubbles, [44, 32]);
         let of = |tile: usize| &lists.lists[lists.tiles[tile].first as usize..lists.tiles[tile].end as usize];
         assert_eq!(
             [0, 1, 2, 3, 4, 5].map(|tile| of(tile).to_vec()),
             [vec![5], vec![5, 2, 9], vec![2, 9], vec![], vec![2], vec![2]]
         );
-        assert_eq!((lists.rect.clone(), lists.most()), (rect(0..40, 0..20), 3));
-        assert!(TileLists::new(&[], [48, 32]).is_none());
+        assert_eq!(lists.most(), 3);
+        assert_eq!(lists.rects, [rect(0..44, 0..16), rect(16..44, 16..32)]);
+        assert!(TileLists::new(&[], [44, 32]).rects.is_empty());
     }
 }

@@ -15,6 +15,7 @@ use crate::{
     },
     physics::colour::unseen,
     plan::{BLACK_FILM_NM, BackdropKey, BubbleKey, DrawKey, FilmKey, Lighting, SmallBubble},
+    scene::Quality,
 };
 
 /// The largest half float: the twin of `storable` in `shaders/light/stored.wgsl`.
@@ -31,17 +32,21 @@ fn max_samples(quadrature: &Quadrature) -> u32 {
     (MAX_ITERATIONS / (quadrature.count + ITERATIONS_BESIDE_QUADRATURE)).isqrt()
 }
 
-/// Samples that all small bubbles of a picture may take, as many as a bubble takes that fills a picture.
-const SMALL_SAMPLES: f64 = 600_000.0;
+/// Samples that all small bubbles of a picture may take: for the fast quality as many as a bubble takes that fills a picture.
+fn small_samples(quality: Quality) -> f64 {
+    match quality {
+        Quality::Fast => 0.6e6,
+        Quality::Standard => 1.2e6,
+        Quality::Spectral => 10e6,
+    }
+}
 
 /// Samples along each side of a pixel of small bubbles, of which a tile has `most` at most.
-pub(super) fn max_small_samples(key: &DrawKey, most: u32) -> u32 {
-    let radius_pixels =
-        |small: &SmallBubble| small.radius_m / small.center_m.distance(key.camera.eye_m) / key.camera.pixel_height_m;
+pub(super) fn max_small_samples(key: &DrawKey, quality: Quality, most: u32) -> u32 {
     // Bubbles of less than a pixel are sampled as often as those of a pixel.
-    let area = |small: &SmallBubble| std::f64::consts::PI * (radius_pixels(small) + 1.0).powi(2);
+    let area = |small: &SmallBubble| std::f64::consts::PI * (small.radius_pixels(&key.camera) + 1.0).powi(2);
     let pixels: f64 = key.small.iter().map(area).sum();
-    let affordable = |samples: &u32| f64::from(samples.pow(2)) * pixels <= SMALL_SAMPLES;
+    let affordable = |samples: &u32| f64::from(samples.pow(2)) * pixels <= small_samples(quality);
     let ends = |samples: &u32| samples.pow(2).saturating_mul(most) <= MAX_ITERATIONS;
     [4, 2].into_iter().find(|samples| affordable(samples) && ends(samples)).unwrap_or(1)
 }

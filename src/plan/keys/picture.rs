@@ -111,9 +111,15 @@ impl SmallBubble {
         lent.to_film * DMat3::from_rotation_z(self.turn_rad)
     }
 
+    /// Radius in pixels.
+    #[must_use]
+    pub fn radius_pixels(&self, camera: &CameraKey) -> f64 {
+        self.radius_m / self.center_m.distance(camera.eye_m).max(self.radius_m) / camera.pixel_height_m
+    }
+
     /// The bubble as it would be drawn alone, with the film that it shows.
     #[must_use]
-    pub fn whole(&self, lent: &LentFilm) -> BubbleKey {
+    pub fn whole(&self, lent: &LentFilm, camera: &CameraKey) -> BubbleKey {
         BubbleKey {
             index: lent.index,
             material: lent.material,
@@ -124,7 +130,7 @@ impl SmallBubble {
             // A film of one thickness looks the same however it is turned.
             to_film: if matches!(lent.film, FilmKey::Uniform(_)) { DMat3::IDENTITY } else { self.to_film(lent) },
             evaporated_nm: lent.evaporated_nm,
-            samples: 1,
+            samples: samples(self.radius_pixels(camera)),
             magnified: false,
             filtered: false,
             film: lent.film.clone(),
@@ -132,6 +138,21 @@ impl SmallBubble {
             hole: None,
             cap: None,
         }
+    }
+}
+
+/// Samples along a pixel's side: bubbles of few pixels need more, for their film and their reflections are finer than a pixel. About as many
+/// rays meet every such bubble, 50 000 to 80 000, a quarter of what a bubble takes that fills a picture of 1280 x 720.
+pub(in crate::plan) fn samples(radius_pixels: f64) -> u32 {
+    match radius_pixels {
+        r if r < 9.0 => 16,
+        r if r < 13.0 => 12,
+        r if r < 18.0 => 8,
+        r if r < 26.0 => 6,
+        r if r < 36.0 => 4,
+        r if r < 50.0 => 3,
+        r if r < 64.0 => 2,
+        _ => 1,
     }
 }
 
@@ -242,7 +263,7 @@ impl DrawKey {
     /// All bubbles in sight, the small ones too, each as it would be drawn alone.
     #[must_use]
     pub fn all_bubbles(&self) -> Vec<BubbleKey> {
-        let small = self.small.iter().map(|small| small.whole(&self.lent[small.lent]));
+        let small = self.small.iter().map(|small| small.whole(&self.lent[small.lent], &self.camera));
         self.bubbles.iter().cloned().chain(small).collect()
     }
 

@@ -188,15 +188,53 @@ fn prick() -> impl Strategy<Value = Change> {
     direction().prop_map(|at| Change::Prick(Prick { bubble: 0, at }))
 }
 
-fn scene() -> impl Strategy<Value = Scene> {
-    let lists = (prop::collection::vec(bubble(), 0..4), prop::collection::vec(event(), 0..4));
-    (lists, camera(), light(), view(), motion()).prop_map(|((bubbles, mut events), camera, light, view, motion)| {
-        events.sort_by_key(|event| event.tick);
-        if bubbles.is_empty() {
-            events.retain(|event| event.change.bubble().is_none());
+fn generator() -> impl Strategy<Value = Generator> {
+    let place =
+        (prop::array::uniform3(-1e3..1e3), prop::array::uniform3(0.0..1e3), any_of(), 1u32..10_000, any::<u64>());
+    let look = (0.1..5e3, 0.0..0.95, 1u32..=16, 0.0..0.9, 0.0..0.3);
+    let way = (0.1..1e6, direction(), 0.0..20.0, 0.0..180.0, prop::array::uniform3(-50.0..50.0), -10.0..10.0, 0.0..1e4);
+    (place, look, way, film()).prop_map(|(place, look, way, film)| {
+        let (center_m, size_m, layout, count, seed) = place;
+        let (radius_mm, radius_spread, films, thickness_spread, wobble) = look;
+        let (life_s, direction, speed_m_s, spread_deg, wind_m_s, rise_m_s, wander_mm) = way;
+        Generator {
+            layout,
+            count,
+            seed,
+            center_m,
+            size_m,
+            radius_mm,
+            radius_spread,
+            films,
+            thickness_spread,
+            life_s,
+            direction,
+            speed_m_s,
+            spread_deg,
+            wobble,
+            wind_m_s,
+            rise_m_s,
+            wander_mm,
+            film: Film { cells: film.cells.min(128), thickness_nm: film.thickness_nm.max(10.0), ..film },
         }
-        Scene { version: VERSION, bubbles, camera, light, view, motion, events }
     })
+}
+
+fn scene() -> impl Strategy<Value = Scene> {
+    let lists = (
+        prop::collection::vec(bubble(), 0..4),
+        prop::collection::vec(generator(), 0..3),
+        prop::collection::vec(event(), 0..4),
+    );
+    (lists, camera(), light(), view(), motion()).prop_map(
+        |((bubbles, generators, mut events), camera, light, view, motion)| {
+            events.sort_by_key(|event| event.tick);
+            if bubbles.is_empty() {
+                events.retain(|event| event.change.bubble().is_none());
+            }
+            Scene { version: VERSION, bubbles, generators, camera, light, view, motion, events }
+        },
+    )
 }
 
 proptest! {

@@ -77,7 +77,7 @@ fn unknown_keys_name_the_nearest_known_one() {
         ),
         (
             "\"a\\nb\" = 1",
-            "2: unknown key `a\\nb`; known here: `bubble`, `camera`, `event`, `light`, `motion`, `version`, `view`",
+            "2: unknown key `a\\nb`; known here: `bubble`, `camera`, `event`, `generator`, `light`, `motion`, `version`, `view`",
         ),
     ]);
 }
@@ -177,8 +177,31 @@ fn values_lie_in_their_range() {
         ),
         ("[light]\nilluminant = \"\"", "3: `illuminant` in [light] is empty; name one, as in `illuminant = \"D65\"`"),
     ]);
-    let crowd = with_version(&"[[bubble]]\n".repeat(43));
-    assert_eq!(refusal(&crowd), "s.toml:2: `bubble` is a list of 43; at most 42 are allowed");
+}
+
+#[test]
+fn absurd_numbers_are_refused_with_the_memory_that_they_need() {
+    let crowd = with_version(&"[[bubble]]\n".repeat(10_001));
+    assert!(refusal(&crowd).contains("of memory, of 16.0 GB that are allowed; lower `cells`"));
+    assert_refused(&[
+        (
+            "[[generator]]\ncount = 100000000",
+            "3: `count` in [[generator]] is 100000000, which takes the scene to 50.2 GB of memory, of 16.0 GB that are allowed; ask for fewer bubbles",
+        ),
+        ("[[generator]]\ncount = 0", "3: `count` in [[generator]] is 0; it must be within 1 ..= 1000000000"),
+        (
+            "[[generator]]\nlayout = \"wand\"",
+            "2: `life_s` in [[generator]] is 0; a wand goes on blowing, so its bubbles need an end",
+        ),
+        (
+            "[[bubble]]\nboundary = \"bath\"\n[[generator]]",
+            "4: `layout` in [[generator]] makes bubbles over a bath, which cannot be drawn yet; leave out the bath or the generator",
+        ),
+    ]);
+    assert!(
+        Scene::from_toml(&with_version(&"[[bubble]]\n[bubble.film]\nstate = \"uniform\"\n".repeat(10_001)), "s")
+            .is_ok()
+    );
 }
 
 #[test]
