@@ -8,7 +8,7 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 25] = presets![
+const PRESETS: [(&str, &str); 27] = presets![
     "default",
     "fresh",
     "bands",
@@ -24,6 +24,8 @@ const PRESETS: [(&str, &str); 25] = presets![
     "weightless",
     "giant",
     "windows",
+    "park",
+    "studio",
     "bright",
     "lamplight",
     "sodium",

@@ -49,6 +49,8 @@ fn environment(ui: &mut Ui, model: &mut Model) {
         let built_in = [
             (Environment::Tent, "tent", "A photographer's light tent with soft lamps"),
             (Environment::Windows, "windows", "A dark room with bright windows"),
+            (Environment::Park, "park", "A meadow among dark trees, clouds and a low sun"),
+            (Environment::Studio, "studio", "Two softboxes and a strip light on black"),
         ];
         for (name, label, help) in built_in {
             if ui.selectable_label(is(&name), label).on_hover_text(help).clicked() && !is(&name) {
