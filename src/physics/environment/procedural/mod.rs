@@ -127,7 +127,7 @@ mod tests {
         let greens =
             |slope: f64| (-22..5).map(move |azimuth| toward(slope, f64::from(azimuth))).filter(|&green| green > 0.3);
         let roofs = greens(-0.13).fold(0.0, f64::max);
-        let (low, high) = greens(0.25).fold((f64::MAX, 0.0f64), |(low, high), green| (low.min(green), high.max(green)));
+        let (low, high) = greens(0.15).fold((f64::MAX, 0.0f64), |(low, high), green| (low.min(green), high.max(green)));
         assert!((0.3..1.2).contains(&roofs), "{roofs}");
         assert!(high > 8.0 * roofs && high > 1.2 * low, "{low} to {high}");
     }

@@ -5,10 +5,10 @@
 //! | what | radiance | from |
 //! |---|---|---|
 //! | clear sky | 1 above, 3 at the horizon, 15 beside the sun | CIE standard clear sky (CIE S 011), sun 15° high |
-//! | clouds | 1.3 below, 6 where the sun meets them | albedo 0.8 in 40 klx, where the zenith has some 1.8 kcd/m² |
+//! | clouds | 1.3 below, up to 7 where the sun meets them | albedo 0.8 in 40 klx, where the zenith has some 1.8 kcd/m² |
 //! | sun | 7 sr of the zenith in all | 40 klx, of which haze leaves a third |
-//! | foliage | 0.003 inside, 0.03 outside | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
-//! | meadow | 0.08 in shade, 0.14 in the sun | grass reflects 7 % (Bowker et al. 1985) |
+//! | foliage | 0.002 inside, 0.011 on average, 0.04 in the sun | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
+//! | meadow | 0.07 in shade, 0.12 in the sun | grass reflects 6 % (Bowker et al. 1985) |
 
 use std::sync::LazyLock;
 
@@ -384,7 +384,7 @@ mod tests {
             move |share: f64| greens[(share * (greens.len() - 1) as f64) as usize]
         };
         let sky = greens(40..90);
-        assert!((0.8..1.4).contains(&sky(0.02)) && (5.0..9.0).contains(&sky(0.98)), "{} {}", sky(0.02), sky(0.98));
+        assert!((0.8..1.4).contains(&sky(0.02)) && (3.5..7.0).contains(&sky(0.98)), "{} {}", sky(0.02), sky(0.98));
         let trees = greens(2..9);
         assert!(
             (0.001..0.006).contains(&trees(0.1)) && (0.01..0.04).contains(&trees(0.8)),
