@@ -138,8 +138,9 @@ impl Park {
         }
         // The noise repeats seven times, so that it closes around.
         let place = DVec2::new(azimuth * 7.0, slope);
-        let coarse = self.noise.at(place * DVec2::new(1.0, 1.4));
-        let fine = mix(self.noise.at(place * DVec2::new(4.0, 4.9)), 0.0, 0.75 * blur);
+        let crisp = self.noise.at(place * DVec2::new(1.0, 1.4));
+        let coarse = if blur > 0.0 { mix(crisp, self.noise.at(place * DVec2::new(0.25, 0.35)), blur) } else { crisp };
+        let fine = if blur < 1.0 { (1.0 - blur) * self.noise.at(place * DVec2::new(4.0, 4.9)) } else { 0.0 };
         let ragged = 0.018 * coarse + 0.011 * fine;
         let soft = mix(0.006, 0.016, blur);
         let cover = |inside: f64| smoothstep(-soft, soft, inside);
@@ -182,9 +183,9 @@ impl Park {
             let turned = turn.rotate(place * level);
             let ((column, x), (row, y)) = (split(turned.x), split(turned.y));
             let cell = (column as u64).wrapping_mul(4096).wrapping_add(row as u64);
-            let center = DVec2::new(0.32 + 0.36 * random(cell, seed + 1), 0.32 + 0.36 * random(cell, seed + 2));
+            let center = DVec2::new(0.35 + 0.3 * random(cell, seed + 1), 0.35 + 0.3 * random(cell, seed + 2));
             let out = DVec2::new(x, y) - center;
-            let cover = smoothstep(0.32, 0.18, out.length());
+            let cover = smoothstep(0.35, 0.13, out.length());
             if cover == 0.0 {
                 return seen;
             }
@@ -196,7 +197,7 @@ impl Park {
             let light = DVec3::new(0.44, 0.45, 0.30).lerp(DVec3::new(0.2, 0.26, 0.1), random(cell, seed + 3));
             seen + blur * cover * bright * bright * light
         };
-        let turns = [(21.0, 7.0, 21), (-15.0, 17.0, 31), (10.0, -21.0, 41)];
+        let turns = [(16.0, 5.0, 21), (-11.0, 13.0, 31), (8.0, -15.0, 41)];
         turns.into_iter().fold(seen, |seen, (x, y, seed)| layer(seen, DVec2::new(x, y), seed))
     }
 
