@@ -139,10 +139,10 @@ impl Park {
         // The noise repeats seven times, so that it closes around.
         let place = DVec2::new(azimuth * 7.0, slope);
         let crisp = self.noise.at(place * DVec2::new(1.0, 1.4));
-        let coarse = if blur > 0.0 { mix(crisp, self.noise.at(place * DVec2::new(0.25, 0.35)), blur) } else { crisp };
+        let coarse = if blur > 0.0 { mix(crisp, self.noise.at(place * DVec2::new(0.5, 0.7)), blur) } else { crisp };
         let fine = if blur < 1.0 { (1.0 - blur) * self.noise.at(place * DVec2::new(4.0, 4.9)) } else { 0.0 };
-        let ragged = 0.018 * coarse + 0.011 * fine;
-        let soft = mix(0.006, 0.016, blur);
+        let ragged = mix(0.018, 0.032, blur) * coarse + 0.011 * fine;
+        let soft = mix(0.006, 0.020, blur);
         let cover = |inside: f64| smoothstep(-soft, soft, inside);
         // How much the sun shines on what is seen of the trees: all opposite of it, nothing before it.
         let front = 0.5 - 0.5 * direction.truncate().dot(self.sun_level);
@@ -162,7 +162,7 @@ impl Park {
             let trunk = |trunk: f64, bottom: f64| trunk * above_ground * smoothstep(0.08, 0.0, slope - bottom);
             let woods_cover = cover(far_top - slope + 0.4 * ragged) * smoothstep(-0.03 - soft, -0.03 + soft, slope);
             let stems = self.noise.at(place * DVec2::new(2.0, 0.3) + 0.6);
-            let woods = DVec3::new(0.0080, 0.0112, 0.0075) * (0.7 + 0.3 * stems + 0.5 * high + 0.5 * front).max(0.15);
+            let woods = DVec3::new(0.0054, 0.0074, 0.0050) * (0.7 + 0.3 * stems + 0.5 * high + 0.5 * front).max(0.15);
             let open = if woods_cover == 1.0 {
                 woods
             } else {
@@ -245,15 +245,15 @@ impl Tree {
     fn outline(&self, azimuth: f64, blur: f64) -> [f64; 3] {
         let apart = (azimuth - self.azimuth + 0.5).rem_euclid(1.0) - 0.5;
         let across = apart * std::f64::consts::TAU;
-        let out = across / self.half_width;
+        let out = across / (1.15 * self.half_width);
         let edge = mix(0.003, 0.02, blur);
         let trunk = smoothstep(self.trunk + edge, self.trunk - edge, across.abs());
         if out.abs() >= 1.0 {
             return [-1.0, 1.0, trunk];
         }
+        // At the sides the bottom would lie above the top, so that trees which overlap join without steps.
         let round = (1.0 - out * out).sqrt();
-        let middle = mix(self.bottom, self.top, 0.35);
-        [mix(middle, self.top, round), mix(middle, self.bottom, round), trunk]
+        [mix(self.bottom, self.top, round), mix(self.top, self.bottom, round), trunk]
     }
 }
 
@@ -278,7 +278,7 @@ fn ring() -> impl Fn(f64) -> [f64; 8] {
         // The sun stands in a gap.
         let gap = 0.17 + 500.0 * apart(SUN_DEG[0]).powi(2);
         let (top, near_top) = (top + 0.1 * blur, near_top + 0.1 * blur);
-        [far_top.max(0.08), top.min(gap), bottom, trunk, near_top.min(gap), near_bottom, near_trunk, blur]
+        [far_top.max(0.08) + 0.15 * blur, top.min(gap), bottom, trunk, near_top.min(gap), near_bottom, near_trunk, blur]
     }
 }
 
