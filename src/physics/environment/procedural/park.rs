@@ -7,7 +7,7 @@
 //! | clear sky | 1 above, 3 at the horizon, 15 beside the sun | CIE standard clear sky (CIE S 011), sun 15° high |
 //! | clouds | 1.3 below, up to 7 where the sun meets them | albedo 0.8 in 40 klx, where the zenith has some 1.8 kcd/m² |
 //! | sun | 7 sr of the zenith in all | 40 klx, of which haze leaves a third |
-//! | foliage | 0.002 inside, 0.011 on average, 0.04 in the sun | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
+//! | foliage | 0.002 inside, 0.009 on average, 0.04 in the sun | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
 //! | meadow | 0.07 in shade, 0.12 in the sun | grass reflects 6 % (Bowker et al. 1985) |
 
 use std::sync::LazyLock;
@@ -35,7 +35,7 @@ const SUN_RADIUS: f64 = 2.0 * 0.004_65;
 const SUN_EDGE: f64 = 0.004;
 
 /// Slopes (the tangents of elevations) between which trees may stand before sky or meadow.
-const TREES: [f64; 2] = [-0.07, 0.66];
+const TREES: [f64; 2] = [-0.07, 1.06];
 
 static PARK: LazyLock<Park> = LazyLock::new(Park::new);
 
@@ -141,13 +141,13 @@ impl Park {
         let crisp = self.noise.at(place * DVec2::new(1.0, 1.4));
         let coarse = if blur > 0.0 { mix(crisp, self.noise.at(place * DVec2::new(0.5, 0.7)), blur) } else { crisp };
         let fine = if blur < 1.0 { (1.0 - blur) * self.noise.at(place * DVec2::new(4.0, 4.9)) } else { 0.0 };
-        let ragged = mix(0.018, 0.032, blur) * coarse + 0.011 * fine;
+        let ragged = mix(0.030, 0.036, blur) * coarse + 0.014 * fine;
         let soft = mix(0.006, 0.020, blur);
         let cover = |inside: f64| smoothstep(-soft, soft, inside);
         // How much the sun shines on what is seen of the trees: all opposite of it, nothing before it.
         let front = 0.5 - 0.5 * direction.truncate().dot(self.sun_level);
         let leaf = (0.35 + 0.3 * coarse + 0.4 * fine).max(0.05);
-        let high = smoothstep(-0.05, 0.5, slope);
+        let high = smoothstep(-0.05, 0.7, slope);
 
         let crown = |top: f64, bottom: f64| cover((top - slope).min(slope - bottom) + 1.2 * ragged);
         let (middle, near) = (crown(top, bottom), crown(near_top, near_bottom));
@@ -197,7 +197,7 @@ impl Park {
             let light = DVec3::new(0.44, 0.45, 0.30).lerp(DVec3::new(0.2, 0.26, 0.1), random(cell, seed + 3));
             seen + blur * cover * bright * bright * light
         };
-        let turns = [(16.0, 5.0, 21), (-11.0, 13.0, 31), (8.0, -15.0, 41)];
+        let turns = [(16.0, 5.0, 24), (-11.0, 13.0, 34), (8.0, -15.0, 44)];
         turns.into_iter().fold(seen, |seen, (x, y, seed)| layer(seen, DVec2::new(x, y), seed))
     }
 
@@ -260,9 +260,9 @@ impl Tree {
 /// The ring by azimuth: top of the woods far away; top, bottom and trunks of the trees before them, and of single trees before these;
 /// and how much all is out of focus.
 fn ring() -> impl Fn(f64) -> [f64; 8] {
-    let woods = Tree::row(70, 100, 0.09, [0.10, 0.20], [0.0, 0.0]);
-    let middle = Tree::row(34, 200, 0.14, [0.20, 0.40], [0.03, 0.09]);
-    let near = Tree::row(9, 300, 0.24, [0.42, 0.60], [0.10, 0.18]);
+    let woods = Tree::row(70, 100, 0.10, [0.16, 0.28], [0.0, 0.0]);
+    let middle = Tree::row(34, 200, 0.17, [0.30, 0.58], [0.03, 0.10]);
+    let near = Tree::row(9, 300, 0.30, [0.62, 0.92], [0.12, 0.22]);
     let union = |trees: &[Tree], azimuth: f64, blur: f64| {
         let outlines = trees.iter().map(|tree| tree.outline(azimuth, blur));
         outlines
@@ -384,7 +384,7 @@ mod tests {
             greens.sort_by(f64::total_cmp);
             move |share: f64| greens[(share * (greens.len() - 1) as f64) as usize]
         };
-        let sky = greens(40..90);
+        let sky = greens(50..90);
         assert!((0.8..1.4).contains(&sky(0.02)) && (3.5..7.0).contains(&sky(0.98)), "{} {}", sky(0.02), sky(0.98));
         let trees = greens(2..9);
         assert!(
