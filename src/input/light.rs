@@ -28,6 +28,8 @@ pub fn load_environment(
         _ if light.constant.is_some() => Arc::new(CubeMap::constant(DVec3::ONE)),
         Environment::Tent => Procedural::Tent.map(),
         Environment::Windows => Procedural::Windows.map(),
+        Environment::Park => Procedural::Park.map(),
+        Environment::Studio => Procedural::Studio.map(),
         Environment::File(path) => {
             let picture = read_environment(&folder.join(path), notes);
             let picture = picture.map_err(|error| Fault::unusable("environment", error).inside("light"))?;

@@ -15,7 +15,7 @@ section! {
         #[serde(rename = "patch", skip_serializing_if = "Vec::is_empty")]
         patches: Vec<LightPatch> = Vec::new(), "Parts of the environment with another illuminant, at most [`MAX_PATCHES`]; where two overlap the later one counts";
     ]
-    environment: Environment = Environment::Tent, ["`\"tent\"`, `\"windows\"`, a path"], "Environment", "", "the environment map: built in, or an equirectangular `.exr` or `.hdr` file";
+    environment: Environment = Environment::Tent, ["`\"tent\"`, `\"windows\"`, `\"park\"`, `\"studio\"`, a path"], "Environment", "", "the environment map: built in, or an equirectangular `.exr` or `.hdr` file";
     illuminant: String = "D65".to_owned(), ["a name"], "Illuminant", "", "the illuminant whose spectrum white light has: `\"D65\"`, `\"D50\"`, `\"A\"`, `\"E\"`, `\"FL2\"`, `\"FL11\"`, `\"LED\"`, `\"LED-B1\"`, `\"sodium\"`, a black body like `\"3000 K\"`, or the path of a `.csv` [table](#files-that-a-scene-names) of wavelengths and powers";
     constant: Option<[f64; 3]> = None, [0.0 ..= 65504.0], "Radiance", "", "`[r, g, b]`: the same radiance from everywhere instead of the environment, linear BT.709";
     rotation_deg: f64 = 0.0, [finite], "Rotation", "°", "rotation of the environment about the vertical, counter-clockwise seen from above";
@@ -61,12 +61,19 @@ impl Light {
 
 /// An equirectangular environment map: a built-in one by name, or a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase", expecting = "expected \"tent\", \"windows\" or the path of an .exr or .hdr file")]
+#[serde(
+    rename_all = "lowercase",
+    expecting = "expected \"tent\", \"windows\", \"park\", \"studio\" or the path of an .exr or .hdr file"
+)]
 pub enum Environment {
     /// Built in: a photographer's light tent with soft lamps.
     Tent,
     /// Built in: a dark room with bright windows.
     Windows,
+    /// Built in: a meadow among dark trees under clouds and a low sun.
+    Park,
+    /// Built in: two softboxes and a strip light on black.
+    Studio,
     /// Path of an `.exr` or `.hdr` file, as written in the scene.
     #[serde(untagged)]
     File(String),
@@ -78,10 +85,12 @@ impl Value for Environment {
             Self::File(path) if is_picture(path) => path.check(key),
             Self::File(path) => {
                 let path = shorten(path, check::LONGEST_NAME);
-                let reason = format!("is {path:?}; use \"tent\", \"windows\" or the path of an .exr or .hdr file");
+                let reason = format!(
+                    "is {path:?}; use \"tent\", \"windows\", \"park\", \"studio\" or the path of an .exr or .hdr file"
+                );
                 Err(Fault::new(key.name, reason))
             }
-            Self::Tent | Self::Windows => Ok(()),
+            Self::Tent | Self::Windows | Self::Park | Self::Studio => Ok(()),
         }
     }
 }

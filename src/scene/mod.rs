@@ -168,7 +168,7 @@ impl Scene {
     pub fn paths_mut(&mut self) -> impl Iterator<Item = &mut String> {
         let environment = match &mut self.light.environment {
             Environment::File(path) => Some(path),
-            Environment::Tent | Environment::Windows => None,
+            Environment::Tent | Environment::Windows | Environment::Park | Environment::Studio => None,
         };
         let patches = self.light.patches.iter_mut().map(|patch| &mut patch.illuminant);
         let films = self.bubbles.iter_mut().map(|bubble| &mut bubble.film);

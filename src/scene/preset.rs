@@ -8,7 +8,7 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 29] = presets![
+const PRESETS: [(&str, &str); 31] = presets![
     "default",
     "fresh",
     "bands",
@@ -24,6 +24,8 @@ const PRESETS: [(&str, &str); 29] = presets![
     "weightless",
     "giant",
     "windows",
+    "park",
+    "studio",
     "bright",
     "lamplight",
     "sodium",

@@ -44,21 +44,26 @@ fn environment(ui: &mut Ui, model: &mut Model) {
     let light = &model.scene.light;
     let is = |name: &Environment| light.constant.is_none() && light.environment == *name;
     let mut requested: Option<Light> = None;
+    // More choices than one row holds.
     group(ui, "Environment", |ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
-        let built_in = [
-            (Environment::Tent, "tent", "A photographer's light tent with soft lamps"),
-            (Environment::Windows, "windows", "A dark room with bright windows"),
-        ];
-        for (name, label, help) in built_in {
-            if ui.selectable_label(is(&name), label).on_hover_text(help).clicked() && !is(&name) {
-                requested = Some(Light { environment: name, constant: None, ..light.clone() });
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 3.0;
+            let built_in = [
+                (Environment::Tent, "tent", "A photographer's light tent with soft lamps"),
+                (Environment::Windows, "windows", "A dark room with bright windows"),
+                (Environment::Park, "park", "A meadow among dark trees, clouds and a low sun"),
+                (Environment::Studio, "studio", "Two softboxes and a strip light on black"),
+            ];
+            for (name, label, help) in built_in {
+                if ui.selectable_label(is(&name), label).on_hover_text(help).clicked() && !is(&name) {
+                    requested = Some(Light { environment: name, constant: None, ..light.clone() });
+                }
             }
-        }
-        let constant = ui.selectable_label(light.constant.is_some(), "constant");
-        if constant.on_hover_text("The same radiance from everywhere").clicked() && light.constant.is_none() {
-            requested = Some(Light { constant: Some(CONSTANT), ..light.clone() });
-        }
+            let constant = ui.selectable_label(light.constant.is_some(), "constant");
+            if constant.on_hover_text("The same radiance from everywhere").clicked() && light.constant.is_none() {
+                requested = Some(Light { constant: Some(CONSTANT), ..light.clone() });
+            }
+        })
     });
     group(ui, "Panorama", |ui| {
         let open = ui.button("Open…").on_hover_text("An equirectangular .exr or .hdr file; or drop one on the window");

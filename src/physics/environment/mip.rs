@@ -9,11 +9,28 @@ use rayon::prelude::*;
 /// parents, some of them in part.
 pub(super) fn halve(texels: &[[f32; 3]], size: usize) -> Vec<[f32; 3]> {
     let half = (size / 2).max(1);
+    if 2 * half == size {
+        return halve_even(texels, size);
+    }
     let coverage: Vec<_> = (0..half).map(|i| Coverage::new(i, size, half)).collect();
     let mut smaller = vec![[0.0; 3]; half * half];
     smaller.par_chunks_exact_mut(half).zip(&coverage).for_each(|(row, vertical)| {
         for (texel, horizontal) in row.iter_mut().zip(&coverage) {
             *texel = mean(texels, size, horizontal, vertical);
+        }
+    });
+    smaller
+}
+
+/// Means of two by two texels.
+fn halve_even(texels: &[[f32; 3]], size: usize) -> Vec<[f32; 3]> {
+    let mut smaller = vec![[0.0; 3]; texels.len() / 4];
+    smaller.par_chunks_exact_mut(size / 2).zip(texels.par_chunks_exact(2 * size)).for_each(|(row, parents)| {
+        let (upper, lower) = parents.split_at(size);
+        for ((texel, upper), lower) in row.iter_mut().zip(upper.chunks_exact(2)).zip(lower.chunks_exact(2)) {
+            let sum =
+                |i: usize| [upper[0][i], upper[1][i], lower[0][i], lower[1][i]].map(f64::from).iter().sum::<f64>();
+            *texel = std::array::from_fn(|i| (0.25 * sum(i)) as f32);
         }
     });
     smaller

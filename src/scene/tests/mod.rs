@@ -329,6 +329,7 @@ fn words_and_values_share_a_key() {
     assert_eq!(index("\"glycerol 30%\""), FilmIndexName::Named("glycerol 30%".to_owned()));
     let environment = |value: &str| read(&format!("light.environment = \"{value}\"")).light.environment;
     assert_eq!((environment("tent"), environment("windows")), (Environment::Tent, Environment::Windows));
+    assert_eq!((environment("park"), environment("studio")), (Environment::Park, Environment::Studio));
     assert_eq!(environment("sky/Noon.EXR"), Environment::File("sky/Noon.EXR".to_owned()));
     let backdrop = |value: &str| read(&format!("view.backdrop = {value}")).view.backdrop;
     assert_eq!(backdrop("\"environment\""), Backdrop::Environment);

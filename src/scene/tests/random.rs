@@ -54,7 +54,13 @@ fn radiance() -> impl Strategy<Value = [f64; 3]> {
 
 fn light() -> impl Strategy<Value = Light> {
     let file = "[a-z \\\\\"'é/]{0,8}\\.(exr|hdr)".prop_map(Environment::File);
-    let environment = prop_oneof![Just(Environment::Tent), Just(Environment::Windows), file];
+    let environment = prop_oneof![
+        Just(Environment::Tent),
+        Just(Environment::Windows),
+        Just(Environment::Park),
+        Just(Environment::Studio),
+        file
+    ];
     let patches = prop::collection::vec(patch(), 0..3);
     (environment, illuminant(), prop::option::of(radiance()), -1e9..1e9, 0.0..1e4, patches).prop_map(
         |(environment, illuminant, constant, rotation_deg, intensity, patches)| Light {

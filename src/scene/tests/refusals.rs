@@ -173,7 +173,7 @@ fn values_lie_in_their_range() {
         ),
         (
             "[light]\nenvironment = \"tnt\"",
-            "3: `environment` in [light] is \"tnt\"; use \"tent\", \"windows\" or the path of an .exr or .hdr file",
+            "3: `environment` in [light] is \"tnt\"; use \"tent\", \"windows\", \"park\", \"studio\" or the path of an .exr or .hdr file",
         ),
         ("[light]\nilluminant = \"\"", "3: `illuminant` in [light] is empty; name one, as in `illuminant = \"D65\"`"),
     ]);

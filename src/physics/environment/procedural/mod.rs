@@ -1,6 +1,10 @@
 //! Environments made from formulas: what photographers of bubbles build or look for.
 
+mod noise;
+mod park;
 mod shape;
+mod softbox;
+mod studio;
 mod tent;
 mod windows;
 
@@ -16,12 +20,18 @@ words! {
     pub enum Procedural: "environment" {
         Tent = "tent", "A photographer's light tent: bright cloth all round, softboxes, a grey floor";
         Windows = "windows", "A dark room with bright windows: colours live in the windows' reflections";
+        Park = "park", "A meadow among dark trees, broken clouds and a low sun: a bubble out of doors";
+        Studio = "studio", "Two large softboxes and a strip light on black: a photographer's table";
     }
 }
 
-/// The maps of all built-in environments, each made at its first use: the room takes seconds.
-static MAPS: [LazyLock<Arc<CubeMap>>; Procedural::ALL.len()] =
-    [LazyLock::new(|| Procedural::Tent.made()), LazyLock::new(|| Procedural::Windows.made())];
+/// The maps of all built-in environments, each made at its first use.
+static MAPS: [LazyLock<Arc<CubeMap>>; Procedural::ALL.len()] = [
+    LazyLock::new(|| Procedural::Tent.made()),
+    LazyLock::new(|| Procedural::Windows.made()),
+    LazyLock::new(|| Procedural::Park.made()),
+    LazyLock::new(|| Procedural::Studio.made()),
+];
 
 impl Procedural {
     /// Its cube map, made once for all that ask.
@@ -31,23 +41,33 @@ impl Procedural {
     }
 
     fn made(self) -> Arc<CubeMap> {
-        Arc::new(CubeMap::from_fn(self.cube_size(), 2, |direction| self.radiance(direction)))
+        Arc::new(CubeMap::from_fn(self.cube_size(), self.supersampling(), |direction| self.radiance(direction)))
     }
 
     /// Texels along the edge of a cube map's face that show its finest detail.
     pub fn cube_size(self) -> usize {
         match self {
             Self::Tent => 256,
-            Self::Windows => 512,
+            Self::Windows | Self::Park | Self::Studio => 512,
         }
     }
 
-    /// Radiance from `direction` (of any length but zero): linear BT.2020 relative to the illuminant, smooth over about 0.4°.
+    /// Samples along the edge of a texel of that map: one, where all edges are wider than texels.
+    fn supersampling(self) -> usize {
+        match self {
+            Self::Tent => 2,
+            Self::Windows | Self::Park | Self::Studio => 1,
+        }
+    }
+
+    /// Radiance from `direction` (of any length but zero): linear BT.2020 relative to the illuminant, smooth over about 0.4° but for leaves.
     pub fn radiance(self, direction: DVec3) -> DVec3 {
         let direction = direction.normalize();
         match self {
             Self::Tent => tent::radiance(direction),
             Self::Windows => windows::radiance(direction),
+            Self::Park => park::radiance(direction),
+            Self::Studio => studio::radiance(direction),
         }
     }
 }
@@ -69,6 +89,8 @@ mod tests {
         for environment in Procedural::ALL {
             let map = CubeMap::from_fn(64, 1, |direction| environment.radiance(direction));
             assert_eq!(map.repairs().total(), 0, "{environment:?}");
+            let again = CubeMap::from_fn(64, 1, |direction| environment.radiance(direction));
+            assert_eq!(map.id(), again.id(), "{environment:?}");
             let direction = DVec3::new(0.3, -0.4, 0.2);
             // Rounding of one normalisation against another.
             assert!(environment.radiance(7.0 * direction).distance(environment.radiance(direction)) < 1e-12);
@@ -93,5 +115,20 @@ mod tests {
         let bright = share(&|green| green > 5.0);
         assert!((0.03..0.25).contains(&bright), "bright {bright}");
         assert!(greens.iter().all(|&green| green < 16.0));
+    }
+
+    #[test]
+    fn windows_show_dark_roofs_under_a_sky_that_is_not_even() {
+        let toward = |slope: f64, azimuth_deg: f64| {
+            let level = glam::DVec2::from_angle(azimuth_deg.to_radians());
+            Procedural::Windows.radiance(level.extend(slope)).y
+        };
+        // Through the window behind the default camera.
+        let greens =
+            |slope: f64| (-22..5).map(move |azimuth| toward(slope, f64::from(azimuth))).filter(|&green| green > 0.3);
+        let roofs = greens(-0.13).fold(0.0, f64::max);
+        let (low, high) = greens(0.15).fold((f64::MAX, 0.0f64), |(low, high), green| (low.min(green), high.max(green)));
+        assert!((0.3..1.2).contains(&roofs), "{roofs}");
+        assert!(high > 8.0 * roofs && high > 1.2 * low, "{low} to {high}");
     }
 }

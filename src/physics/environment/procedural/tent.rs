@@ -4,7 +4,10 @@ use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3};
 
-use super::shape::{bell, rounded_box_distance, smoothstep};
+use super::{
+    shape::{bell, smoothstep},
+    softbox::{Look, Softbox},
+};
 
 /// Softboxes as azimuth and elevation in degrees, half width and height seen from 1 away, and radiance above the cloth's
 /// (linear BT.2020).
@@ -22,7 +25,10 @@ const SOFTBOXES: [(f64, f64, DVec2, DVec3); 5] = [
 /// back: dark lines that bend with the bubble and so show its form.
 const SEAMS: [(f64, f64, f64); 3] = [(52.0, 0.03, 0.32), (122.0, 0.03, 0.32), (300.0, 0.03, 0.32)];
 
-static LAMPS: LazyLock<[Softbox; 5]> = LazyLock::new(|| SOFTBOXES.map(Softbox::new));
+/// Edges a few degrees soft, and an inner cloth that spreads the light.
+const LOOK: Look = Look { corner: 0.09, edge: [0.025, -0.04], rim: 0.6, middle: 0.7 };
+
+static LAMPS: LazyLock<[Softbox; 5]> = LazyLock::new(|| SOFTBOXES.map(|softbox| Softbox::new(softbox, &LOOK)));
 static DARK_LINES: LazyLock<[Seam; 3]> = LazyLock::new(|| SEAMS.map(Seam::new));
 
 /// Radiance from a unit `direction`.
@@ -62,35 +68,5 @@ impl Seam {
         }
         let height = smoothstep(-0.55, -0.3, direction.z) * smoothstep(0.95, 0.7, direction.z);
         self.depth * height * bell(across, self.half_width)
-    }
-}
-
-/// A bright rounded rectangle, brightest in the middle, with edges a few degrees soft.
-struct Softbox {
-    towards: DVec3,
-    right: DVec3,
-    up: DVec3,
-    half_size: DVec2,
-    radiance: DVec3,
-}
-
-impl Softbox {
-    fn new((azimuth_deg, elevation_deg, half_size, radiance): (f64, f64, DVec2, DVec3)) -> Self {
-        let level = DVec2::from_angle(azimuth_deg.to_radians());
-        let (sin_elevation, cos_elevation) = elevation_deg.to_radians().sin_cos();
-        let towards = (cos_elevation * level).extend(sin_elevation);
-        let right = level.perp().extend(0.0);
-        Self { towards, right, up: towards.cross(right), half_size, radiance }
-    }
-
-    fn radiance(&self, direction: DVec3) -> DVec3 {
-        let facing = direction.dot(self.towards);
-        if facing < 0.2 {
-            return DVec3::ZERO;
-        }
-        let position = DVec2::new(direction.dot(self.right), direction.dot(self.up)) / facing;
-        let edge = smoothstep(0.025, -0.04, rounded_box_distance(position, self.half_size, 0.09));
-        let hot_middle = 0.6 + 0.4 * bell((position / self.half_size).length(), 0.7);
-        edge * hot_middle * self.radiance
     }
 }

@@ -1,8 +1,13 @@
 //! The dark room: a box around the bubble, with windows in its walls and an overcast sky outside.
 
+use std::sync::LazyLock;
+
 use glam::{DVec2, DVec3};
 
-use super::shape::{bell, panes, rounded_box_distance, smoothstep};
+use super::{
+    noise::{Curve, Tile, random, turns},
+    shape::{panes, rounded_box_distance, smoothstep},
+};
 
 /// The room's corners in metres, the bubble at the origin.
 const ROOM_MIN: DVec3 = DVec3::new(-3.4, -2.1, -1.35);
@@ -80,12 +85,20 @@ const WINDOWS: [Window; 5] = [
 /// Radiance from a unit `direction`.
 pub(super) fn radiance(direction: DVec3) -> DVec3 {
     let hit = room_hit(direction);
-    let inside = room(hit);
-    let Some((wall, on_wall)) = wall_at(hit) else {
-        return inside;
+    let window = wall_at(hit).and_then(|(wall, on_wall)| {
+        let mut windows = WINDOWS.iter().filter(|window| window.wall == wall);
+        windows.find_map(|window| window.seen(on_wall - window.center_m))
+    });
+    let Some((window, position, frame)) = window else {
+        return room(hit);
     };
-    let windows = WINDOWS.iter().filter(|window| window.wall == wall);
-    windows.fold(inside, |behind, window| window.over(behind, on_wall, direction))
+    let glass = window.glass(position);
+    let light = if glass > 0.0 { window.pane(position) * outside(direction) * window.sky } else { DVec3::ZERO };
+    if glass == 1.0 {
+        return light;
+    }
+    // Bars stand against the light: only a little of it creeps round them.
+    room(hit).lerp(0.16 * window.sky, frame).lerp(light, glass)
 }
 
 /// Where a ray from the bubble meets the room.
@@ -150,29 +163,72 @@ impl Window {
     fn pool(&self, hit: DVec3) -> DVec3 {
         let (middle, inwards) = self.middle();
         let pool = (middle + 1.1 * inwards).with_z(ROOM_MIN.z);
-        self.sky * (1.6 * bell(hit.distance(pool), 0.75) + 0.8 * bell(hit.distance(middle), 1.2))
+        self.sky * (1.6 * glow(hit.distance_squared(pool), 0.75) + 0.8 * glow(hit.distance_squared(middle), 1.2))
     }
 
-    /// The window in front of the wall's radiance `behind`, seen at `on_wall` along `direction`.
-    fn over(&self, behind: DVec3, on_wall: DVec2, direction: DVec3) -> DVec3 {
-        let position = on_wall - self.center_m;
-        let half = self.half_size_m;
-        let frame = smoothstep(0.10, 0.06, rounded_box_distance(position, half, 0.02));
-        let across = |axis: usize| panes(position[axis], half[axis], self.panes[axis], BAR_M, EDGE_M);
-        let glass = across(0) * across(1);
-        // Bars stand against the light: only a little of it creeps round them.
-        let painted = behind.lerp(0.16 * self.sky, frame);
-        if glass > 0.0 { painted.lerp(outside(direction) * self.sky, glass) } else { painted }
+    /// The window, the position in it and how much of its frame covers, if it is seen at that position at all.
+    fn seen(&self, position: DVec2) -> Option<(&Self, DVec2, f64)> {
+        let outline = rounded_box_distance(position, self.half_size_m, 0.02);
+        (outline < 0.10).then(|| (self, position, smoothstep(0.10, 0.06, outline)))
+    }
+
+    /// How much of the wall is glass at a position in the window.
+    fn glass(&self, position: DVec2) -> f64 {
+        let across = |axis: usize| panes(position[axis], self.half_size_m[axis], self.panes[axis], BAR_M, EDGE_M);
+        across(0) * across(1)
+    }
+
+    /// How much light a pane lets through at a position in the window: no two panes are equally clean, and dust gathers in corners.
+    fn pane(&self, position: DVec2) -> f64 {
+        let along = (position / self.half_size_m + 1.0) * 0.5 * self.panes;
+        let number = along.floor().max(DVec2::ZERO);
+        let middle = 2.0 * (along - number) - 1.0;
+        let index = number.x + 8.0 * number.y + 64.0 * (1.0 + self.center_m.x.abs()) * (1.0 + self.wall as u8 as f64);
+        let clean = 0.84 + 0.16 * random(index as u64, 5);
+        let dust = 0.16 * (middle.x * middle.y).powi(2) + 0.10 * middle.y.min(0.0).powi(2);
+        clean - dust
     }
 }
 
-/// Overcast sky, brighter above, over a soft line of trees.
+/// A bell of a squared distance, of height 1 and width `sigma`, that is 0 from 2.4 widths on.
+fn glow(distance_squared: f64, sigma: f64) -> f64 {
+    (1.0 - distance_squared / (6.0 * sigma * sigma)).max(0.0).powi(3)
+}
+
+/// Slope of the skyline by azimuth: roofs, chimneys and trees.
+static SKYLINE: LazyLock<Curve<1>> = LazyLock::new(|| Curve::new(2048, |turn| [skyline(turn)]));
+
+static CLOUDS: LazyLock<Tile> = LazyLock::new(|| Tile::new(11));
+
+fn skyline(turn: f64) -> f64 {
+    let house = |count: u64, seed: u64| {
+        let place = turn * count as f64;
+        let (index, inside) = (place as u64 % count, place.fract());
+        let height = 0.13 * random(index, seed) - 0.03;
+        let gable = 0.05 * (1.0 - (2.0 * inside - 1.0).abs()) * random(index, seed + 1);
+        let chimney_at = 0.2 + 0.6 * random(index, seed + 2);
+        let chimney = if (inside - chimney_at).abs() < 0.05 { 0.025 } else { 0.0 };
+        height + gable + chimney
+    };
+    let angle = turn * std::f64::consts::TAU;
+    let trees = 0.01 + 0.04 * (5.0 * angle).sin() + 0.02 * (13.0 * angle + 1.0).sin() + 0.008 * (61.0 * angle).sin();
+    house(53, 1).max(house(31, 11) - 0.01).max(trees) - 0.04
+}
+
+/// Overcast sky with some structure, brighter above, over dark roofs and trees.
 fn outside(direction: DVec3) -> DVec3 {
     let slope = direction.z / direction.truncate().length().max(1e-9);
-    let azimuth = direction.y.atan2(direction.x);
-    let tree_line =
-        -0.08 + 0.035 * (5.0 * azimuth).sin() + 0.02 * (13.0 * azimuth + 1.0).sin() + 0.01 * (29.0 * azimuth).sin();
-    let sky = DVec3::splat(9.0 + 4.5 * smoothstep(-0.1, 0.7, slope));
-    let trees = DVec3::new(2.6, 3.0, 2.5);
-    trees.lerp(sky, smoothstep(tree_line - 0.02, tree_line + 0.03, slope))
+    let turn = turns(direction.truncate());
+    let [line] = SKYLINE.at(turn);
+    let above = smoothstep(line - 0.004, line + 0.010, slope);
+    let fronts = CLOUDS.at(DVec2::new(6.0 * turn, 0.7 * slope)).clamp(-1.5, 1.5);
+    let street = DVec3::new(0.55, 0.56, 0.55) * (1.0 + 0.5 * smoothstep(0.1, -0.8, slope) + 0.25 * fronts);
+    if above == 0.0 {
+        return street;
+    }
+    let high = smoothstep(-0.05, 0.9, slope);
+    let place = direction.truncate() / (direction.z.max(0.0) + 0.3);
+    let clouds = CLOUDS.at(0.14 * place) + 0.4 * CLOUDS.at(0.5 * place.perp());
+    let sky = (8.4 + 4.0 * high) * (1.0 + 0.17 * clouds).clamp(0.6, 1.5);
+    street.lerp(sky * DVec3::new(1.0, 1.0, 1.02), above)
 }

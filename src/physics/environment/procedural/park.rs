@@ -1,0 +1,411 @@
+//! A park on a late afternoon: a ring of dark trees around a meadow, under a sky with broken clouds and a low sun.
+//!
+//! Radiances are relative to the clear sky's zenith, which shines a little brighter than a white surface in the trees' shade.
+//!
+//! | what | radiance | from |
+//! |---|---|---|
+//! | clear sky | 1 above, 3 at the horizon, 15 beside the sun | CIE standard clear sky (CIE S 011), sun 15° high |
+//! | clouds | 1.3 below, up to 7 where the sun meets them | albedo 0.8 in 40 klx, where the zenith has some 1.8 kcd/m² |
+//! | sun | 7 sr of the zenith in all | 40 klx, of which haze leaves a third |
+//! | foliage | 0.002 inside, 0.009 on average, 0.04 in the sun | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
+//! | meadow | 0.07 in shade, 0.12 in the sun | grass reflects 6 % (Bowker et al. 1985) |
+
+use std::sync::LazyLock;
+
+use glam::{DVec2, DVec3};
+
+use super::{
+    noise::{Curve, Tile, mix, random, split, turns},
+    shape::{rounded_box_distance, smoothstep},
+};
+
+/// Where the default camera stands, and with it the photographer: azimuth in degrees.
+const PHOTOGRAPHER_DEG: f64 = 20.0;
+
+/// Azimuth and elevation of the sun in degrees: it is to the left of what the photographer sees, in a gap of the trees.
+const SUN_DEG: [f64; 2] = [296.0, 15.0];
+
+/// Irradiance from the sun across its rays.
+const SUN_IRRADIANCE: f64 = 7.0;
+
+/// Radius of the sun's disc: twice the real one, so that its radiance stays below what a half float holds.
+const SUN_RADIUS: f64 = 2.0 * 0.004_65;
+
+/// Half the width of the disc's soft edge.
+const SUN_EDGE: f64 = 0.004;
+
+/// Slopes (the tangents of elevations) between which trees may stand before sky or meadow.
+const TREES: [f64; 2] = [-0.07, 1.06];
+
+static PARK: LazyLock<Park> = LazyLock::new(Park::new);
+
+/// Radiance from a unit `direction`.
+pub(super) fn radiance(direction: DVec3) -> DVec3 {
+    PARK.radiance(direction)
+}
+
+struct Park {
+    sun: DVec3,
+    sun_level: DVec2,
+    /// Radiance of the sun's disc.
+    disc: f64,
+    /// Clear sky around the sun by half the chord to it: the CIE's indicatrix, and the glow of haze.
+    around_sun: Curve<2>,
+    /// Clear sky by the sine of the elevation: the CIE's gradation.
+    gradation: Curve<1>,
+    /// By azimuth: the ring's outlines.
+    ring: Curve<8>,
+    noise: Tile,
+    photographer: Photographer,
+}
+
+impl Park {
+    fn new() -> Self {
+        let [azimuth, elevation] = SUN_DEG.map(f64::to_radians);
+        let sun_level = DVec2::from_angle(azimuth);
+        let sun = (elevation.cos() * sun_level).extend(elevation.sin());
+        let indicatrix = |angle: f64| 0.91 + 10.0 * (-3.0 * angle).exp() + 0.45 * angle.cos().powi(2);
+        let gradation = |sine: f64| 1.0 - (-0.32 / sine.max(1e-3)).exp();
+        let zenith = indicatrix(std::f64::consts::FRAC_PI_2 - elevation) * gradation(1.0);
+        let around_sun = |half_chord: f64| {
+            let angle = 2.0 * half_chord.asin();
+            [indicatrix(angle) / zenith, 60.0 * (-angle / 0.03).exp()]
+        };
+        Self {
+            sun,
+            sun_level,
+            // The soft edge adds a fifth of its half width squared.
+            disc: SUN_IRRADIANCE / (std::f64::consts::PI * (SUN_RADIUS.powi(2) + SUN_EDGE.powi(2) / 5.0)),
+            around_sun: Curve::new(1024, around_sun),
+            gradation: Curve::new(256, |sine| [gradation(sine)]),
+            ring: Curve::new(2048, ring()),
+            noise: Tile::new(7),
+            photographer: Photographer::new(),
+        }
+    }
+
+    fn radiance(&self, direction: DVec3) -> DVec3 {
+        let level = direction.truncate();
+        let slope = direction.z / level.length().max(1e-9);
+        if slope > TREES[1] {
+            return self.sky(direction);
+        }
+        let seen = if slope < TREES[0] { self.meadow(direction) } else { self.trees(direction, slope) };
+        self.photographer.over(seen, direction)
+    }
+
+    /// Clear sky, clouds before it, and the sun before both.
+    fn sky(&self, direction: DVec3) -> DVec3 {
+        let half_chord = 0.5 * direction.distance(self.sun);
+        let clouded = self.clouds(self.clear_sky(direction, half_chord), direction, half_chord);
+        let disc = smoothstep(SUN_RADIUS + SUN_EDGE, SUN_RADIUS - SUN_EDGE, 2.0 * half_chord);
+        clouded + self.disc * disc * DVec3::new(1.1, 1.0, 0.75)
+    }
+
+    /// Air and haze: blue above, white at the horizon, bright around the sun.
+    fn clear_sky(&self, direction: DVec3, half_chord: f64) -> DVec3 {
+        let [indicatrix, haze] = self.around_sun.at(half_chord);
+        let [gradation] = self.gradation.at(direction.z);
+        let share = (gradation - self.gradation.at(1.0)[0]) / (1.0 - self.gradation.at(1.0)[0]);
+        let air = DVec3::new(0.70, 1.0, 1.88).lerp(DVec3::new(1.06, 1.0, 0.92), share);
+        indicatrix * gradation * air + haze * DVec3::new(1.06, 1.0, 0.86)
+    }
+
+    /// A layer of broken clouds, seen from below: bright where the sun meets them, grey where they are thick.
+    fn clouds(&self, clear: DVec3, direction: DVec3, half_chord: f64) -> DVec3 {
+        let place = direction.truncate() / (direction.z.max(0.0) + 0.16);
+        let broad = |place: DVec2| self.noise.at(0.11 * place + 0.17);
+        let here = broad(place);
+        let depth = here + 0.35 * self.noise.at(0.47 * place.perp());
+        // The sun looks through.
+        let cover = 0.94 * smoothstep(-0.35, 0.75, depth) * smoothstep(0.02, 0.11, half_chord);
+        if cover == 0.0 {
+            return clear;
+        }
+        let towards_sun = broad(place + 0.14 * self.sun_level);
+        let lit = smoothstep(-1.0, 1.1, here - towards_sun + 0.45 - 0.5 * depth);
+        // The nearer to the sun, the more light they scatter forwards.
+        let bright = DVec3::new(6.3, 6.0, 5.4) * (1.3 - 0.6 * half_chord);
+        clear.lerp(DVec3::new(1.25, 1.32, 1.48).lerp(bright, lit), cover)
+    }
+
+    /// The trees, and what is seen between them.
+    fn trees(&self, direction: DVec3, slope: f64) -> DVec3 {
+        let azimuth = turns(direction.truncate());
+        let [far_top, top, bottom, trunk_cover, near_top, near_bottom, near_trunk, blur] = self.ring.at(azimuth);
+        if slope > top.max(near_top).max(far_top) + 0.11 {
+            return self.sky(direction);
+        }
+        // The noise repeats seven times, so that it closes around.
+        let place = DVec2::new(azimuth * 7.0, slope);
+        let crisp = self.noise.at(place * DVec2::new(1.0, 1.4));
+        let coarse = if blur > 0.0 { mix(crisp, self.noise.at(place * DVec2::new(0.5, 0.7)), blur) } else { crisp };
+        let fine = if blur < 1.0 { (1.0 - blur) * self.noise.at(place * DVec2::new(4.0, 4.9)) } else { 0.0 };
+        let ragged = mix(0.030, 0.036, blur) * coarse + 0.014 * fine;
+        let soft = mix(0.006, 0.020, blur);
+        let cover = |inside: f64| smoothstep(-soft, soft, inside);
+        // How much the sun shines on what is seen of the trees: all opposite of it, nothing before it.
+        let front = 0.5 - 0.5 * direction.truncate().dot(self.sun_level);
+        let leaf = (0.35 + 0.3 * coarse + 0.4 * fine).max(0.05);
+        let high = smoothstep(-0.05, 0.7, slope);
+
+        let crown = |top: f64, bottom: f64| cover((top - slope).min(slope - bottom) + 1.2 * ragged);
+        let (middle, near) = (crown(top, bottom), crown(near_top, near_bottom));
+        let foliage = DVec3::new(0.017, 0.024, 0.0085) * leaf * (0.25 + 0.8 * high + 1.1 * front);
+        let seen = if near == 1.0 {
+            0.55 * foliage
+        } else if middle == 1.0 && near == 0.0 && near_trunk == 0.0 {
+            foliage
+        } else {
+            let bark = DVec3::new(0.0048, 0.0040, 0.0034) * (0.7 + 1.5 * front);
+            let above_ground = smoothstep(-0.05 - soft, -0.05 + soft, slope);
+            let trunk = |trunk: f64, bottom: f64| trunk * above_ground * smoothstep(0.08, 0.0, slope - bottom);
+            let woods_cover = cover(far_top - slope + 0.4 * ragged) * smoothstep(-0.03 - soft, -0.03 + soft, slope);
+            let stems = self.noise.at(place * DVec2::new(2.0, 0.3) + 0.6);
+            let woods = DVec3::new(0.0054, 0.0074, 0.0050) * (0.7 + 0.3 * stems + 0.5 * high + 0.5 * front).max(0.15);
+            let open = if woods_cover == 1.0 {
+                woods
+            } else {
+                let behind = if slope > 0.0 { self.sky(direction) } else { self.meadow(direction) };
+                behind.lerp(woods, woods_cover)
+            };
+            let behind = open.lerp(bark, trunk(trunk_cover, bottom)).lerp(foliage, middle);
+            behind.lerp(0.55 * bark, trunk(near_trunk, near_bottom)).lerp(0.55 * foliage, near)
+        };
+        if blur > 0.02 { self.discs(seen, place, top.max(near_top), blur) } else { seen }
+    }
+
+    /// Gaps between leaves that are out of the lens's focus: discs of the sky's light.
+    fn discs(&self, seen: DVec3, place: DVec2, top: f64, blur: f64) -> DVec3 {
+        // A turn is 2π of slope near the horizon.
+        let level = DVec2::new(std::f64::consts::TAU / 7.0, 1.0);
+        let layer = |seen: DVec3, turn: DVec2, seed: u64| {
+            let turned = turn.rotate(place * level);
+            let ((column, x), (row, y)) = (split(turned.x), split(turned.y));
+            let cell = (column as u64).wrapping_mul(4096).wrapping_add(row as u64);
+            let center = DVec2::new(0.35 + 0.3 * random(cell, seed + 1), 0.35 + 0.3 * random(cell, seed + 2));
+            let out = DVec2::new(x, y) - center;
+            let cover = smoothstep(0.35, 0.13, out.length());
+            if cover == 0.0 {
+                return seen;
+            }
+            // Each disc as a whole is as bright as the leaves in its middle are open.
+            let middle = place - DVec2::new(turn.x, -turn.y).rotate(out) / (turn.length_squared() * level);
+            let open = smoothstep(0.0, 0.2, middle.y) * smoothstep(top, top - 0.06, middle.y);
+            let gaps = open * smoothstep(-0.9, 1.6, self.noise.at(middle * 0.6 + 0.5));
+            let bright = (1.0 - 1.7 * random(cell, seed) / gaps.max(1e-3)).max(0.0);
+            let light = DVec3::new(0.44, 0.45, 0.30).lerp(DVec3::new(0.2, 0.26, 0.1), random(cell, seed + 3));
+            seen + blur * cover * bright * bright * light
+        };
+        let turns = [(16.0, 5.0, 24), (-11.0, 13.0, 34), (8.0, -15.0, 44)];
+        turns.into_iter().fold(seen, |seen, (x, y, seed)| layer(seen, DVec2::new(x, y), seed))
+    }
+
+    /// Grass, with the long shadows that trees throw away from the sun.
+    fn meadow(&self, direction: DVec3) -> DVec3 {
+        // In metres from below the bubble, which hangs at 1.4 m.
+        let place = direction.truncate() * (1.4 / (-direction.z).max(0.02));
+        let shadow = DVec2::new(place.dot(self.sun_level) * 0.004, place.perp_dot(self.sun_level) * 0.016);
+        let lit = smoothstep(-0.1, 1.5, self.noise.at(shadow));
+        let detail = self.noise.at(place * 0.11) * smoothstep(0.03, 0.3, -direction.z);
+        let tufts = (1.0 + 0.16 * detail).max(0.3);
+        let shade = DVec3::new(0.052, 0.066, 0.030);
+        let sunny = DVec3::new(0.122, 0.122, 0.050);
+        shade.lerp(sunny, lit) * tufts
+    }
+}
+
+/// A tree of the ring, in slopes, and turns for its azimuth.
+struct Tree {
+    azimuth: f64,
+    half_width: f64,
+    top: f64,
+    bottom: f64,
+    trunk: f64,
+}
+
+impl Tree {
+    /// `count` trees around, of random sizes.
+    fn row(count: u64, seed: u64, width: f64, top: [f64; 2], bottom: [f64; 2]) -> Vec<Self> {
+        let tree = |index: u64| {
+            let chance = |what: u64| random(index, seed + what);
+            let half_width = width * (0.7 + 0.6 * chance(1));
+            Self {
+                azimuth: (index as f64 + 0.8 * chance(0)) / count as f64,
+                half_width,
+                top: mix(top[0], top[1], chance(2)),
+                bottom: mix(bottom[0], bottom[1], chance(3)),
+                trunk: half_width * (0.05 + 0.05 * chance(4)),
+            }
+        };
+        (0..count).map(tree).collect()
+    }
+
+    /// Slope of the crown's top and bottom, and how much of the trunk covers, at an azimuth; a top of −1 where there is nothing.
+    fn outline(&self, azimuth: f64, blur: f64) -> [f64; 3] {
+        let apart = (azimuth - self.azimuth + 0.5).rem_euclid(1.0) - 0.5;
+        let across = apart * std::f64::consts::TAU;
+        let out = across / (1.15 * self.half_width);
+        let edge = mix(0.003, 0.02, blur);
+        let trunk = smoothstep(self.trunk + edge, self.trunk - edge, across.abs());
+        if out.abs() >= 1.0 {
+            return [-1.0, 1.0, trunk];
+        }
+        // At the sides the bottom would lie above the top, so that trees which overlap join without steps.
+        let round = (1.0 - out * out).sqrt();
+        [mix(self.bottom, self.top, round), mix(self.top, self.bottom, round), trunk]
+    }
+}
+
+/// The ring by azimuth: top of the woods far away; top, bottom and trunks of the trees before them, and of single trees before these;
+/// and how much all is out of focus.
+fn ring() -> impl Fn(f64) -> [f64; 8] {
+    let woods = Tree::row(70, 100, 0.10, [0.16, 0.28], [0.0, 0.0]);
+    let middle = Tree::row(34, 200, 0.17, [0.30, 0.58], [0.03, 0.10]);
+    let near = Tree::row(9, 300, 0.30, [0.62, 0.92], [0.12, 0.22]);
+    let union = |trees: &[Tree], azimuth: f64, blur: f64| {
+        let outlines = trees.iter().map(|tree| tree.outline(azimuth, blur));
+        outlines
+            .fold([-1.0f64, 1.0f64, 0.0f64], |all, one| [all[0].max(one[0]), all[1].min(one[1]), all[2].max(one[2])])
+    };
+    move |azimuth| {
+        let apart = |degrees: f64| (azimuth - degrees / 360.0 + 0.5).rem_euclid(1.0) - 0.5;
+        let behind = apart(PHOTOGRAPHER_DEG + 180.0);
+        let blur = smoothstep(0.14, 0.09, behind.abs());
+        let [far_top, ..] = union(&woods, azimuth, blur);
+        let [top, bottom, trunk] = union(&middle, azimuth, blur);
+        let [near_top, near_bottom, near_trunk] = union(&near, azimuth, blur);
+        // The sun stands in a gap.
+        let gap = 0.17 + 500.0 * apart(SUN_DEG[0]).powi(2);
+        let (top, near_top) = (top + 0.1 * blur, near_top + 0.1 * blur);
+        [far_top.max(0.08) + 0.15 * blur, top.min(gap), bottom, trunk, near_top.min(gap), near_bottom, near_trunk, blur]
+    }
+}
+
+/// The photographer, from the front, as a dark shape: all in tangents, as of somebody a metre away.
+struct Photographer {
+    towards: DVec3,
+    right: DVec3,
+    up: DVec3,
+}
+
+impl Photographer {
+    fn new() -> Self {
+        let level = DVec2::from_angle(PHOTOGRAPHER_DEG.to_radians());
+        Self { towards: level.extend(0.0), right: level.perp().extend(0.0), up: DVec3::Z }
+    }
+
+    fn over(&self, behind: DVec3, direction: DVec3) -> DVec3 {
+        let facing = direction.dot(self.towards);
+        if facing < 0.5 {
+            return behind;
+        }
+        let place = DVec2::new(direction.dot(self.right), direction.dot(self.up)) / facing;
+        if place.x.abs() > 0.32 || place.y > 0.17 || place.y < -1.3 {
+            return behind;
+        }
+        let side = DVec2::new(place.x.abs(), place.y);
+        let head = ((place - DVec2::new(0.0, 0.055)) * DVec2::new(1.0, 0.8)).length() - 0.07;
+        let camera = rounded_box_distance(place - DVec2::new(0.0, -0.005), DVec2::new(0.075, 0.05), 0.015);
+        let trunk = rounded_box_distance(place - DVec2::new(0.0, -0.34), DVec2::new(0.17, 0.28), 0.11);
+        let upper_arm = limb(side, DVec2::new(0.155, -0.13), DVec2::new(0.24, -0.30), 0.045);
+        let forearm = limb(side, DVec2::new(0.24, -0.30), DVec2::new(0.07, -0.02), 0.034);
+        let leg = limb(side, DVec2::new(0.085, -0.55), DVec2::new(0.12, -1.15), 0.075);
+        let distance = head.min(camera).min(trunk).min(upper_arm).min(forearm).min(leg);
+        let cover = smoothstep(0.006, -0.006, distance);
+        let cloth = DVec3::new(0.0070, 0.0075, 0.0090) * (0.8 + 1.5 * smoothstep(-0.6, 0.1, place.y));
+        let dark = smoothstep(0.006, -0.006, camera);
+        behind.lerp(cloth * (1.0 - 0.75 * dark), cover)
+    }
+}
+
+/// Signed distance from `place` to a straight limb of round ends.
+fn limb(place: DVec2, from: DVec2, to: DVec2, radius: f64) -> f64 {
+    let along = to - from;
+    let share = ((place - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+    (place - from - share * along).length() - radius
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::{CubeFace, CubeMap, MAX_RADIANCE};
+    use super::*;
+
+    fn toward(azimuth_deg: f64, elevation_deg: f64) -> DVec3 {
+        let (sin, cos) = elevation_deg.to_radians().sin_cos();
+        (cos * DVec2::from_angle(azimuth_deg.to_radians())).extend(sin)
+    }
+
+    fn clear_sky(azimuth_deg: f64, elevation_deg: f64) -> f64 {
+        let direction = toward(azimuth_deg, elevation_deg);
+        PARK.clear_sky(direction, 0.5 * direction.distance(PARK.sun)).y
+    }
+
+    #[test]
+    fn the_clear_sky_is_that_of_the_cie() {
+        assert!((clear_sky(0.0, 90.0) - 1.0).abs() < 0.01);
+        let horizon = clear_sky(SUN_DEG[0] + 90.0, 2.0);
+        assert!((2.5..4.0).contains(&horizon), "{horizon}");
+        let beside = clear_sky(SUN_DEG[0] + 8.0, SUN_DEG[1]);
+        assert!((12.0..20.0).contains(&beside), "{beside}");
+    }
+
+    #[test]
+    fn the_suns_energy_reaches_the_map_in_half_floats() {
+        let size = 512;
+        let dark = Park { disc: 0.0, ..Park::new() };
+        assert!(PARK.disc * 1.1 < f64::from(MAX_RADIANCE));
+        let [bright, dark] = [&*PARK, &dark].map(|park| CubeMap::from_fn(size, 1, |d| park.radiance(d.normalize())));
+        assert_eq!(bright.repairs().total(), 0);
+        // Of the texels' solid angles.
+        let irradiance = |level: usize| {
+            let (size, mut sum) = (size >> level, 0.0);
+            for (face, index) in CubeFace::ALL.into_iter().flat_map(|face| (0..size * size).map(move |i| (face, i))) {
+                let coordinate = |index: usize| (2 * index + 1) as f64 / size as f64 - 1.0;
+                let st = DVec2::new(coordinate(index % size), coordinate(index / size));
+                let solid_angle = 4.0 / (size * size) as f64 * (1.0 + st.length_squared()).powf(-1.5);
+                let green = |map: &CubeMap| map.mips()[level].faces[face.layer()][index][1].to_f64();
+                sum += solid_angle * (green(&bright) - green(&dark));
+            }
+            sum
+        };
+        // Some twenty texels, one sample each; a level of 16 texels is coarse in solid angles too.
+        for (level, allowed) in [(0, 0.03), (2, 0.04), (5, 0.1)] {
+            let found = irradiance(level) / SUN_IRRADIANCE;
+            assert!((found - 1.0).abs() < allowed, "level {level}: {found}");
+        }
+    }
+
+    #[test]
+    fn radiances_are_those_of_the_table() {
+        let greens = |elevation_deg: std::ops::Range<i32>| {
+            let directions = elevation_deg.flat_map(|e| (0..360).map(move |a| toward(f64::from(a), f64::from(e))));
+            let mut greens: Vec<f64> = directions.map(|direction| radiance(direction).y).collect();
+            greens.sort_by(f64::total_cmp);
+            move |share: f64| greens[(share * (greens.len() - 1) as f64) as usize]
+        };
+        let sky = greens(50..90);
+        assert!((0.8..1.4).contains(&sky(0.02)) && (3.5..7.0).contains(&sky(0.98)), "{} {}", sky(0.02), sky(0.98));
+        let trees = greens(2..9);
+        assert!(
+            (0.001..0.006).contains(&trees(0.1)) && (0.01..0.04).contains(&trees(0.8)),
+            "{} {}",
+            trees(0.1),
+            trees(0.8)
+        );
+        let meadow = greens(-60..-6);
+        assert!(
+            (0.04..0.09).contains(&meadow(0.3)) && (0.08..0.15).contains(&meadow(0.98)),
+            "{} {}",
+            meadow(0.3),
+            meadow(0.98)
+        );
+    }
+
+    #[test]
+    fn the_photographer_is_dark_and_stands_behind_the_default_camera() {
+        let (body, beside) =
+            (radiance(toward(PHOTOGRAPHER_DEG, -20.0)).y, radiance(toward(PHOTOGRAPHER_DEG + 25.0, -20.0)).y);
+        assert!(body < 0.3 * beside, "{body} before {beside}");
+    }
+}
