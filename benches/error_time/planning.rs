@@ -1,4 +1,4 @@
-//! Planning a frame: what it costs at the beginning of a film, and after an hour of it with thousands of events.
+//! Planning a frame: what it costs at the beginning of a film, after an hour of it with thousands of events, and with ten thousand bubbles.
 
 use soapfilm::{
     Scene,
@@ -26,11 +26,11 @@ const RUNS: usize = 5;
 /// which finds out what has happened until then.
 pub fn run(smoke: bool) -> anyhow::Result<()> {
     println!(
-        "\nscenes: 0 = quiet, 1 = {EVENTS} stirs in an hour, 2 = the same, in dry air, where bubbles live for seconds"
+        "\nscenes: 0 = quiet, 1 = {EVENTS} stirs in an hour, 2 = the same, in dry air, where bubbles live for seconds, 3 = the preset swarm, 10000 bubbles"
     );
     let mut report = Report::new("planning", &["scene", "first_us", "hour_us", "ratio", "arrive_cpu_ms"]);
-    let loaded = load_scene("default")?;
-    for (row, scene) in scenes(&loaded.scene).into_iter().enumerate() {
+    let [loaded, swarm] = [load_scene("default")?, load_scene("swarm")?];
+    for (row, scene) in scenes(&loaded.scene).into_iter().chain([swarm.scene]).enumerate() {
         let frames = if smoke { SMOKE_FRAMES } else { FRAMES };
         let planned = |tick| planned(&Story::new(scene.clone()), &loaded.resources, tick, frames);
         let ([first_us, _], [hour_us, arrive_ms]) = (planned(1)?, planned(HOUR_TICKS)?);

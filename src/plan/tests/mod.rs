@@ -1,6 +1,7 @@
 //! What is skipped and what is not, and that skipping never changes what is there in the end.
 
 mod checkpoints;
+mod crowd;
 mod events;
 mod films;
 mod lives;
