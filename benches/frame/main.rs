@@ -1,7 +1,8 @@
 //! Frame timing: the whole frame and each pass by itself, bubble 80 % of the height, on the adapter that the program would use.
 //!
-//! `cargo bench --bench frame -- parts` prints a table of what each part of a frame costs instead.
+//! `cargo bench --bench frame -- parts` prints a table of what each part of a frame costs instead, and `-- crowd` what many bubbles cost.
 
+mod crowd;
 mod parts;
 
 use criterion::{BenchmarkId, Criterion, criterion_group};
@@ -18,6 +19,8 @@ const SIZES: [[u32; 2]; 2] = [[1280, 720], [1920, 1080]];
 const SMOKE: [[u32; 2]; 1] = [[320, 180]];
 /// Frames of which the table of parts is the median.
 const ROUNDS: usize = 15;
+/// The same of the table of crowds, whose frames take longer.
+const CROWD_ROUNDS: usize = 5;
 const PASSES: [&str; 7] = ["bake_table", "fit_quadrature", "seed_field", "step_field", "show_field", "draw", "tonemap"];
 
 fn frame(criterion: &mut Criterion) {
@@ -84,8 +87,13 @@ fn main() {
         parts::print(SIZES[0], ROUNDS);
         return;
     }
+    if asked("crowd") {
+        crowd::print(SIZES[0], CROWD_ROUNDS);
+        return;
+    }
     if asked("--test") {
         parts::print(SMOKE[0], 1);
+        crowd::print(SMOKE[0], 1);
     }
     benches();
     Criterion::default().configure_from_args().final_summary();

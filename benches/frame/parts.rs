@@ -78,7 +78,7 @@ pub fn print(size: [u32; 2], rounds: usize) {
     println!("CPU time of a frame of {}x{}, ms, median of {rounds}", size[0], size[1]);
     for (name, request) in frames(size) {
         draw(&mut whole, &request);
-        println!("{name:<45}{:>8.1}", median((0..rounds).map(|_| cpu_ms(&mut whole, &request)).collect()));
+        println!("{name:<45}{:>8.1}", median((0..rounds).map(|_| cpu_ms(|| draw(&mut whole, &request))).collect()));
     }
     println!("\nsaved without a part, ms{:>29}{:>10}", "fast", "standard");
     let requests = [Quality::Fast, Quality::Standard].map(|quality| bubble(size, quality));
@@ -93,7 +93,8 @@ pub fn print(size: [u32; 2], rounds: usize) {
     }
 }
 
-fn renderer() -> Renderer {
+/// A renderer on the adapter that is measured.
+pub fn renderer() -> Renderer {
     Renderer::new(
         pollster::block_on(Gpu::headless(&AdapterChoice::default().or_env())).expect("an adapter to measure on"),
     )
@@ -102,7 +103,8 @@ fn renderer() -> Renderer {
 fn saved_ms([whole, without]: [&mut Renderer; 2], request: &FrameRequest, rounds: usize) -> f64 {
     draw(whole, request);
     draw(without, request);
-    median((0..rounds).map(|_| cpu_ms(whole, request) - cpu_ms(without, request)).collect())
+    let mut saved = || cpu_ms(|| draw(whole, request)) - cpu_ms(|| draw(without, request));
+    median((0..rounds).map(|_| saved()).collect())
 }
 
 /// Frames as a whole.
@@ -133,13 +135,15 @@ fn bubble(size: [u32; 2], quality: Quality) -> FrameRequest {
     })
 }
 
-fn cpu_ms(renderer: &mut Renderer, request: &FrameRequest) -> f64 {
+/// CPU time of some work.
+pub fn cpu_ms(work: impl FnOnce()) -> f64 {
     let start = ProcessTime::now();
-    draw(renderer, request);
+    work();
     start.elapsed().as_secs_f64() * 1e3
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+/// The middle one of some values.
+pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
 }

@@ -143,9 +143,16 @@ pub(super) fn in_sight(story: &Story, lenders: &[Lender], camera: &CameraKey, sh
             }
         }
     }
-    let power = |small: &SmallBubble| small.center_m.distance_squared(camera.eye_m) - small.radius_m.powi(2);
-    sight.small.sort_unstable_by(|a, b| power(b).total_cmp(&power(a)));
+    sight.small = farthest_first(&sight.small, camera);
     sight
+}
+
+/// In the order of the power of the eye with respect to each, which is found once for each.
+fn farthest_first(small: &[SmallBubble], camera: &CameraKey) -> Vec<SmallBubble> {
+    let power = |small: &SmallBubble| small.center_m.distance_squared(camera.eye_m) - small.radius_m.powi(2);
+    let mut order: Vec<(f64, usize)> = small.iter().map(power).zip(0..).collect();
+    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    order.into_iter().map(|(_, place)| small[place]).collect()
 }
 
 /// The bounding rectangle and the radius in pixels of a bubble that can be seen.

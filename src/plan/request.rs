@@ -120,7 +120,7 @@ impl Story {
                 .map(|source| lighting(source, light_of(scene, source, light)))
                 .collect(),
             bubbles,
-            small,
+            small: small.into(),
             lent,
             on_bath: bath_m.is_some(),
         };

@@ -94,7 +94,7 @@ impl Asked {
         let mut request = shot(&close_up, SIZE, moment, false)?;
         let draw = &mut request.picture.draw;
         draw.bubbles.retain(|key| key.index == bubble);
-        draw.small.clear();
+        draw.small = [].into();
         draw.lent.clear();
         let key = request.picture.draw.bubbles.first().cloned().ok_or(Error::NoFilm { bubble, time_s })?;
         Ok(Self { request, key, cells: film_grids(&close_up.scene, bubble)[0] })

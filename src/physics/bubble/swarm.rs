@@ -138,6 +138,30 @@ pub struct Member {
     pub age_s: f64,
 }
 
+/// What all bubbles of a moment have in common.
+struct Common {
+    /// Places along each edge of a lattice.
+    lattice: [u32; 3],
+    /// Mean distance between bubbles in a cube of edge 1.
+    gap: f64,
+    /// Where the first one begins in such a cube.
+    first: [f64; 3],
+    gusts: [Gust; GUSTS],
+}
+
+impl Common {
+    /// A place in the unit cube that keeps off those of other slots, where three random numbers alone would put some close together: of Roberts'
+    /// additive recurrence by powers of the root of x⁴ = x + 1 (2018, "The Unreasonable Effectiveness of Quasirandom Sequences"), moved by half of
+    /// the mean gap at most.
+    fn spread_out(&self, slot: u32, random: [f64; 3]) -> [f64; 3] {
+        const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3];
+        [0, 1, 2].map(|axis| {
+            let place = self.first[axis] + f64::from(slot) * STEPS[axis] + self.gap * (random[axis] - 0.5);
+            place - place.floor()
+        })
+    }
+}
+
 /// What each of a bubble's random numbers is for.
 #[derive(Clone, Copy)]
 enum Purpose {
@@ -150,11 +174,16 @@ enum Purpose {
 impl Swarm {
     /// All bubbles at a time in seconds.
     pub fn at(&self, time_s: f64) -> impl Iterator<Item = Member> {
-        let (lattice, gusts) = (self.lattice(), self.gusts());
-        (0..self.count).filter_map(move |slot| self.member(slot, time_s, lattice, &gusts))
+        let common = Common {
+            lattice: self.lattice(),
+            gap: f64::from(self.count).cbrt().recip(),
+            first: unit(pcg3d([self.seed, 0, 0xe000_0000])),
+            gusts: std::array::from_fn(|number| Gust::new(self, number as u32)),
+        };
+        (0..self.count).filter_map(move |slot| self.member(slot, time_s, &common))
     }
 
-    fn member(&self, slot: u32, time_s: f64, lattice: [u32; 3], gusts: &[Gust]) -> Option<Member> {
+    fn member(&self, slot: u32, time_s: f64, common: &Common) -> Option<Member> {
         let (generation, age_s) = match self.lending.life_s {
             None => (0, time_s),
             Some(life_s) => {
@@ -177,10 +206,10 @@ impl Swarm {
         let place = self.random(slot, generation, Purpose::Place);
         let [size, a, b] = self.random(slot, generation, Purpose::Way);
         let full_m = self.radius_m * (1.0 + self.radius_spread * (2.0 * size - 1.0));
-        let (start_m, velocity_m_s) = self.start(slot, place, [a, b], lattice);
+        let (start_m, velocity_m_s) = self.start(slot, place, [a, b], common);
         let carried_m = start_m + self.carried(velocity_m_s, full_m, age_s);
         let taken = if self.lending.life_s.is_some() { 1.0 - (-age_s / GUSTS_TAKE_S).exp() } else { 1.0 };
-        let gusts_m: DVec3 = gusts.iter().map(|gust| gust.at(carried_m, time_s)).sum();
+        let gusts_m: DVec3 = common.gusts.iter().map(|gust| gust.at(carried_m, time_s)).sum();
         let blown = if self.lending.life_s.is_some() { (age_s / BLOWN_S).min(1.0).cbrt() } else { 1.0 };
         Some(Member {
             slot,
@@ -195,11 +224,12 @@ impl Swarm {
     }
 
     /// Where a bubble begins, and how fast.
-    fn start(&self, slot: u32, place: [f64; 3], way: [f64; 2], lattice: [u32; 3]) -> (DVec3, DVec3) {
+    fn start(&self, slot: u32, place: [f64; 3], way: [f64; 2], common: &Common) -> (DVec3, DVec3) {
         let in_box = |place: [f64; 3]| self.center_m + self.size_m * (DVec3::from(place) - 0.5);
         match self.origin {
-            Origin::Cloud => (in_box(self.spread_out(slot, place)), self.wind_m_s),
+            Origin::Cloud => (in_box(common.spread_out(slot, place)), self.wind_m_s),
             Origin::Grid => {
+                let lattice = common.lattice;
                 let [x, y, _] = lattice;
                 let cell = [slot % x, slot / x % y, slot / (x * y)];
                 let place = [0, 1, 2].map(|axis| (f64::from(cell[axis]) + 0.5) / f64::from(lattice[axis]));
@@ -217,22 +247,15 @@ impl Swarm {
         }
     }
 
-    /// A place in the unit cube that keeps off those of other slots, where three random numbers alone would put some close together: of Roberts'
-    /// additive recurrence by the powers of the plastic number's cousin, x⁴ = x + 1 (2018, "The Unreasonable Effectiveness of Quasirandom
-    /// Sequences"), moved by half of the mean gap at most.
-    fn spread_out(&self, slot: u32, random: [f64; 3]) -> [f64; 3] {
-        const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3];
-        let gap = f64::from(self.count).cbrt().recip();
-        let start = unit(pcg3d([self.seed, 0, 0xe000_0000]));
-        let place = |axis: usize| start[axis] + f64::from(slot) * STEPS[axis] + gap * (random[axis] - 0.5);
-        [0, 1, 2].map(|axis| place(axis).rem_euclid(1.0))
-    }
-
     /// How far the air has carried a bubble of a radius that began with a velocity.
     fn carried(&self, velocity_m_s: DVec3, radius_m: f64, age_s: f64) -> DVec3 {
+        let wind_m = self.wind_m_s * age_s;
+        if velocity_m_s == self.wind_m_s {
+            return wind_m;
+        }
         let inertia_m = 2.0 * radius_m + 4.0 * self.thickness_m * DENSITY / AIR_DENSITY;
         let stopping_s = inertia_m / (0.5 * DRAG * DRAG_SPEED_M_S);
-        self.wind_m_s * age_s + (velocity_m_s - self.wind_m_s) * (stopping_s * -(-age_s / stopping_s).exp_m1())
+        wind_m + (velocity_m_s - self.wind_m_s) * (stopping_s * -(-age_s / stopping_s).exp_m1())
     }
 
     /// How far from round a bubble of a wand is.
@@ -253,10 +276,6 @@ impl Swarm {
             lattice[widest] += 1;
         }
         lattice
-    }
-
-    fn gusts(&self) -> [Gust; GUSTS] {
-        std::array::from_fn(|number| Gust::new(self, number as u32))
     }
 
     /// Three random numbers in [0, 1) of a bubble.

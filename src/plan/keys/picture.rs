@@ -216,8 +216,8 @@ pub struct DrawKey {
     pub spectral_lights: Vec<Lighting>,
     /// The bubbles that can be seen, farthest first.
     pub bubbles: Vec<BubbleKey>,
-    /// Small bubbles that can be seen, farthest first.
-    pub small: Vec<SmallBubble>,
+    /// Small bubbles that can be seen, farthest first; shared, for keys are copied and there may be thousands.
+    pub small: Arc<[SmallBubble]>,
     /// The films that small bubbles show.
     pub lent: Vec<LentFilm>,
     /// Whether they stand on a bath, which is a mirror of water at the height of their centers.

@@ -1,0 +1,119 @@
+//! What a frame of many bubbles costs: CPU time of the process, planning included.
+
+use soapfilm::{
+    gpu::Renderer,
+    input::{LoadedScene, load_scene},
+    physics::colour::Gamut,
+    plan::{FrameRequest, Moment, Pace, Shot, Story},
+    scene::{Film, FilmStateName, Generator, Layout, Quality, Scene},
+};
+
+use crate::{
+    draw,
+    parts::{cpu_ms, median, renderer},
+};
+
+/// The qualities that windows use.
+const QUALITIES: [Quality; 2] = [Quality::Fast, Quality::Standard];
+/// Radius in pixels of one bubble; of more, the same area is shared out.
+const RADIUS_PIXELS: f64 = 300.0;
+/// Distance of the eye from all bubbles, m: so far that all are seen alike.
+const DISTANCE_M: f64 = 10.0;
+
+/// Prints the tables for pictures of a size, and of one with nine times as many pixels.
+pub fn print(size: [u32; 2], rounds: usize) {
+    let mut renderer = renderer();
+    println!("adapter: {}, {}", renderer.gpu.adapter_name(), renderer.gpu.driver());
+    println!(
+        "CPU time of a frame of {}x{}, ms, median of {rounds}, without the same frame without bubbles",
+        size[0], size[1]
+    );
+    println!("\n{:<45}{:>8}{:>10}", "bubbles of equal area in all", "fast", "standard");
+    let base = frame_ms(&mut renderer, &with_bubbles(0, Quality::Fast), size, rounds);
+    for count in [1, 100, 10_000] {
+        let costs =
+            QUALITIES.map(|quality| frame_ms(&mut renderer, &with_bubbles(count, quality), size, rounds) - base);
+        println!("{count:<45}{:>8.1}{:>10.1}", costs[0], costs[1]);
+    }
+    let few = few_in_sight(size);
+    let planned = frame_ms(&mut renderer, &few, size, rounds);
+    let request = request(&few, size);
+    let seen = request.picture.draw.bubbles.len() + request.picture.draw.small.len();
+    draw(&mut renderer, &request);
+    let alone = median((0..rounds).map(|_| cpu_ms(|| draw(&mut renderer, &request))).collect());
+    println!("\n{seen} of 10000 bubbles in sight: {planned:.1} ms; those alone, without planning: {alone:.1} ms");
+    let large = size.map(|pixels| 3 * pixels);
+    let cloud = load("cloud");
+    let costs = [size, large].map(|size| frame_ms(&mut renderer, &cloud, size, rounds));
+    println!(
+        "the preset cloud: {:.1} ms; nine times the pixels: {:.1} ms, {:.1} times",
+        costs[0],
+        costs[1],
+        costs[1] / costs[0]
+    );
+}
+
+fn load(name: &str) -> LoadedScene {
+    load_scene(name).expect("the preset")
+}
+
+/// Bubbles on a lattice that faces the eye.
+fn with_bubbles(count: u32, quality: Quality) -> LoadedScene {
+    let mut loaded = load("default");
+    let scene: &mut Scene = &mut loaded.scene;
+    scene.bubbles.clear();
+    (scene.view.quality, scene.camera.distance_m) = (quality, DISTANCE_M);
+    (scene.camera.azimuth_deg, scene.camera.elevation_deg) = (0.0, 0.0);
+    let pixel_m = 2.0 * (0.5 * scene.camera.fov_y_deg.to_radians()).tan() * DISTANCE_M / 720.0;
+    let rows_m = 700.0 * pixel_m;
+    scene.generators = (count > 0)
+        .then(|| Generator {
+            layout: Layout::Grid,
+            count,
+            size_m: [0.0, 1.7 * rows_m, rows_m],
+            radius_mm: 1e3 * RADIUS_PIXELS * pixel_m / f64::from(count).sqrt(),
+            radius_spread: 0.0,
+            film: Film { state: FilmStateName::Rest, cells: 64, ..Film::default() },
+            ..Generator::default()
+        })
+        .into_iter()
+        .collect();
+    loaded
+}
+
+/// The preset `swarm`, seen through a lens so long that some fifty of its bubbles are in sight.
+fn few_in_sight(size: [u32; 2]) -> LoadedScene {
+    let mut loaded = load("swarm");
+    let seen = |loaded: &LoadedScene| {
+        let draw = request(loaded, size).picture.draw;
+        draw.bubbles.len() + draw.small.len()
+    };
+    while seen(&loaded) > 50 {
+        loaded.scene.camera.fov_y_deg *= 0.9;
+    }
+    loaded
+}
+
+fn request(loaded: &LoadedScene, size: [u32; 2]) -> FrameRequest {
+    request_of(&Story::new(loaded.scene.clone()), loaded, size)
+}
+
+fn request_of(story: &Story, loaded: &LoadedScene, size: [u32; 2]) -> FrameRequest {
+    let shot = Shot {
+        size,
+        moment: Moment::default(),
+        full_precision: false,
+        gamut: Gamut::Srgb,
+        yardstick: false,
+        pace: Pace::Whole,
+    };
+    story.request(&loaded.resources, &shot).expect("a scene that can be drawn")
+}
+
+/// CPU time of a frame from the scene to the picture.
+fn frame_ms(renderer: &mut Renderer, loaded: &LoadedScene, size: [u32; 2], rounds: usize) -> f64 {
+    let story = Story::new(loaded.scene.clone());
+    let mut frame = || draw(renderer, &request_of(&story, loaded, size));
+    frame();
+    median((0..rounds).map(|_| cpu_ms(&mut frame)).collect())
+}
