@@ -5,7 +5,7 @@
 //! Everything else holds for the whole history: editing it changes the past too, and a film that would have begun differently is blown again.
 
 use super::history;
-use crate::scene::{Bubble, Camera, Change, Event, FilmIndexName, Light, Motion, MotionChange, Scene, View};
+use crate::scene::{Bubble, Camera, Change, Event, FilmIndexName, Generator, Light, Motion, MotionChange, Scene, View};
 
 /// A change of a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,10 @@ pub enum Edit {
     Bubble(usize, Box<Bubble>),
     /// A new list of bubbles.
     Bubbles(Vec<Bubble>),
+    /// A new list of generators.
+    Generators(Vec<Generator>),
+    /// New lists of bubbles and of generators.
+    Films(Vec<Bubble>, Vec<Generator>),
     /// Every film blown again, with a new seed for film and flow.
     Reseed,
     /// Another motion; the keys that can change do so from now on.
@@ -43,8 +47,14 @@ impl Edit {
             Self::Bubble(index, bubble) => Self::Bubbles(replace_bubble(scene, index, *bubble)),
             Self::Reseed => {
                 let bubbles = scene.bubbles.iter().cloned().map(reseeded).collect();
-                Self::Bubbles(std::mem::replace(&mut scene.bubbles, bubbles))
+                let generators = scene.generators.iter().cloned().map(reseeded_generator).collect();
+                Self::Films(bubbles, generators).apply(scene, tick)
             }
+            Self::Generators(generators) => Self::Generators(std::mem::replace(&mut scene.generators, generators)),
+            Self::Films(bubbles, generators) => Self::Films(
+                std::mem::replace(&mut scene.bubbles, bubbles),
+                std::mem::replace(&mut scene.generators, generators),
+            ),
             Self::History(motion, events) => {
                 let motion = std::mem::replace(&mut scene.motion, *motion);
                 Self::History(motion.into(), std::mem::replace(&mut scene.events, events))
@@ -79,6 +89,11 @@ fn reseeded(mut bubble: Bubble) -> Bubble {
     bubble
 }
 
+fn reseeded_generator(mut generator: Generator) -> Generator {
+    (generator.seed, generator.film.seed) = (new_seed(), new_seed());
+    generator
+}
+
 /// A seed that was not there before, short enough to be written down.
 #[must_use]
 pub fn new_seed() -> u64 {
@@ -108,6 +123,15 @@ pub fn begins_anew(before: &[Bubble], after: &[Bubble]) -> bool {
     before.len() != after.len() || before.iter().zip(after).any(|(a, b)| a != b && beginning(a) != beginning(b))
 }
 
+/// Whether films that generators share begin otherwise than they did.
+#[must_use]
+pub fn shares_anew(before: &[Generator], after: &[Generator]) -> bool {
+    let owner = |generator: &Generator| Bubble { film: generator.film.clone(), ..Bubble::default() };
+    let owners = |generators: &[Generator]| generators.iter().map(owner).collect::<Vec<_>>();
+    let counts = |generators: &[Generator]| generators.iter().map(|generator| generator.films).collect::<Vec<_>>();
+    counts(before) != counts(after) || begins_anew(&owners(before), &owners(after))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -125,6 +149,7 @@ mod tests {
             Edit::Light(Light { intensity: 3.0, ..Light::default() }),
             Edit::Bubble(0, Bubble { radius_mm: 10.0, ..Bubble::default() }.into()),
             Edit::Bubbles(Vec::new()),
+            Edit::Generators(vec![Generator::default()]),
             Edit::Reseed,
             Edit::Motion(Motion { drainage: 7.0, speed: 2.0, ..Motion::default() }.into()),
             Edit::Happens(Change::Prick(Prick::default())),

@@ -310,8 +310,8 @@ fn pixel_rect(rect: Rect, pixels_per_point: f32, max: u32) -> (Rect, [u32; 2]) {
 fn hold_clock(model: &mut Model, request: &FrameRequest, state: &GpuState, first_tick: u64) {
     let mut reached = 0;
     let mut missing = 0;
-    for bubble in &request.picture.draw.bubbles {
-        if let (FilmKey::Field(film), Some(Some(field))) = (&bubble.film, state.fields.get(bubble.index)) {
+    for (index, film) in request.picture.draw.films() {
+        if let (FilmKey::Field(film), Some(Some(field))) = (film, state.fields.get(index)) {
             // A film at rest has reached the requested tick, though its picture is of when it came to rest.
             if field.rest.is_some() {
                 continue;

@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 use super::{
     clock::Clock,
     costs::Costs,
-    edit::{Edit, begins_anew, new_seed},
+    edit::{Edit, begins_anew, new_seed, shares_anew},
     keys::Action,
     messages::Messages,
     orbit,
@@ -83,6 +83,8 @@ pub struct Model {
     pub clock: Clock,
     /// Index of the bubble that the film panel edits.
     pub selected: usize,
+    /// Index of the generator that its panel edits.
+    pub selected_generator: usize,
     /// The last tick that was ever shown of this history: how far its time line reaches.
     pub furthest_tick: u64,
     /// What a slider of the motion has changed while it is being dragged: it counts once the slider is let go.
@@ -122,6 +124,7 @@ impl Model {
             folder: loaded.folder,
             clock: Clock::default(),
             selected: 0,
+            selected_generator: 0,
             furthest_tick: 0,
             motion_draft: None,
             tool: Tool::default(),
@@ -146,7 +149,7 @@ impl Model {
         self.folder = loaded.folder;
         self.clock.reset();
         self.furthest_tick = 0;
-        self.selected = 0;
+        (self.selected, self.selected_generator) = (0, 0);
         self.motion_draft = None;
         // What the hand held is gone.
         self.hand = Hand::default();
@@ -185,7 +188,13 @@ impl Model {
             self.messages.problem(error.to_string());
             return false;
         }
-        if matches!(&back, Edit::Bubbles(before) if begins_anew(before, &self.scene.bubbles)) {
+        let begins_anew = match &back {
+            Edit::Bubbles(before) => begins_anew(before, &self.scene.bubbles),
+            Edit::Films(..) => true,
+            Edit::Generators(before) => shares_anew(before, &self.scene.generators),
+            _ => false,
+        };
+        if begins_anew {
             self.clock.reset();
         }
         true

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::scene::{Bubble, Camera};
 
 /// Degrees that a drag over the picture's whole height turns a camera that stands outside.
-const TURN_DEG: f64 = 180.0;
+pub const TURN_DEG: f64 = 180.0;
 /// Distances below this share of the reach count as the target itself.
 const NEAR: f64 = 0.02;
 /// The farthest a target or an eye may go, m.

@@ -80,6 +80,16 @@ pub enum GpuError {
         /// What it lacks.
         reason: String,
     },
+    /// More bubbles are in sight than the adapter can bind at once.
+    #[error(
+        "{count} bubbles are in sight, and this adapter holds {most} at once; lower `count` in [[generator]], or move the camera closer"
+    )]
+    TooManyBubbles {
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        most: u64,
+    },
     /// The device went away while in use.
     #[error("the graphics device was lost: {0}")]
     Lost(String),
@@ -289,6 +299,13 @@ impl Gpu {
         let buffer = self.buffer(label, size_of_val(values) as u64, usage);
         self.upload(&buffer, values);
         buffer
+    }
+
+    /// How many values of a type a shader can read from one storage buffer.
+    #[must_use]
+    pub fn most_values<T>(&self) -> u64 {
+        let limits = self.device.limits();
+        u64::from(limits.max_storage_buffer_binding_size).min(limits.max_buffer_size) / size_of::<T>() as u64
     }
 
     /// Waits until the device has done all that was submitted. Not for browsers, where nothing may block.

@@ -11,6 +11,7 @@ section! {
     elevation_deg: f64 = 8.0, [-90.0 ..= 90.0], "Elevation", "°", "elevation of the eye above the horizon";
     distance_m: f64 = 0.24, [0.0 ..= 1000.0], "Distance", " m", "distance from the target to the eye, m; at 0 the eye is at the target";
     fov_y_deg: f64 = 30.0, [1.0 ..= 170.0], "Field of view", "°", "full vertical field of view";
+    follow_deg: f64 = 0.0, [0.0 ..= 180.0], "Follow", "°", "angle by which the eye goes around the target in a window while the pointer moves over as much as the picture's height; 0: it stays";
 }
 
 impl Camera {

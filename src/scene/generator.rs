@@ -13,7 +13,7 @@ section! {
         film: Film = Film::default(), "How the films begin; each has its own seed, counted from this one";
     ]
     layout: Layout = Layout::Cloud, [word], "Layout", "", "where bubbles begin";
-    count: u32 = 100, [1 ..= 1000000000], "Bubbles", "", "maximum number of bubbles at a time";
+    count: u32 = 100, [1 ..= 10000000], "Bubbles", "", "maximum number of bubbles at a time";
     seed: u64 = 1, [whole], "Seed", "", "random seed of the places, the sizes and the ways of the bubbles";
     center_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "Center", " m", "center of the box, or the place of the wand, m";
     size_m: [f64; 3] = [1.0; 3], [0.0 ..= 1000.0], "Size", " m", "edges of the box that a cloud or a grid fills, m";

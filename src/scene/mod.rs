@@ -184,8 +184,8 @@ impl Scene {
     fn check(&self) -> Checked {
         check::in_range("version", self.version, VERSION..=VERSION)?;
         check::each("bubble", &self.bubbles, Bubble::check)?;
-        check::each("generator", &self.generators, Generator::check)?;
         self.check_memory()?;
+        check::each("generator", &self.generators, Generator::check)?;
         self.camera.check_ranges().map_err(|fault| fault.inside("camera"))?;
         self.light.check().map_err(|fault| fault.inside("light"))?;
         self.view.check_ranges().map_err(|fault| fault.inside("view"))?;

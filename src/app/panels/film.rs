@@ -26,7 +26,8 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         model.selected = number - 1;
     }
     let Some(bubble) = model.scene.bubbles.get(model.selected) else {
-        ui.label("This scene has no bubble.");
+        let made = !model.scene.generators.is_empty();
+        ui.label(if made { "Generators make all bubbles of this scene." } else { "This scene has no bubble." });
         return;
     };
     let mut edited = bubble.clone();
@@ -56,7 +57,8 @@ fn boundary(ui: &mut Ui, bubble: &mut Bubble) {
     });
 }
 
-fn film(ui: &mut Ui, film: &mut Film) {
+/// How a film begins.
+pub fn film(ui: &mut Ui, film: &mut Film) {
     let keys = Film::KEYS;
     choice(ui, &keys.state, &mut film.state);
     let Range::Within(flowing_nm, thickest_nm) = keys.thickness_nm.range else { unreachable!("a range of numbers") };

@@ -2,6 +2,7 @@
 
 mod costs;
 mod film;
+mod generators;
 mod header;
 mod help;
 mod light;
@@ -50,7 +51,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
         let width = WIDTH.min(ui.available_width());
         Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
     }
-    let mut picture = picture::show(ui);
+    let mut picture = picture::show(ui, model.scene.camera.follow_deg);
     if model.touch(picture.pressed) {
         picture.gesture.turn = DVec2::ZERO;
     }
@@ -65,6 +66,9 @@ fn sections(ui: &mut Ui, model: &mut Model) {
     header::show(ui, model);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         section(ui, "Film", true, |ui| film::show(ui, model));
+        if !model.scene.generators.is_empty() {
+            section(ui, "Generators", true, |ui| generators::show(ui, model));
+        }
         section(ui, "Motion", true, |ui| motion::show(ui, model));
         section(ui, "Light", true, |ui| light::show(ui, model));
         section(ui, "View", true, |ui| view::show(ui, model));

@@ -4,19 +4,22 @@ use egui::{CentralPanel, Frame, PointerButton, Response, Sense, Ui};
 use glam::DVec2;
 
 use super::Picture;
-use crate::app::{orbit::Gesture, tools::Press};
+use crate::app::{
+    orbit::{Gesture, TURN_DEG},
+    tools::Press,
+};
 
 /// Natural logarithm of the magnification for a point of scrolling: a notch of a wheel is 40 points.
 const ZOOM_PER_POINT: f64 = 0.004;
 
-/// Shows the picture in the rest of the window, and reads the pointer there.
-pub fn show(ui: &mut Ui) -> Picture {
+/// Shows the picture in the rest of the window, and reads the pointer there, which a camera may follow by an angle for the picture's height.
+pub fn show(ui: &mut Ui, follow_deg: f64) -> Picture {
     CentralPanel::no_frame()
         .frame(Frame::NONE)
         .show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
-            Picture { rect, gesture: gesture(ui, &response), pressed: pressed(ui, &response) }
+            Picture { rect, gesture: gesture(ui, &response, follow_deg), pressed: pressed(ui, &response) }
         })
         .inner
 }
@@ -33,13 +36,18 @@ fn pressed(ui: &Ui, response: &Response) -> Option<Press> {
     Some(Press { from: place(from.unwrap_or(at)), at: place(at) })
 }
 
-fn gesture(ui: &Ui, response: &Response) -> Gesture {
+fn gesture(ui: &Ui, response: &Response, follow_deg: f64) -> Gesture {
     let height = f64::from(response.rect.height()).max(1.0);
     let drag = response.drag_delta();
     let drag = DVec2::new(f64::from(drag.x), f64::from(drag.y)) / height;
     let shifts = ui.input(|input| input.modifiers.shift) || !response.dragged_by(PointerButton::Primary);
     let mut gesture = Gesture { frame: response.double_clicked(), ..Gesture::default() };
     *(if shifts { &mut gesture.shift } else { &mut gesture.turn }) = drag;
+    if response.hovered() && !ui.input(|input| input.pointer.any_down()) {
+        let moved = ui.input(|input| input.pointer.delta());
+        // The eye goes where the pointer goes; a drag pulls what one sees.
+        gesture.turn -= follow_deg / TURN_DEG * DVec2::new(moved.x.into(), moved.y.into()) / height;
+    }
     if response.contains_pointer() {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
         gesture.zoom = ZOOM_PER_POINT * f64::from(scroll.x + scroll.y) + f64::from(pinch).max(1e-3).ln();

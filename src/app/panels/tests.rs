@@ -9,7 +9,7 @@ use crate::{
         model::{Model, Request, Target, tests::model},
         tools::Tool,
     },
-    scene::{Backdrop, Boundary, Change, Event, FilmStateName, Flow, MotionChange, Scene, Scheme},
+    scene::{Backdrop, Boundary, Change, Event, FilmStateName, Flow, Generator, Layout, MotionChange, Scene, Scheme},
 };
 
 struct State {
@@ -369,6 +369,27 @@ fn every_size_of_window_has_a_layout() {
         window.step();
         assert!(window.state().picture.is_some());
     }
+}
+
+#[test]
+fn generators_have_a_panel() {
+    let mut model = model();
+    model.clock.running = false;
+    model.scene.change(|scene| {
+        scene.bubbles.clear();
+        scene.generators = vec![Generator::default(), Generator::default()];
+    });
+    let mut window = harness(model, vec2(1280.0, 1800.0));
+    window.run();
+    window.get_by_label("Generators make all bubbles of this scene.");
+    set_slider(&mut window, "Generator", 2.0);
+    set_slider(&mut window, "Bubbles", 700.0);
+    window.get_by_label("wand").click();
+    window.run();
+    let [first, second] = &window.state().model.scene.generators[..] else { panic!("there are two") };
+    assert_eq!(*first, Generator::default());
+    assert_eq!((second.count, second.layout), (700, Layout::Wand));
+    assert!(second.life_s > 0.0, "a wand's bubbles have an end: {}", second.life_s);
 }
 
 #[test]

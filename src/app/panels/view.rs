@@ -23,6 +23,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     }
     let mut camera = model.scene.camera.clone();
     number(ui, &Camera::KEYS.fov_y_deg, &mut camera.fov_y_deg, |slider| slider.max_decimals(1));
+    number(ui, &Camera::KEYS.follow_deg, &mut camera.follow_deg, |slider| slider.max_decimals(0));
     number(ui, &Camera::KEYS.distance_m, &mut camera.distance_m, |slider| {
         slider.logarithmic(true).smallest_positive(0.001).max_decimals(3)
     })

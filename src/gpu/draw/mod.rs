@@ -13,7 +13,7 @@ use super::{
     passes::{
         backdrop::{Backdrop, LightUniform, ViewUniform},
         bake_table::{Table, TableOverrides, table_sampler},
-        bubble::{Shade, ShadeMirror},
+        bubble::{OtherBubble, Shade, ShadeMirror},
         open_hole::OpenHole,
     },
     quadrature::Quadrature,
@@ -146,6 +146,10 @@ struct Drawn<'a> {
 impl DrawPass {
     /// Makes ready what a key asks for in one of its lights.
     pub fn new(gpu: &Gpu, key: &DrawKey, lighting: &Lighting, inputs: &DrawInputs<'_>) -> Result<Self, GpuError> {
+        let (count, most) = (key.small.len(), gpu.most_values::<OtherBubble>());
+        if count as u64 > most {
+            return Err(GpuError::TooManyBubbles { count, most });
+        }
         let view = gpu.uniform("view", &view_uniform(key));
         let light = gpu.uniform("light", &light_uniform(lighting, key.exposed_ev));
         let DrawInputs { environment, .. } = *inputs;

@@ -268,6 +268,12 @@ impl DrawKey {
     }
 
     /// The films of all bubbles in sight, each with its index; one may be named more than once.
+    pub fn films(&self) -> impl Iterator<Item = (usize, &FilmKey)> {
+        let bubbles = self.bubbles.iter().map(|bubble| (bubble.index, &bubble.film));
+        bubbles.chain(self.lent.iter().map(|lent| (lent.index, &lent.film)))
+    }
+
+    /// The same to be changed.
     pub fn films_mut(&mut self) -> impl Iterator<Item = (usize, &mut FilmKey)> {
         let bubbles = self.bubbles.iter_mut().map(|bubble| (bubble.index, &mut bubble.film));
         bubbles.chain(self.lent.iter_mut().map(|lent| (lent.index, &mut lent.film)))

@@ -37,8 +37,9 @@ fn bubble() -> impl Strategy<Value = Bubble> {
 }
 
 fn camera() -> impl Strategy<Value = Camera> {
-    (prop::array::uniform3(-1e3..1e3), -1e9..1e9, -90.0..90.0, 0.0..1e3, 1.0..170.0).prop_map(
-        |(target_m, azimuth_deg, elevation_deg, distance_m, fov_y_deg)| Camera {
+    (prop::array::uniform3(-1e3..1e3), -1e9..1e9, -90.0..90.0, 0.0..1e3, 1.0..170.0, 0.0..180.0).prop_map(
+        |(target_m, azimuth_deg, elevation_deg, distance_m, fov_y_deg, follow_deg)| Camera {
+            follow_deg,
             target_m,
             azimuth_deg,
             elevation_deg,

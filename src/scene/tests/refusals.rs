@@ -188,7 +188,7 @@ fn absurd_numbers_are_refused_with_the_memory_that_they_need() {
             "[[generator]]\ncount = 100000000",
             "3: `count` in [[generator]] is 100000000, which takes the scene to 50.2 GB of memory, of 16.0 GB that are allowed; ask for fewer bubbles",
         ),
-        ("[[generator]]\ncount = 0", "3: `count` in [[generator]] is 0; it must be within 1 ..= 1000000000"),
+        ("[[generator]]\ncount = 0", "3: `count` in [[generator]] is 0; it must be within 1 ..= 10000000"),
         (
             "[[generator]]\nlayout = \"wand\"",
             "2: `life_s` in [[generator]] is 0; a wand goes on blowing, so its bubbles need an end",
