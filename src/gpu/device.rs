@@ -305,7 +305,7 @@ impl Gpu {
     #[must_use]
     pub fn most_values<T>(&self) -> u64 {
         let limits = self.device.limits();
-        u64::from(limits.max_storage_buffer_binding_size).min(limits.max_buffer_size) / size_of::<T>() as u64
+        limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) / size_of::<T>() as u64
     }
 
     /// Waits until the device has done all that was submitted. Not for browsers, where nothing may block.

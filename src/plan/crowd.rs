@@ -4,97 +4,13 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     BubbleKey, CameraKey, FilmKey, LentFilm, Shot, SmallBubble, Story,
-    request::{SMALLEST_FIELD_PIXELS, bounds, is_filtered, is_magnified},
+    lender::Lender,
+    sight::{SMALLEST_FIELD_PIXELS, bounds, is_filtered, is_magnified},
 };
 use crate::{
-    physics::{
-        bubble::{Lending, Member, Origin, Renewal, Swarm, reach},
-        film::fold_seed,
-    },
-    scene::{Bubble, Film, Generator, Layout, Quality},
+    physics::bubble::{Member, reach},
+    scene::Quality,
 };
-
-/// A generator, as what it makes.
-#[derive(Debug)]
-pub(super) struct Lender {
-    swarm: Swarm,
-    /// The first of its films among the owners of all films.
-    first_owner: usize,
-}
-
-impl Lender {
-    /// What a generator makes in a scene with ticks of a length in seconds.
-    pub fn new(generator: &Generator, first_owner: usize, tick_s: f64) -> Self {
-        let swarm = Swarm {
-            origin: match generator.layout {
-                Layout::Cloud => Origin::Cloud,
-                Layout::Grid => Origin::Grid,
-                Layout::Wand => Origin::Wand {
-                    direction: DVec3::from(generator.direction).normalize_or(DVec3::X),
-                    speed_m_s: generator.speed_m_s,
-                    spread_rad: generator.spread_deg.to_radians(),
-                },
-            },
-            count: generator.count,
-            seed: fold_seed(generator.seed),
-            center_m: generator.center_m.into(),
-            size_m: generator.size_m.into(),
-            radius_m: 1e-3 * generator.radius_mm,
-            radius_spread: generator.radius_spread,
-            thickness_m: 1e-9 * generator.film.thickness_nm,
-            thickness_spread: generator.thickness_spread,
-            lending: Lending {
-                films: generator.films,
-                life_s: (generator.life_s > 0.0).then_some(generator.life_s),
-                tick_s,
-            },
-            wind_m_s: DVec3::from(generator.wind_m_s) + generator.rise_m_s * DVec3::Z,
-            wander_m: 1e-3 * generator.wander_mm,
-            wobble: generator.wobble,
-        };
-        Self { swarm, first_owner }
-    }
-
-    /// The first of its films among the owners of all films.
-    pub fn first_owner(&self) -> usize {
-        self.first_owner
-    }
-
-    /// One of its films at the moment of a shot.
-    fn lent_film(&self, story: &Story, film: usize, shot: &Shot) -> Option<LentFilm> {
-        let index = self.first_owner + film;
-        let age = story.age(index, shot.moment)?;
-        let ticks = age.moment.ticks();
-        Some(LentFilm {
-            index,
-            material: 0,
-            film: story.film_of_age(index, &age),
-            to_film: DMat3::from_quat(story.film_turn(age.life.born as f64 + ticks).inverse()),
-            evaporated_nm: age.life.evaporation.nm(ticks),
-            max_thickness_factor: 1.0 + self.swarm.thickness_spread,
-        })
-    }
-
-    /// When each of its films is blown anew.
-    pub fn renewals(&self) -> impl Iterator<Item = Option<Renewal>> {
-        let Lending { films, .. } = self.swarm.lending;
-        let interval = self.swarm.lending.interval_ticks();
-        (0..films).map(move |film| {
-            let [first_tick, period_ticks] = [film, films].map(|films| Some(interval? * u64::from(films)));
-            Some(Renewal { first_tick: first_tick?, period_ticks: period_ticks? })
-        })
-    }
-}
-
-/// Bubbles in whose place the films of a generator move: of its mean size, where it is.
-pub(super) fn owners(generator: &Generator) -> impl Iterator<Item = Bubble> {
-    (0..generator.films).map(|number| Bubble {
-        center_m: generator.center_m,
-        radius_mm: generator.radius_mm,
-        film: Film { seed: generator.film.seed.wrapping_add(number.into()), ..generator.film.clone() },
-        ..Bubble::default()
-    })
-}
 
 /// What is in sight of the bubbles that generators make.
 #[derive(Debug, Default)]
@@ -121,17 +37,17 @@ fn small_below_pixels(quality: Quality) -> f64 {
 const INVISIBLE_PIXELS: f64 = 0.006;
 
 /// Finds the bubbles of all generators that a shot shows.
-pub(super) fn in_sight(story: &Story, lenders: &[Lender], camera: &CameraKey, shot: &Shot) -> InSight {
+pub(super) fn in_sight(story: &Story, camera: &CameraKey, shot: &Shot) -> InSight {
     let mut sight = InSight::default();
     let time_s = shot.moment.ticks() * story.motion.tick_s;
-    for lender in lenders {
+    for lender in story.lenders() {
         // The place in the list of each of its films, once one is shown.
         let mut places: Vec<Option<usize>> = vec![None; lender.swarm.lending.films as usize];
         for member in lender.swarm.at(time_s) {
             let Some((corners, radius_pixels)) = seen(camera, shot, member.center_m, member.radius_m) else { continue };
             let film = member.film as usize;
             if places[film].is_none() {
-                let Some(lent) = lender.lent_film(story, film, shot) else { continue };
+                let Some(lent) = lent_film(story, lender, film, shot) else { continue };
                 places[film] = Some(sight.lent.len());
                 sight.lent.push(lent);
             }
@@ -163,6 +79,21 @@ fn seen(camera: &CameraKey, shot: &Shot, center_m: DVec3, radius_m: f64) -> Opti
         return None;
     }
     Some((bounds(camera, shot.size, center_m, radius_m)?, radius_pixels))
+}
+
+/// One of a generator's films at the moment of a shot.
+fn lent_film(story: &Story, lender: &Lender, film: usize, shot: &Shot) -> Option<LentFilm> {
+    let index = lender.first_owner + film;
+    let age = story.age(index, shot.moment)?;
+    let ticks = age.moment.ticks();
+    Some(LentFilm {
+        index,
+        material: 0,
+        film: story.film_of_age(index, &age),
+        to_film: DMat3::from_quat(story.film_turn(age.life.born as f64 + ticks).inverse()),
+        evaporated_nm: age.life.evaporation.nm(ticks),
+        max_thickness_factor: 1.0 + lender.swarm.thickness_spread,
+    })
 }
 
 fn small(member: &Member, lent: usize, bounds: [DVec2; 2]) -> SmallBubble {

@@ -12,8 +12,11 @@ mod fields;
 mod films;
 pub mod keys;
 mod laws;
+mod lender;
 mod pass;
 mod request;
+mod shot;
+mod sight;
 mod story;
 mod turns;
 
@@ -28,7 +31,8 @@ pub use keys::{
     QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
 };
 pub use pass::{Pass, Reason};
-pub use request::{Resources, Shot, SpectralLight, request};
+pub use request::{Resources, SpectralLight, request};
+pub use shot::Shot;
 pub use story::Story;
 
 /// How much work may be done before the next picture must be shown.

@@ -2,21 +2,22 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec3};
 
 use super::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LentFilm, LightKey,
-    Lighting, Moment, OpticsKey, Pace, QuadratureKey, Story, TableKey, TonemapKey,
+    Lighting, OpticsKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
     keys::samples,
     range_nm,
+    sight::{SMALLEST_FIELD_PIXELS, bounds, is_filtered, is_magnified},
 };
 use crate::{
     physics::{
         bubble::reach,
-        colour::{Gamut, Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
+        colour::{Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
         film::fold_seed,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
@@ -44,23 +45,6 @@ pub struct SpectralLight {
     pub environment: Arc<CubeMap>,
     /// Its spectrum.
     pub illuminant: Arc<Illuminant>,
-}
-
-/// One picture of a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shot {
-    /// Width and height in pixels, both above zero.
-    pub size: [u32; 2],
-    /// When it is taken.
-    pub moment: Moment,
-    /// Whether radiance is kept as f32.
-    pub full_precision: bool,
-    /// Colours that the display, or the file, has.
-    pub gamut: Gamut,
-    /// Whether films are replaced by the yardstick of the frame's cost.
-    pub yardstick: bool,
-    /// How much work may be done at once.
-    pub pace: Pace,
 }
 
 /// The frame request for a single shot of a scene. For several shots, make a [`Story`] once.
@@ -93,7 +77,7 @@ impl Story {
             .enumerate()
             .filter_map(|(index, bubble)| visible(self, &camera, shot, index, bubble))
             .collect();
-        let InSight { bubbles: made, small, mut lent } = in_sight(self, self.lenders(), &camera, shot);
+        let InSight { bubbles: made, small, mut lent } = in_sight(self, &camera, shot);
         bubbles.extend(made);
         let materials = materials(self, resources)?;
         bubbles.iter_mut().for_each(|bubble| bubble.material = materials.of_film[bubble.index]);
@@ -270,9 +254,6 @@ fn thickest_nm(film: &FilmKey) -> f64 {
     }
 }
 
-/// Radius in pixels below which a film's field cannot be seen: it is drawn with its mean thickness.
-pub(super) const SMALLEST_FIELD_PIXELS: f64 = 0.75;
-
 /// A bubble as the picture sees it, if any pixel can.
 fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
     let center_m = story.center_m(index, shot.moment.ticks() * story.motion.tick_s);
@@ -313,50 +294,5 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     })
 }
 
-/// Pixels that a cell of a film must span for the film to be looked up at each pixel: below that, a cell is interpolated well enough.
-const MAGNIFIED_CELL_PIXELS: f64 = 3.0;
-
-pub(super) fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f64) -> bool {
-    let FilmKey::Field(field) = film else { return false };
-    // From inside, and for the nearest point from outside, the film is nearer than the center.
-    let nearest_m = (distance_m - radius_m).abs().max(1e-3 * radius_m);
-    let magnification = (distance_m.max(radius_m) / nearest_m).min(16.0);
-    field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
-}
-
-/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples per pixel
-/// see that better than a filter which takes the film to change evenly from pixel to pixel.
-pub(super) fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
-    let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < 1.0);
-    is_finer && samples(radius_pixels) == 1
-}
-
 /// Samples along a pixel's side of a film that ends on a ring: its edge is not smoothed otherwise.
 const RING_SAMPLES: u32 = 2;
-
-/// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; `None` if it is outside.
-pub(super) fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
-    let offset = center_m - camera.eye_m;
-    let depth = offset.dot(camera.forward);
-    if depth < -radius_m {
-        return None;
-    }
-    let half = size.map(|pixels| 0.5 * f64::from(pixels) * camera.pixel_height_m);
-    let margin = DVec2::new(2.0 / f64::from(size[0]), 2.0 / f64::from(size[1]));
-    let x = span(offset.dot(camera.right), depth, radius_m).map(|x| x / half[0]);
-    let y = span(offset.dot(camera.up), depth, radius_m).map(|y| y / half[1]);
-    let low = (DVec2::new(x[0], y[0]) - margin).max(DVec2::NEG_ONE);
-    let high = (DVec2::new(x[1], y[1]) + margin).min(DVec2::ONE);
-    (low.x < high.x && low.y < high.y).then_some([low, high])
-}
-
-/// Where the two lines from the eye that touch a circle cross the line one metre before it: the circle's projection.
-/// Everything if the circle reaches behind the eye.
-fn span(across: f64, depth: f64, radius: f64) -> [f64; 2] {
-    if depth <= radius {
-        return [f64::NEG_INFINITY, f64::INFINITY];
-    }
-    let tangent = (across * across + depth * depth - radius * radius).sqrt();
-    let edge = |side: f64| (across * tangent + side * depth * radius) / (depth * tangent - side * across * radius);
-    [edge(-1.0), edge(1.0)]
-}

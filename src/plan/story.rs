@@ -6,10 +6,10 @@ use glam::{DQuat, DVec3};
 
 use super::{
     FilmKey, Moment,
-    crowd::{Lender, owners},
     detail::{film_grids, shared_grids},
     films::{film, has_field},
     laws::courses,
+    lender::{Lender, owners},
     turns::Turns,
 };
 use crate::{
@@ -83,7 +83,7 @@ impl Story {
         if index < self.bubbles.len() {
             return ("bubble", index);
         }
-        ("generator", self.lenders().partition_point(|lender| lender.first_owner() <= index) - 1)
+        ("generator", self.lenders().partition_point(|lender| lender.first_owner <= index) - 1)
     }
 
     /// What the generators of the scene make.

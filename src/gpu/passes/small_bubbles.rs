@@ -28,6 +28,7 @@ kernels! {
         const TILE: u32 = TILE;
         const ON_BATH: bool = false;
         const FILTERED: bool = false;
+        const BACKDROP_IS_ENVIRONMENT: bool = false;
         override SAMPLES: u32 in [1, 4];
         override FULL_PRECISION: bool;
         overrides table_kind: TableOverrides;

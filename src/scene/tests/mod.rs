@@ -188,7 +188,9 @@ fn written(key: &str, default: &str, value: f64) -> String {
     // TOML writes `nan` where Rust writes `NaN`.
     let number = format!("{value:?}").to_lowercase();
     match key {
-        "cells" | "remap_ticks" | "ticks" | "version" => format!("{}", value.round()).to_lowercase(),
+        "cells" | "count" | "films" | "remap_ticks" | "ticks" | "version" => {
+            format!("{}", value.round()).to_lowercase()
+        }
         _ if default.starts_with('[') || ["constant", "radiance", "spin_deg_s", "gravity_m_s2"].contains(&key) => {
             format!("[0, {number}, 0]")
         }

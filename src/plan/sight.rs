@@ -1,0 +1,53 @@
+//! What of a bubble can be seen: its place in the picture, and how much of its film pixels tell apart.
+
+use glam::{DVec2, DVec3};
+
+use super::{CameraKey, FilmKey, keys::samples};
+
+/// Radius in pixels below which a film's field cannot be seen: it is drawn with its mean thickness.
+pub(super) const SMALLEST_FIELD_PIXELS: f64 = 0.75;
+
+/// Pixels that a cell of a film must span for the film to be looked up at each pixel: below that, a cell is interpolated well enough.
+const MAGNIFIED_CELL_PIXELS: f64 = 3.0;
+
+pub(super) fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f64) -> bool {
+    let FilmKey::Field(field) = film else { return false };
+    // From inside, and for the nearest point from outside, the film is nearer than the center.
+    let nearest_m = (distance_m - radius_m).abs().max(1e-3 * radius_m);
+    let magnification = (distance_m.max(radius_m) / nearest_m).min(16.0);
+    field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
+}
+
+/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples per pixel
+/// see that better than a filter which takes the film to change evenly from pixel to pixel.
+pub(super) fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
+    let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < 1.0);
+    is_finer && samples(radius_pixels) == 1
+}
+
+/// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; `None` if it is outside.
+pub(super) fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
+    let offset = center_m - camera.eye_m;
+    let depth = offset.dot(camera.forward);
+    if depth < -radius_m {
+        return None;
+    }
+    let half = size.map(|pixels| 0.5 * f64::from(pixels) * camera.pixel_height_m);
+    let margin = DVec2::new(2.0 / f64::from(size[0]), 2.0 / f64::from(size[1]));
+    let x = span(offset.dot(camera.right), depth, radius_m).map(|x| x / half[0]);
+    let y = span(offset.dot(camera.up), depth, radius_m).map(|y| y / half[1]);
+    let low = (DVec2::new(x[0], y[0]) - margin).max(DVec2::NEG_ONE);
+    let high = (DVec2::new(x[1], y[1]) + margin).min(DVec2::ONE);
+    (low.x < high.x && low.y < high.y).then_some([low, high])
+}
+
+/// Where the two lines from the eye that touch a circle cross the line one metre before it: the circle's projection.
+/// Everything if the circle reaches behind the eye.
+fn span(across: f64, depth: f64, radius: f64) -> [f64; 2] {
+    if depth <= radius {
+        return [f64::NEG_INFINITY, f64::INFINITY];
+    }
+    let tangent = (across * across + depth * depth - radius * radius).sqrt();
+    let edge = |side: f64| (across * tangent + side * depth * radius) / (depth * tangent - side * across * radius);
+    [edge(-1.0), edge(1.0)]
+}
