@@ -21,8 +21,9 @@ fn flow_residual(@builtin(global_invocation_id) id: vec3u) {
     let at = padded_index(id.z, i32(i), i32(id.y), solve.cells);
     let along = vec4f(tangents[k], tangents[k + 1u], tangents[k + 2u], tangents[k + 3u]);
     let four = four_cells(at, solve.cells + 2u * HALO, along, tangents[id.y + HALO]);
-    let f = solve.gain * vec4f(source[at], source[at + 1u], source[at + 2u], source[at + 3u]);
-    let found = f - four.laplacian / (solve.cell_angle * solve.cell_angle) + solve.shift * four.here;
+    let system = solve.systems[id.z / 6u];
+    let f = system.gain * vec4f(source[at], source[at + 1u], source[at + 2u], source[at + 3u]);
+    let found = f - four.laplacian / (solve.cell_angle * solve.cell_angle) + system.shift * four.here;
     left[at] = found.x;
     left[at + 1u] = found.y;
     left[at + 2u] = found.z;

@@ -24,10 +24,11 @@ fn flow_sweep(@builtin(global_invocation_id) id: vec3u) {
     let at = padded_index(id.z, i32(i), i32(id.y), solve.cells);
     let along = vec4f(tangents[k], tangents[k + 1u], tangents[k + 2u], tangents[k + 3u]);
     let four = four_cells(at, solve.cells + 2u * HALO, along, tangents[id.y + HALO]);
-    let f = solve.gain * vec4f(source[at], source[at + 1u], source[at + 2u], source[at + 3u]);
+    let system = solve.systems[id.z / 6u];
+    let f = system.gain * vec4f(source[at], source[at + 1u], source[at + 2u], source[at + 3u]);
     let angle2 = solve.cell_angle * solve.cell_angle;
-    let residual = f - four.laplacian / angle2 + solve.shift * four.here;
-    let after = four.here + solve.weights[SWEEP] * residual / (four.own / angle2 - solve.shift);
+    let residual = f - four.laplacian / angle2 + system.shift * four.here;
+    let after = four.here + system.weights[SWEEP] * residual / (four.own / angle2 - system.shift);
     psi_after[at] = after.x;
     psi_after[at + 1u] = after.y;
     psi_after[at + 2u] = after.z;

@@ -126,6 +126,7 @@ impl FreeMotion {
             black_nm: (around.part.black_nm - reference_nm) as f32,
             rim_z,
             inversion,
+            film: 0,
         };
         let map = field.map_so_far();
         let kernel = FlowThickness {

@@ -208,7 +208,7 @@ pub fn trace_step(
             TraceStep { FLOW: *kind, step, tangents, step_map }.trace_step(recorder, name, groups)
         }
         Step::Solved(velocity, dt_s) => {
-            let uniform = SolvedUniform { dt_s: *dt_s as f32, cells: grid.cells, padding: [0; 2] };
+            let uniform = SolvedUniform { dt_s: *dt_s as f32, cells: grid.cells, film: 0, padding: 0 };
             let solved = &recorder.gpu.uniform("solved step", &uniform);
             TraceFlow { solved, tangents, velocity, step_map }.trace_flow(recorder, name, groups)
         }
