@@ -184,6 +184,11 @@ impl FlowSolver {
         self.mirror.as_ref().map_or(Ok(()), |mirror| mirror.reflect(recorder, &self.grid, zeta))
     }
 
+    /// Whether it has taken a step since the seed.
+    pub(in crate::gpu) fn has_history(&self) -> bool {
+        self.has_history
+    }
+
     /// The grid.
     #[must_use]
     pub fn sphere(&self) -> CubedSphere {
