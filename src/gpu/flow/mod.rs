@@ -57,10 +57,10 @@ impl FlowGrid {
         [tiles, tiles, 6 * self.films]
     }
 
-    /// Workgroups of a pass with one invocation for four cells of a row, 64 cells each.
-    fn row_groups(&self) -> [u32; 3] {
+    /// Workgroups of a pass with one invocation for four cells of each of two rows, in tiles of 32 x 8 cells.
+    fn eights_groups(&self) -> [u32; 3] {
         let cells = self.sphere.n() as u32;
-        [cells.div_ceil(64), cells, 6 * self.films]
+        [cells.div_ceil(32), cells.div_ceil(8), 6 * self.films]
     }
 
     /// A workgroup for each film.

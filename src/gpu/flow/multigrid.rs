@@ -108,7 +108,7 @@ impl Multigrid {
                     psi: from,
                     psi_after: to,
                 };
-                kernel.flow_sweep(recorder, STEP_FLOW, grid.row_groups())?;
+                kernel.flow_sweep(recorder, STEP_FLOW, grid.eights_groups())?;
                 grid.fill_halo(recorder, to)?;
             }
         }
@@ -126,7 +126,7 @@ impl Multigrid {
     ) -> Result<(), GpuError> {
         let Self { tangents, halo, f, e, scratch, .. } = self;
         let residual = FlowResidual { solve, tangents: &grid.tangents, source, psi, left: f };
-        residual.flow_residual(recorder, STEP_FLOW, grid.row_groups())?;
+        residual.flow_residual(recorder, STEP_FLOW, grid.eights_groups())?;
         FlowCoarse { coarse, tangents, entries: halo, f, e }.flow_coarse(recorder, STEP_FLOW, grid.film_groups())?;
         let correct = FlowCorrect { solve, correction: e, psi, psi_after: scratch };
         correct.flow_correct(recorder, STEP_FLOW, grid.groups())?;
