@@ -9,7 +9,11 @@ use super::{
     moving::LawInForce,
 };
 use crate::{
-    gpu::{device::GpuError, flow::FlowSolver, timing::Recorder},
+    gpu::{
+        device::{Gpu, GpuError},
+        flow::FlowSolver,
+        timing::Recorder,
+    },
     physics::film::model::{FilmStep, FreePart},
     plan::{FieldKey, FlowLaw},
 };
@@ -34,6 +38,12 @@ struct Shape {
     films: usize,
 }
 
+impl Shape {
+    fn of(film: &MovingFilm, films: usize) -> Self {
+        Self { cells: film.field.flow_grid().cells, rules: film.field.rules(), films }
+    }
+}
+
 /// What films that flow together have in common.
 #[derive(PartialEq)]
 struct Kind {
@@ -45,7 +55,7 @@ struct Kind {
 }
 
 impl Kind {
-    fn of(film: &MovingFilm, step: &FilmStep) -> Self {
+    fn of(film: &MovingFilm, step: &FilmStep, has_history: bool) -> Self {
         let part = |part: &FreePart| {
             let is_viscous = part.forces.viscous_stage(part.dt_s).is_some();
             (part.dt_s, is_corrected(part), is_viscous)
@@ -53,13 +63,18 @@ impl Kind {
         Self {
             cells: film.field.flow_grid().cells,
             rules: film.field.rules(),
-            has_history: film.flow().is_some_and(FlowSolver::has_history),
+            has_history,
             parts: step.parts.iter().map(part).collect(),
         }
     }
 }
 
 impl Company {
+    /// Forgets the films that a failure may have left here.
+    pub(super) fn forget(&mut self) {
+        self.busy.clear();
+    }
+
     /// Moves some of the members, given by their places, by one of their history's steps, each by the law in force alone.
     pub(super) fn advance(
         &mut self,
@@ -78,7 +93,9 @@ impl Company {
                 continue;
             }
             film.set_in_motion(recorder)?;
-            let kind = Kind::of(film, &step);
+            let holder = self.busy.iter().find(|(busy, _)| busy.contains(&place)).map(|(_, solver)| solver);
+            let has_history = holder.or(film.flow()).is_some_and(FlowSolver::has_history);
+            let kind = Kind::of(film, &step, has_history);
             let room = |(known, films): &&mut (Kind, Vec<_>)| *known == kind && films.len() < FlowSolver::MAX_FILMS;
             match groups.iter_mut().find(room) {
                 Some((_, films)) => films.push((place, step)),
@@ -105,6 +122,7 @@ impl Company {
         for part in 0..parts {
             let mut flowing = Vec::with_capacity(films.len());
             let of_members = members.iter_mut().zip(&mut *laws).enumerate();
+            // That of the only film, if there is but one.
             let mut own = None;
             for (place, ((film, key), law)) in of_members {
                 let Some((_, step)) = films.iter().find(|(member, _)| *member == place) else { continue };
@@ -137,11 +155,11 @@ impl Company {
             self.disperse(recorder, members, other);
         }
         let [first, _, ..] = places else { return None };
-        let field = &members[*first].0.field;
-        let shape = Shape { cells: field.flow_grid().cells, rules: field.rules(), films: places.len() };
+        let film = &members[*first].0;
+        let shape = Shape::of(film, places.len());
         let mut solver = match self.spare.iter().position(|(known, _)| *known == shape) {
             Some(known) => self.spare.swap_remove(known).1,
-            None => solver_of(recorder.gpu, field, shape.films),
+            None => solver_of(recorder.gpu, &film.field, shape.films),
         };
         for (place, member) in places.iter().enumerate() {
             if let Some(motion) = &members[*member].0.motion {
@@ -160,10 +178,7 @@ impl Company {
                 solver.hand_back(recorder, place, &mut motion.solver);
             }
         }
-        if let Some(field) = places.first().map(|first| &members[*first].0.field) {
-            let shape = Shape { cells: field.flow_grid().cells, rules: field.rules(), films: places.len() };
-            self.spare.push((shape, solver));
-        }
+        self.spare.extend(places.first().map(|first| (Shape::of(members[*first].0, places.len()), solver)));
     }
 
     /// Gives all films their flows back.
@@ -178,7 +193,7 @@ impl Company {
 
 impl MovingFilm {
     /// Sets what a step brings besides motion.
-    fn prepare(&mut self, gpu: &crate::gpu::Gpu, step: &FilmStep, tick_s: f64) {
+    fn prepare(&mut self, gpu: &Gpu, step: &FilmStep, tick_s: f64) {
         self.field.diffuse(gpu, step.law.diffusion(), tick_s);
         self.field.collapse(gpu, step.blackening);
         self.field.drain(step.drain.clone());

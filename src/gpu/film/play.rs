@@ -37,6 +37,7 @@ pub fn play_together(
     mut submit: impl FnMut(Recorder<'_>) -> Result<(), GpuError>,
 ) -> Result<(), GpuError> {
     let Some(history) = members.first().map(|(_, key)| *key) else { return Ok(()) };
+    company.forget();
     let mut laws: Vec<LawInForce> = members.iter().map(|_| LawInForce::default()).collect();
     let mut steps = history.steps_from(from_tick);
     loop {
