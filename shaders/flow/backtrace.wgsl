@@ -1,14 +1,15 @@
-// Where liquid came from, in a velocity field that a pass declares as `velocity: array<vec4f>`: Cartesian, in rad/s, in padded storage.
+// Where liquid came from, in a velocity field that a pass declares as `velocity: array<vec4f>`: Cartesian, in rad/s, in padded storage, film after
+// film.
 
-import package::sphere::cubed::{cubic_stencil, locate};
+import package::sphere::cubed::{cubic_stencil, locate_in};
 
 fn velocity_row(row: u32, w: vec4f) -> vec3f {
     return w.x * velocity[row].xyz + w.y * velocity[row + 1u].xyz + w.z * velocity[row + 2u].xyz + w.w * velocity[row + 3u].xyz;
 }
 
-// Bicubic interpolation on a grid with `cells` cells per edge.
-fn velocity_at(x: vec3f, cells: u32) -> vec3f {
-    let at = cubic_stencil(locate(x, cells), cells);
+// Bicubic interpolation on the grid of a film, with `cells` cells per edge.
+fn velocity_at(film: u32, x: vec3f, cells: u32) -> vec3f {
+    let at = cubic_stencil(locate_in(film, x, cells), cells);
     return at.wj.x * velocity_row(at.first, at.wi) + at.wj.y * velocity_row(at.first + at.stride, at.wi) +
         at.wj.z * velocity_row(at.first + 2u * at.stride, at.wi) + at.wj.w * velocity_row(at.first + 3u * at.stride, at.wi);
 }
@@ -25,12 +26,12 @@ fn extrapolated(x: vec3f, first: vec3f, second: vec3f, third: vec3f) -> vec3f {
     return third + factor.x * last + factor.y * cross(x, last);
 }
 
-// Where the liquid at unit vector x was a time dt_s ago, in a steady flow whose velocity at x is given: the implicit midpoint rule on the
+// Where the liquid of a film at unit vector x was a time dt_s ago, in a steady flow whose velocity at x is given: the implicit midpoint rule on the
 // sphere. The origin is x reflected at the middle, a symmetric step along a great circle, so that circles stay circles.
-fn backtrace(x: vec3f, velocity_at_x: vec3f, dt_s: f32, cells: u32) -> vec3f {
-    let once = velocity_at(x - 0.5 * dt_s * velocity_at_x, cells);
-    let twice = velocity_at(x - 0.5 * dt_s * once, cells);
-    let u = velocity_at(x - 0.5 * dt_s * extrapolated(x, velocity_at_x, once, twice), cells);
+fn backtrace(film: u32, x: vec3f, velocity_at_x: vec3f, dt_s: f32, cells: u32) -> vec3f {
+    let once = velocity_at(film, x - 0.5 * dt_s * velocity_at_x, cells);
+    let twice = velocity_at(film, x - 0.5 * dt_s * once, cells);
+    let u = velocity_at(film, x - 0.5 * dt_s * extrapolated(x, velocity_at_x, once, twice), cells);
     let middle = normalize(x - 0.5 * dt_s * u);
     return 2.0 * dot(x, middle) * middle - x;
 }

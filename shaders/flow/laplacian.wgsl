@@ -1,5 +1,5 @@
-// The Laplacian of the stream function that a pass works on, which it declares as `psi: array<f32>` in padded storage. Four cells of a
-// row are done together: they share most of what they read, and reading is what a pass costs.
+// The Laplacian of the stream function that a pass works on, which it declares as `psi: array<f32>` in padded storage. Four cells of each of
+// two rows are done together: they share most of what they read, and reading is what a pass costs.
 
 // Four cells of a row and their neighbours along it: the cells 2 and 1 before each, itself, and 1 and 2 after.
 struct Row {
@@ -29,11 +29,8 @@ struct FourCells {
     own: vec4f,
 }
 
-// Four cells from a place in storage, whose rows are `side` long, at these tangents along and across the row.
-fn four_cells(at: u32, side: u32, along: vec4f, across: f32) -> FourCells {
-    let rows = array<Row, 5>(
-        row_of(at - 2u * side), row_of(at - side), row_of(at), row_of(at + side), row_of(at + 2u * side)
-    );
+// The middle one of five rows, at these tangents along and across it.
+fn four_cells(rows: array<Row, 5>, along: vec4f, across: f32) -> FourCells {
     let here = rows[2].here;
     let by_aa = (16.0 * (rows[2].before + rows[2].after) - (rows[2].before2 + rows[2].after2) - 30.0 * here) / 12.0;
     let by_bb = (16.0 * (rows[1].here + rows[3].here) - (rows[0].here + rows[4].here) - 30.0 * here) / 12.0;
@@ -44,4 +41,18 @@ fn four_cells(at: u32, side: u32, along: vec4f, across: f32) -> FourCells {
     let delta2 = a + b - 1.0;
     let found = delta2 / a * by_aa + 2.0 * delta2 * along * across / (a * b) * by_ab + delta2 / b * by_bb;
     return FourCells(here, found, -2.5 * (delta2 / a + delta2 / b));
+}
+
+// Four cells of each of two rows from a place in storage, whose rows are `side` long.
+fn two_rows(at: u32, side: u32, along: vec4f, across: vec2f) -> array<FourCells, 2> {
+    let a = row_of(at - 2u * side);
+    let b = row_of(at - side);
+    let c = row_of(at);
+    let d = row_of(at + side);
+    let e = row_of(at + 2u * side);
+    let f = row_of(at + 3u * side);
+    return array(
+        four_cells(array(a, b, c, d, e), along, across.x),
+        four_cells(array(b, c, d, e, f), along, across.y),
+    );
 }

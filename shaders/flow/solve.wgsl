@@ -1,17 +1,29 @@
 // What the passes of one multigrid solution of (laplacian - k) psi = f share on the finest grid.
 
-// Mirrors `SolveUniform` in src/gpu/passes/flow_residual.rs.
-struct Solve {
+// Mirrors `FilmSystem` in src/gpu/passes/flow_residual.rs.
+struct FilmSystem {
     // Of each sweep after a correction.
     weights: vec3f,
     // k.
     shift: f32,
     // f over the source.
     gain: f32,
+}
+
+// Mirrors `SolveUniform` in src/gpu/passes/flow_residual.rs.
+struct Solve {
     cell_angle: f32,
     // Cells along a panel's edge, here and on the next grid.
     cells: u32,
     coarse_cells: u32,
     // Where the next grid's corrections start.
     coarse_field: u32,
+    // Of each film.
+    systems: array<FilmSystem, 64>,
+}
+
+// The first of an invocation's cells, four of each of two rows. Where they do not divide a panel, the last ones overlap others, with the
+// same answer.
+fn first_of_eight(id: vec2u, cells: u32) -> vec2u {
+    return min(vec2u(4u, 2u) * id, vec2u(cells) - vec2u(4u, 2u));
 }

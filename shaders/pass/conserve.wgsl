@@ -2,7 +2,7 @@
 // area-weighted difference from the mean, pairwise: the parts cancel on the way up, so that nothing large is rounded.
 
 import package::film::control::{Balance, Control, is_finite};
-import package::sphere::cubed::padded_index;
+import package::sphere::cubed::{padded_index, quotient};
 
 // Mirrors `ConserveUniform` in src/gpu/passes/conserve.rs.
 struct Conserve {
@@ -54,13 +54,6 @@ fn workgroup_sum(value: f32, local: u32) -> f32 {
     add_halves(16u, 1u, local);
     workgroupBarrier();
     return sums[0];
-}
-
-// a / b, rounded down, of numbers whose quotient is below 2^22. Software rasterisers divide integers one by one.
-fn quotient(a: u32, b: u32) -> u32 {
-    let near = i32(f32(a) / f32(b));
-    let rest = i32(a) - near * i32(b);
-    return u32(near + select(0, 1, rest >= i32(b)) - select(0, 1, rest < 0));
 }
 
 @compute @workgroup_size(256)

@@ -1,9 +1,9 @@
-// All grids of a multigrid cycle below the finest, by one workgroup: the finest's residual is averaged down to the coarsest, solved
-// there, and each grid on the way up interpolates the correction and smooths it. Grids so small are done sooner by one workgroup than they
-// are handed out.
+// All grids of a multigrid cycle below the finest, by one workgroup for each film: the finest's residual is averaged down to the coarsest,
+// solved there, and each grid on the way up interpolates the correction and smooths it. Grids so small are done sooner by one workgroup than
+// they are handed out.
 
 import package::flow::operators::area_density;
-import package::sphere::cubed::{HALO, padded_index};
+import package::sphere::cubed::{HALO, padded_index, quotient};
 import package::sphere::halo::HaloEntry;
 
 const LANES: u32 = 128u;
@@ -15,17 +15,17 @@ struct Level {
     cell_angle: f32,
     // Cells along a panel's edge.
     cells: u32,
-    // Where its values, tangents and halo entries start in the lists for all grids.
+    // Where its values, tangents and halo entries start in the lists for all grids; of the values, those of the first film.
     field: u32,
     tangent: u32,
     halo: u32,
 }
 
-// Mirrors `CoarseUniform` in src/gpu/passes/flow_coarse.rs.
+// Mirrors `CoarseSystem` in src/gpu/passes/flow_coarse.rs.
 struct Coarse {
     // How many grids, the finest first, of which only the residual is here.
     levels: u32,
-    // Values of all grids: the distance from one bank of corrections to the other.
+    // Values of all films on all grids: the distance from one bank of corrections to the other.
     values: u32,
     shift: f32,
     // Sweeps on the coarsest, an even number.
@@ -35,7 +35,8 @@ struct Coarse {
     coarsest: array<vec4f, 8>,
 }
 
-@group(0) @binding(0) var<uniform> coarse: Coarse;
+// Of each film.
+@group(0) @binding(0) var<storage, read> coarse: array<Coarse>;
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
 @group(0) @binding(2) var<storage, read> entries: array<HaloEntry>;
 // Right sides.
@@ -45,6 +46,13 @@ struct Coarse {
 
 var<workgroup> shares: array<f32, 128>;
 
+// A grid, with where the values of a film start.
+fn level_of(film: u32, l: u32) -> Level {
+    var level = coarse[film].level[l];
+    level.field += film * 6u * side_of(level) * side_of(level);
+    return level;
+}
+
 struct Cell {
     panel: u32,
     ij: vec2u,
@@ -52,8 +60,9 @@ struct Cell {
 }
 
 fn cell_of(level: Level, index: u32) -> Cell {
-    let ij = vec2u(index % level.cells, (index / level.cells) % level.cells);
-    let panel = index / (level.cells * level.cells);
+    let row = quotient(index, level.cells);
+    let panel = quotient(row, level.cells);
+    let ij = vec2u(index - row * level.cells, row - panel * level.cells);
     return Cell(panel, ij, padded_index(panel, i32(ij.x), i32(ij.y), level.cells));
 }
 
@@ -65,8 +74,7 @@ fn side_of(level: Level) -> u32 {
     return level.cells + 2u * HALO;
 }
 
-fn fill(level: Level, entry: u32, bank: u32) {
-    let base = bank * coarse.values + level.field;
+fn fill(base: u32, entry: u32) {
     var total = 0.0;
     for (var k = 0u; k < 4u; k++) {
         total += entries[entry].weights[k] * e[base + entries[entry].sources[k]];
@@ -75,14 +83,15 @@ fn fill(level: Level, entry: u32, bank: u32) {
 }
 
 // The innermost ring, which is all that is read of it, and the second on the way to its corners: see `HaloTable`.
-fn fill_halo(level: Level, lane: u32, bank: u32) {
+fn fill_halo(film: u32, level: Level, lane: u32, bank: u32) {
+    let base = bank * coarse[film].values + level.field;
     storageBarrier();
     for (var k = lane; k < 48u * level.cells; k += LANES) {
-        fill(level, level.halo + k, bank);
+        fill(base, level.halo + k);
     }
     storageBarrier();
     if (lane < 24u) {
-        fill(level, level.halo + 24u * HALO * level.cells + lane, bank);
+        fill(base, level.halo + 24u * HALO * level.cells + lane);
     }
     storageBarrier();
 }
@@ -94,14 +103,19 @@ fn row_of(at: u32) -> vec4f {
 
 // A damped Jacobi sweep from one bank to the other, with differences of second order; `mean` is left out of the right side. A lane does
 // four cells of a row at a time; where four do not divide a row, the last four overlap others, with the same answer.
-fn sweep(level: Level, lane: u32, bank: u32, weight: f32, mean: f32) {
+fn sweep(film: u32, level: Level, lane: u32, bank: u32, weight: f32, mean: f32) {
     let side = side_of(level);
+    let shift = coarse[film].shift;
+    let read_from = bank * coarse[film].values;
+    let written_to = (1u - bank) * coarse[film].values;
     let angle2 = level.cell_angle * level.cell_angle;
     let fours = (level.cells + 3u) / 4u;
     for (var k = lane; k < 6u * level.cells * fours; k += LANES) {
-        let ij = vec2u(min(4u * (k % fours), level.cells - 4u), (k / fours) % level.cells);
-        let at = level.field + padded_index(k / (fours * level.cells), i32(ij.x), i32(ij.y), level.cells);
-        let p = bank * coarse.values + at;
+        let row = quotient(k, fours);
+        let panel = quotient(row, level.cells);
+        let ij = vec2u(min(4u * (k - row * fours), level.cells - 4u), row - panel * level.cells);
+        let at = level.field + padded_index(panel, i32(ij.x), i32(ij.y), level.cells);
+        let p = read_from + at;
         let left = vec3f(e[p - side - 1u], e[p - 1u], e[p + side - 1u]);
         let right = vec3f(e[p - side + 4u], e[p + 4u], e[p + side + 4u]);
         let below = row_of(p - side);
@@ -119,15 +133,15 @@ fn sweep(level: Level, lane: u32, bank: u32, weight: f32, mean: f32) {
         let b = 1.0 + across * across;
         let delta2 = a + b - 1.0;
         let found = delta2 / a * by_aa + 2.0 * delta2 * along * across / (a * b) * by_ab + delta2 / b * by_bb;
-        let residual = vec4f(f[at], f[at + 1u], f[at + 2u], f[at + 3u]) - mean - found / angle2 + coarse.shift * here;
-        let after = here + weight * residual / (-2.0 * (delta2 / a + delta2 / b) / angle2 - coarse.shift);
-        let q = (1u - bank) * coarse.values + at;
+        let residual = vec4f(f[at], f[at + 1u], f[at + 2u], f[at + 3u]) - mean - found / angle2 + shift * here;
+        let after = here + weight * residual / (-2.0 * (delta2 / a + delta2 / b) / angle2 - shift);
+        let q = written_to + at;
         e[q] = after.x;
         e[q + 1u] = after.y;
         e[q + 2u] = after.z;
         e[q + 3u] = after.w;
     }
-    fill_halo(level, lane, 1u - bank);
+    fill_halo(film, level, lane, 1u - bank);
 }
 
 // The finer grid's right side, sampled bilinearly within each panel: where grids nest, means of four.
@@ -146,16 +160,16 @@ fn average(fine: Level, level: Level, lane: u32) {
 }
 
 // The coarser grid's correction, bilinearly, into the second bank.
-fn interpolate(below: Level, level: Level, lane: u32) {
+fn interpolate(film: u32, below: Level, level: Level, lane: u32) {
     let side = side_of(below);
     for (var k = lane; k < 6u * level.cells * level.cells; k += LANES) {
         let cell = cell_of(level, k);
         let place = (vec2f(cell.ij) + 0.5) * f32(below.cells) / f32(level.cells) - 0.5;
         let t = place - floor(place);
         let at = below.field + padded_index(cell.panel, i32(floor(place.x)), i32(floor(place.y)), below.cells);
-        e[coarse.values + level.field + cell.at] = mix(mix(e[at], e[at + 1u], t.x), mix(e[at + side], e[at + side + 1u], t.x), t.y);
+        e[coarse[film].values + level.field + cell.at] = mix(mix(e[at], e[at + 1u], t.x), mix(e[at + side], e[at + side + 1u], t.x), t.y);
     }
-    fill_halo(level, lane, 1u);
+    fill_halo(film, level, lane, 1u);
 }
 
 // The mean of a grid's right side.
@@ -184,28 +198,30 @@ fn sum_of(share: f32, lane: u32) -> f32 {
     return shares[0];
 }
 
-fn solve_coarsest(level: Level, lane: u32) {
+fn solve_coarsest(film: u32, level: Level, lane: u32) {
     let mean = mean_of(level, lane);
     for (var k = lane; k < 6u * side_of(level) * side_of(level); k += LANES) {
         e[level.field + k] = 0.0;
     }
     storageBarrier();
-    for (var k = 0u; k < coarse.sweeps; k++) {
-        sweep(level, lane, k % 2u, coarse.coarsest[k / 4u][k % 4u], mean);
+    for (var k = 0u; k < coarse[film].sweeps; k++) {
+        sweep(film, level, lane, k % 2u, coarse[film].coarsest[k / 4u][k % 4u], mean);
     }
 }
 
 @compute @workgroup_size(128)
-fn flow_coarse(@builtin(local_invocation_index) lane: u32) {
-    for (var l = 1u; l < coarse.levels; l++) {
-        average(coarse.level[l - 1u], coarse.level[l], lane);
+fn flow_coarse(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let film = group.x;
+    let levels = coarse[film].levels;
+    for (var l = 1u; l < levels; l++) {
+        average(level_of(film, l - 1u), level_of(film, l), lane);
     }
-    solve_coarsest(coarse.level[coarse.levels - 1u], lane);
-    for (var l = coarse.levels - 1u; l > 1u; l--) {
-        let level = coarse.level[l - 1u];
-        interpolate(coarse.level[l], level, lane);
-        sweep(level, lane, 1u, level.weights.x, 0.0);
-        sweep(level, lane, 0u, level.weights.y, 0.0);
-        sweep(level, lane, 1u, level.weights.z, 0.0);
+    solve_coarsest(film, level_of(film, levels - 1u), lane);
+    for (var l = levels - 1u; l > 1u; l--) {
+        let level = level_of(film, l - 1u);
+        interpolate(film, level_of(film, l), level, lane);
+        sweep(film, level, lane, 1u, level.weights.x, 0.0);
+        sweep(film, level, lane, 0u, level.weights.y, 0.0);
+        sweep(film, level, lane, 1u, level.weights.z, 0.0);
     }
 }

@@ -1,4 +1,5 @@
-// A sum of three fields with factors, less a multiple of a mean, over all of padded storage: halos are linear too.
+// A sum of three fields with factors, less a multiple of a mean, over all of padded storage: halos are linear too. Films
+// are stored one after the other.
 
 import package::flow::operators::valid_or_zero;
 import package::flow::step::Measures;
@@ -10,10 +11,12 @@ struct Combine {
     third: f32,
     // Of the mean of 2 psi - psi_before.
     mean: f32,
+    // Values of each film.
+    values: u32,
 }
 
 @group(0) @binding(0) var<uniform> combine: Combine;
-@group(0) @binding(1) var<storage, read> measures: Measures;
+@group(0) @binding(1) var<storage, read> measures: array<Measures>;
 @group(0) @binding(2) var<storage, read> first: array<f32>;
 @group(0) @binding(3) var<storage, read> second: array<f32>;
 @group(0) @binding(4) var<storage, read> third: array<f32>;
@@ -21,8 +24,9 @@ struct Combine {
 
 @compute @workgroup_size(64)
 fn flow_combine(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x < arrayLength(&combined)) {
-        combined[id.x] = combine.first * valid_or_zero(first[id.x]) + combine.second * valid_or_zero(second[id.x]) +
-            combine.third * valid_or_zero(third[id.x]) + combine.mean * measures.guess_mean;
+    if (id.x < combine.values) {
+        let at = id.y * combine.values + id.x;
+        combined[at] = combine.first * valid_or_zero(first[at]) + combine.second * valid_or_zero(second[at]) +
+            combine.third * valid_or_zero(third[at]) + combine.mean * measures[id.y].guess_mean;
     }
 }

@@ -8,9 +8,9 @@ import package::sphere::cubed::{HALO, padded_index};
 @group(0) @binding(2) var<storage, read> psi: array<f32>;
 @group(0) @binding(3) var<storage, read_write> psi_after: array<f32>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn flow_correct(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= solve.cells) {
+    if (any(id.xy >= vec2u(solve.cells))) {
         return;
     }
     let place = (vec2f(id.xy) + 0.5) * f32(solve.coarse_cells) / f32(solve.cells) - 0.5;

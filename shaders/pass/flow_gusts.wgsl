@@ -13,6 +13,8 @@ struct Gusts {
     vortices_count: u32,
     // Rate at which the air drags the film along, 1/s.
     rate: f32,
+    // Which of the films that flow together.
+    film: u32,
     waves: array<Wave, 32>,
     vortices: array<Vortex, 64>,
 }
@@ -22,9 +24,9 @@ struct Gusts {
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
 @group(0) @binding(2) var<storage, read_write> forcing: array<f32>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn flow_gusts(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= gusts.cells) {
+    if (any(id.xy >= vec2u(gusts.cells))) {
         return;
     }
     let x = normalize(panel_direction(id.z, vec2f(tangents[id.x + HALO], tangents[id.y + HALO])));
@@ -35,5 +37,5 @@ fn flow_gusts(@builtin(global_invocation_id) id: vec3u) {
     for (var k = 0u; k < min(gusts.vortices_count, MAX_VORTICES); k++) {
         vorticity += vortex_vorticity(gusts.vortices[k], x);
     }
-    forcing[padded_index(id.z, i32(id.x), i32(id.y), gusts.cells)] = gusts.rate * vorticity;
+    forcing[padded_index(6u * gusts.film + id.z, i32(id.x), i32(id.y), gusts.cells)] = gusts.rate * vorticity;
 }

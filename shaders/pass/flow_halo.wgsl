@@ -1,5 +1,5 @@
-// Fills the halo of a field in one dispatch of one workgroup: the cells beyond an edge, then those beyond a corner, which read
-// the edges. On grids as coarse as the flow's a second dispatch would cost more than idle lanes.
+// Fills the halo of a field in one dispatch of one workgroup for each film, which are stored one after the other: the cells beyond an edge,
+// then those beyond a corner, which read the edges. On grids as coarse as the flow's a second dispatch would cost more than idle lanes.
 
 import package::sphere::cubed::HALO;
 import package::sphere::halo::HaloEntry;
@@ -17,87 +17,107 @@ fn edges() -> u32 {
     return arrayLength(&entries) - 24u * HALO * HALO;
 }
 
-fn fill_scalar(entry: u32) {
+fn fill_scalar(first: u32, entry: u32) {
     var total = 0.0;
     for (var k = 0u; k < 4u; k++) {
-        total += entries[entry].weights[k] * scalar[entries[entry].sources[k]];
+        total += entries[entry].weights[k] * scalar[first + entries[entry].sources[k]];
     }
-    scalar[entries[entry].cell] = total;
+    scalar[first + entries[entry].cell] = total;
 }
 
-fn fill_pair(entry: u32) {
+fn fill_pair(first: u32, entry: u32) {
     var total = vec2f(0.0);
     for (var k = 0u; k < 4u; k++) {
-        total += entries[entry].weights[k] * pair[entries[entry].sources[k]];
+        total += entries[entry].weights[k] * pair[first + entries[entry].sources[k]];
     }
-    pair[entries[entry].cell] = total;
+    pair[first + entries[entry].cell] = total;
 }
 
 // Within the range of what it is interpolated from.
-fn fill_bounded(entry: u32) {
+fn fill_bounded(first: u32, entry: u32) {
     var total = 0.0;
-    var low = scalar[entries[entry].sources[0]];
+    var low = scalar[first + entries[entry].sources[0]];
     var high = low;
     for (var k = 0u; k < 4u; k++) {
-        let value = scalar[entries[entry].sources[k]];
+        let value = scalar[first + entries[entry].sources[k]];
         total += entries[entry].weights[k] * value;
         low = min(low, value);
         high = max(high, value);
     }
-    scalar[entries[entry].cell] = clamp(total, low, high);
+    scalar[first + entries[entry].cell] = clamp(total, low, high);
 }
 
-fn fill_velocities(entry: u32) {
+fn fill_velocities(first: u32, entry: u32) {
     var total = vec4f(0.0);
     var total_ahead = vec4f(0.0);
     for (var k = 0u; k < 4u; k++) {
-        total += entries[entry].weights[k] * velocity[entries[entry].sources[k]];
-        total_ahead += entries[entry].weights[k] * velocity_ahead[entries[entry].sources[k]];
+        total += entries[entry].weights[k] * velocity[first + entries[entry].sources[k]];
+        total_ahead += entries[entry].weights[k] * velocity_ahead[first + entries[entry].sources[k]];
     }
-    velocity[entries[entry].cell] = total;
-    velocity_ahead[entries[entry].cell] = total_ahead;
+    velocity[first + entries[entry].cell] = total;
+    velocity_ahead[first + entries[entry].cell] = total_ahead;
 }
 
 @compute @workgroup_size(256)
-fn halo_of_scalar(@builtin(local_invocation_index) lane: u32) {
+fn halo_of_scalar(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let first = group.x * (arrayLength(&scalar) / groups.x);
     for (var entry = lane; entry < edges(); entry += LANES) {
-        fill_scalar(entry);
+        fill_scalar(first, entry);
     }
     storageBarrier();
     for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
-        fill_scalar(entry);
-    }
-}
-
-@compute @workgroup_size(256)
-fn halo_of_pair(@builtin(local_invocation_index) lane: u32) {
-    for (var entry = lane; entry < edges(); entry += LANES) {
-        fill_pair(entry);
-    }
-    storageBarrier();
-    for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
-        fill_pair(entry);
+        fill_scalar(first, entry);
     }
 }
 
 @compute @workgroup_size(256)
-fn halo_of_thickness(@builtin(local_invocation_index) lane: u32) {
+fn halo_of_pair(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let first = group.x * (arrayLength(&pair) / groups.x);
     for (var entry = lane; entry < edges(); entry += LANES) {
-        fill_bounded(entry);
+        fill_pair(first, entry);
     }
     storageBarrier();
     for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
-        fill_bounded(entry);
+        fill_pair(first, entry);
     }
 }
 
 @compute @workgroup_size(256)
-fn halo_of_velocities(@builtin(local_invocation_index) lane: u32) {
+fn halo_of_thickness(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let first = group.x * (arrayLength(&scalar) / groups.x);
     for (var entry = lane; entry < edges(); entry += LANES) {
-        fill_velocities(entry);
+        fill_bounded(first, entry);
     }
     storageBarrier();
     for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
-        fill_velocities(entry);
+        fill_bounded(first, entry);
+    }
+}
+
+@compute @workgroup_size(256)
+fn halo_of_velocities(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let first = group.x * (arrayLength(&velocity) / groups.x);
+    for (var entry = lane; entry < edges(); entry += LANES) {
+        fill_velocities(first, entry);
+    }
+    storageBarrier();
+    for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
+        fill_velocities(first, entry);
     }
 }

@@ -1,4 +1,4 @@
-// What a step of the flow must know of the whole film, and what was wrong with it: sums over all cells by one workgroup.
+// What a step of the flow must know of the whole film, and what was wrong with it: sums over all cells by one workgroup for each film.
 
 import package::flow::operators::{area_density, is_valid, valid_or_zero};
 import package::flow::step::{Flow, Measures};
@@ -14,18 +14,19 @@ const LANES: u32 = 256u;
 @group(0) @binding(4) var<storage, read> psi_before: array<f32>;
 @group(0) @binding(5) var<storage, read> log_thickness: array<f32>;
 @group(0) @binding(6) var<storage, read> velocity: array<vec4f>;
-@group(0) @binding(7) var<storage, read_write> measures: Measures;
+@group(0) @binding(7) var<storage, read_write> measures: array<Measures>;
 
 // Sum of zeta, sum of the guess, largest speed, invalid values.
 var<workgroup> shares: array<vec4f, 256>;
 
 @compute @workgroup_size(256)
-fn flow_measure(@builtin(local_invocation_index) lane: u32) {
+fn flow_measure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let film = group.x;
     var share = vec4f(0.0);
     for (var cell = lane; cell < 6u * flow.cells * flow.cells; cell += LANES) {
         let i = cell % flow.cells;
         let j = (cell / flow.cells) % flow.cells;
-        let at = padded_index(cell / (flow.cells * flow.cells), i32(i), i32(j), flow.cells);
+        let at = padded_index(6u * film + cell / (flow.cells * flow.cells), i32(i), i32(j), flow.cells);
         let area = area_density(vec2f(tangents[i + HALO], tangents[j + HALO]));
         let guess = 2.0 * valid_or_zero(psi[at]) - valid_or_zero(psi_before[at]);
         share += vec4f(area * valid_or_zero(zeta[at]), area * guess, 0.0, 0.0);
@@ -43,9 +44,9 @@ fn flow_measure(@builtin(local_invocation_index) lane: u32) {
     }
     if (lane == 0u) {
         let mean = shares[0].xy * flow.cell_angle * flow.cell_angle / FOUR_PI;
-        measures.zeta_mean = mean.x;
-        measures.guess_mean = mean.y;
-        measures.max_speed = shares[0].z;
-        measures.invalid += u32(shares[0].w);
+        measures[film].zeta_mean = mean.x;
+        measures[film].guess_mean = mean.y;
+        measures[film].max_speed = shares[0].z;
+        measures[film].invalid += u32(shares[0].w);
     }
 }

@@ -1,5 +1,5 @@
 // Within a drop at the bottom of a film nothing flows: its stream function is the mean over its rim, and its vorticity is zero. One
-// workgroup, for the mean comes first.
+// workgroup for each film, for the mean comes first.
 
 import package::flow::operators::{area_density, valid_or_zero};
 import package::sphere::cubed::{HALO, padded_index, panel_direction};
@@ -31,7 +31,7 @@ struct Place {
     firm: f32,
 }
 
-fn place_of(cell: u32) -> Place {
+fn place_of(film: u32, cell: u32) -> Place {
     let ij = vec2u(cell % pin.cells, (cell / pin.cells) % pin.cells);
     let panel = cell / (pin.cells * pin.cells);
     let tangent = vec2f(tangents[ij.x + HALO], tangents[ij.y + HALO]);
@@ -39,14 +39,14 @@ fn place_of(cell: u32) -> Place {
     // The angle from the bottom, near it.
     let angle = select(4.0, 2.0 * asin(min(0.5 * distance(x, vec3f(0.0, 0.0, -1.0)), 1.0)), x.z < 0.0);
     let firm = 1.0 - smoothstep(pin.inner, pin.rim, angle);
-    return Place(padded_index(panel, i32(ij.x), i32(ij.y), pin.cells), tangent, firm);
+    return Place(padded_index(6u * film + panel, i32(ij.x), i32(ij.y), pin.cells), tangent, firm);
 }
 
 @compute @workgroup_size(256)
-fn flow_pin(@builtin(local_invocation_index) lane: u32) {
+fn flow_pin(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     var share = vec2f(0.0);
     for (var cell = lane; cell < 6u * pin.cells * pin.cells; cell += LANES) {
-        let place = place_of(cell);
+        let place = place_of(group.x, cell);
         let weight = area_density(place.tangent) * place.firm * (1.0 - place.firm);
         share += weight * vec2f(1.0, valid_or_zero(psi[place.at]));
     }
@@ -60,7 +60,7 @@ fn flow_pin(@builtin(local_invocation_index) lane: u32) {
     workgroupBarrier();
     let at_rim = shares[0].y / max(shares[0].x, 1e-20);
     for (var cell = lane; cell < 6u * pin.cells * pin.cells; cell += LANES) {
-        let place = place_of(cell);
+        let place = place_of(group.x, cell);
         psi[place.at] = mix(psi[place.at], at_rim, place.firm);
         zeta[place.at] *= 1.0 - place.firm;
     }

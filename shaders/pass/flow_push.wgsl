@@ -19,6 +19,8 @@ struct Pushes {
     cells: u32,
     // Pushes in use; those come first.
     count: u32,
+    // Which of the films that flow together.
+    film: u32,
     pushes: array<Push, 32>,
 }
 
@@ -35,13 +37,13 @@ fn push_source(push: Push, x: vec3f, u: vec3f, vorticity: f32) -> f32 {
     return strength * (push.sharpness * dot(x, cross(push.center, push.velocity - u)) - vorticity);
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn flow_push(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= pushes.cells) {
+    if (any(id.xy >= vec2u(pushes.cells))) {
         return;
     }
     let x = normalize(panel_direction(id.z, vec2f(tangents[id.x + HALO], tangents[id.y + HALO])));
-    let at = padded_index(id.z, i32(id.x), i32(id.y), pushes.cells);
+    let at = padded_index(6u * pushes.film + id.z, i32(id.x), i32(id.y), pushes.cells);
     var source = 0.0;
     for (var k = 0u; k < min(pushes.count, MAX_PUSHES); k++) {
         source += push_source(pushes.pushes[k], x, velocity[at].xyz, zeta[at]);

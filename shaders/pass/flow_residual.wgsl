@@ -1,7 +1,7 @@
-// What is left of f - (laplacian - k) psi on the finest grid. One invocation for four cells of a row.
+// What is left of f - (laplacian - k) psi on the finest grid. One invocation for four cells of each of two rows.
 
-import package::flow::laplacian::four_cells;
-import package::flow::solve::Solve;
+import package::flow::laplacian::{FourCells, two_rows};
+import package::flow::solve::{FilmSystem, Solve, first_of_eight};
 import package::sphere::cubed::{HALO, padded_index};
 
 @group(0) @binding(0) var<uniform> solve: Solve;
@@ -10,21 +10,27 @@ import package::sphere::cubed::{HALO, padded_index};
 @group(0) @binding(3) var<storage, read> psi: array<f32>;
 @group(0) @binding(4) var<storage, read_write> left: array<f32>;
 
-@compute @workgroup_size(16)
-fn flow_residual(@builtin(global_invocation_id) id: vec3u) {
-    if (4u * id.x >= solve.cells) {
-        return;
-    }
-    // Where four do not divide a row, the last four overlap others, with the same answer.
-    let i = min(4u * id.x, solve.cells - 4u);
-    let k = i + HALO;
-    let at = padded_index(id.z, i32(i), i32(id.y), solve.cells);
-    let along = vec4f(tangents[k], tangents[k + 1u], tangents[k + 2u], tangents[k + 3u]);
-    let four = four_cells(at, solve.cells + 2u * HALO, along, tangents[id.y + HALO]);
-    let f = solve.gain * vec4f(source[at], source[at + 1u], source[at + 2u], source[at + 3u]);
-    let found = f - four.laplacian / (solve.cell_angle * solve.cell_angle) + solve.shift * four.here;
+fn find(at: u32, four: FourCells, system: FilmSystem) {
+    let f = system.gain * vec4f(source[at], source[at + 1u], source[at + 2u], source[at + 3u]);
+    let found = f - four.laplacian / (solve.cell_angle * solve.cell_angle) + system.shift * four.here;
     left[at] = found.x;
     left[at + 1u] = found.y;
     left[at + 2u] = found.z;
     left[at + 3u] = found.w;
+}
+
+@compute @workgroup_size(8, 4)
+fn flow_residual(@builtin(global_invocation_id) id: vec3u) {
+    if (any(id.xy * vec2u(4u, 2u) >= vec2u(solve.cells))) {
+        return;
+    }
+    let first = first_of_eight(id.xy, solve.cells);
+    let k = first + HALO;
+    let at = padded_index(id.z, i32(first.x), i32(first.y), solve.cells);
+    let side = solve.cells + 2u * HALO;
+    let along = vec4f(tangents[k.x], tangents[k.x + 1u], tangents[k.x + 2u], tangents[k.x + 3u]);
+    let rows = two_rows(at, side, along, vec2f(tangents[k.y], tangents[k.y + 1u]));
+    let system = solve.systems[id.z / 6u];
+    find(at, rows[0], system);
+    find(at + side, rows[1], system);
 }

@@ -26,6 +26,8 @@ struct Thickness {
     // Where the film ends: see `Cap`.
     rim_z: f32,
     inversion: f32,
+    // Which of the films that flow together.
+    film: u32,
 }
 
 @group(0) @binding(0) var<uniform> thickness: Thickness;
@@ -53,9 +55,9 @@ fn log_of_one_and(x: f32) -> f32 {
     return select(log(1.0 + x), series, abs(s) < 0.2);
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn flow_thickness(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= thickness.cells) {
+    if (any(id.xy >= vec2u(thickness.cells))) {
         return;
     }
     var origin = normalize(panel_direction(id.z, vec2f(tangents[id.x + HALO], tangents[id.y + HALO])));
@@ -72,7 +74,7 @@ fn flow_thickness(@builtin(global_invocation_id) id: vec3u) {
     if (sanitised > 0u) {
         atomicAdd(&control.sanitised, sanitised);
     }
-    let place = padded_index(id.z, i32(id.x), i32(id.y), thickness.cells);
+    let place = padded_index(6u * thickness.film + id.z, i32(id.x), i32(id.y), thickness.cells);
     // As pictures have it: evaporation ends at black film.
     let nm = max(departure + thickness.offset_nm, min(departure + thickness.level_nm, thickness.black_nm));
     log_thickness[place] = log_of_one_and(nm / thickness.reference_nm);

@@ -2,7 +2,7 @@
 
 import package::flow::backtrace::backtrace;
 import package::flow::step::Flow;
-import package::sphere::cubed::{CubicStencil, HALO, cubic_stencil, locate, padded_index, panel_direction};
+import package::sphere::cubed::{CubicStencil, HALO, cubic_stencil, locate_in, padded_index, panel_direction};
 
 @group(0) @binding(0) var<uniform> flow: Flow;
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
@@ -20,8 +20,10 @@ import package::sphere::cubed::{CubicStencil, HALO, cubic_stencil, locate, padde
 const ROOT: f32 = 1.41421356;
 
 fn origin(id: vec3u, at: u32) -> CubicStencil {
-    let x = normalize(panel_direction(id.z, vec2f(tangents[id.x + HALO], tangents[id.y + HALO])));
-    return cubic_stencil(locate(backtrace(x, velocity[at].xyz, flow.dt_s, flow.cells), flow.cells), flow.cells);
+    let film = id.z / 6u;
+    let x = normalize(panel_direction(id.z % 6u, vec2f(tangents[id.x + HALO], tangents[id.y + HALO])));
+    let origin = backtrace(film, x, velocity[at].xyz, flow.dt_s, flow.cells);
+    return cubic_stencil(locate_in(film, origin, flow.cells), flow.cells);
 }
 
 fn pushed_row(row: u32, w: vec4f) -> vec2f {
@@ -34,9 +36,9 @@ fn field_row(row: u32, w: vec4f) -> f32 {
 
 // Vorticity, as the two stages of viscosity take it: see `FlowSolver::viscous` in src/physics/flow/solver.rs. Their sum is what is there
 // without viscosity.
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn trace_vorticity(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= flow.cells) {
+    if (any(id.xy >= vec2u(flow.cells))) {
         return;
     }
     let at = padded_index(id.z, i32(id.x), i32(id.y), flow.cells);
@@ -51,9 +53,9 @@ fn trace_vorticity(@builtin(global_invocation_id) id: vec3u) {
     second_stage[at] = (1.0 - 1.0 / ROOT) * added - ROOT * zeta;
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn trace_tracer(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= flow.cells) {
+    if (any(id.xy >= vec2u(flow.cells))) {
         return;
     }
     let at = padded_index(id.z, i32(id.x), i32(id.y), flow.cells);

@@ -21,9 +21,9 @@ fn slope_before(at: u32, step: u32) -> f32 {
     );
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(8, 8)
 fn flow_velocity(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= flow.cells) {
+    if (any(id.xy >= vec2u(flow.cells))) {
         return;
     }
     let at = padded_index(id.z, i32(id.x), i32(id.y), flow.cells);
@@ -31,6 +31,6 @@ fn flow_velocity(@builtin(global_invocation_id) id: vec3u) {
     let tangent = vec2f(tangents[id.x + HALO], tangents[id.y + HALO]);
     let now = vec2f(slope(at, 1u), slope(at, side)) / flow.cell_angle;
     let before = vec2f(slope_before(at, 1u), slope_before(at, side)) / flow.cell_angle;
-    velocity[at] = vec4f(turned_gradient(id.z, tangent, now), 0.0);
-    velocity_ahead[at] = vec4f(turned_gradient(id.z, tangent, 1.5 * now - 0.5 * before), 0.0);
+    velocity[at] = vec4f(turned_gradient(id.z % 6u, tangent, now), 0.0);
+    velocity_ahead[at] = vec4f(turned_gradient(id.z % 6u, tangent, 1.5 * now - 0.5 * before), 0.0);
 }

@@ -9,6 +9,8 @@ struct Solved {
     dt_s: f32,
     // Cells along a panel's edge.
     cells: u32,
+    // Which of the films that flow together.
+    film: u32,
 }
 
 @group(0) @binding(0) var<uniform> solved: Solved;
@@ -22,8 +24,8 @@ fn trace_flow(@builtin(global_invocation_id) id: vec3u) {
     if (!is_cell(id, solved.cells)) {
         return;
     }
-    let place = cell_place(id, solved.cells);
+    let here = velocity[cell_place(id + vec3u(0u, 0u, 6u * solved.film), solved.cells)].xyz;
     let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
     // Nothing is gathered in a flow that does not diverge.
-    step_map[place] = vec4f(backtrace(x, velocity[place].xyz, solved.dt_s, solved.cells), 0.0);
+    step_map[cell_place(id, solved.cells)] = vec4f(backtrace(solved.film, x, here, solved.dt_s, solved.cells), 0.0);
 }

@@ -48,6 +48,12 @@ fn locate(direction: vec3f, cells: u32) -> CubePoint {
     return CubePoint(panel, vec2f(cell_coordinate(tangent.x, cells), cell_coordinate(tangent.y, cells)));
 }
 
+// The same in the storage of many films, one after the other, whose panels are numbered on from film to film.
+fn locate_in(film: u32, direction: vec3f, cells: u32) -> CubePoint {
+    let at = locate(direction, cells);
+    return CubePoint(6u * film + at.panel, at.cell);
+}
+
 // Direction (not normalised) of tangents (tan alpha, tan beta) on a panel.
 fn panel_direction(panel: u32, tangent: vec2f) -> vec3f {
     switch panel {
@@ -60,7 +66,15 @@ fn panel_direction(panel: u32, tangent: vec2f) -> vec3f {
     }
 }
 
-// Place of cell (i, j) of a panel in padded storage; i and j may reach HALO cells beyond the panel.
+// a / b, rounded down, of numbers whose quotient is below 2^22. Software rasterisers divide integers one by one.
+fn quotient(a: u32, b: u32) -> u32 {
+    let near = i32(f32(a) / f32(b));
+    let rest = i32(a) - near * i32(b);
+    return u32(near + select(0, 1, rest >= i32(b)) - select(0, 1, rest < 0));
+}
+
+// Place of cell (i, j) of a panel in padded storage; i and j may reach HALO cells beyond the panel. Where films are stored one after the
+// other, their panels are numbered on.
 fn padded_index(panel: u32, i: i32, j: i32, cells: u32) -> u32 {
     let side = cells + 2u * HALO;
     return (panel * side + u32(j + i32(HALO))) * side + u32(i + i32(HALO));

@@ -104,10 +104,11 @@ impl Grid {
         (HALO as u32 + self.cells / (2 * other_cells)) % 2
     }
 
-    /// Workgroups of a pass with one invocation per cell, 64 along a row.
+    /// Workgroups of a pass with one invocation per cell without the halo, in tiles of 8 x 8.
     #[must_use]
     pub fn cell_groups(&self) -> [u32; 3] {
-        [self.cells.div_ceil(64), self.cells, 6]
+        let tiles = self.cells.div_ceil(8);
+        [tiles, tiles, 6]
     }
 }
 

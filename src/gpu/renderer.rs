@@ -10,7 +10,7 @@ use super::{
     device::{Gpu, GpuError},
     draw::{DrawInputs, DrawPass, pixels_shaded, strips},
     environment::Environment,
-    film::{Field, MovingFilm, rules},
+    film::{Company, Field, MovingFilm, play_together, rules},
     film_atlas::FilmAtlas,
     formats::{PICTURE_FORMAT, radiance_format},
     passes::{add_light::add_light, bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
@@ -33,6 +33,8 @@ const CELLS_PER_SUBMISSION: u64 = 1_600_000;
 struct Products {
     lights: Vec<LightProducts>,
     films: Vec<Option<MovingFilm>>,
+    /// What holds films while they flow together.
+    company: Company,
     holes: Vec<Option<OpenHole>>,
     radiance: Option<Target>,
     /// Pictures of what is behind the layer that is drawn, and of all before it.
@@ -124,7 +126,7 @@ impl Renderer {
         if plan.is_empty() {
             return Ok(());
         }
-        let result = plan.steps.iter().try_for_each(|(pass, _)| self.run(pass)).and_then(|()| self.gpu.check());
+        let result = self.run_all(plan).and_then(|()| self.gpu.check());
         // After a failure the state is unknown: everything is recreated.
         self.state = if result.is_ok() { plan.after.clone() } else { GpuState::default() };
         self.products.keep(&self.state);
@@ -180,6 +182,14 @@ impl Renderer {
         Some(Readback::of_buffer(&self.gpu, &hole.rim, hole.rim.size()))
     }
 
+    /// Runs the passes in order; equal steps that stand side by side are taken together.
+    fn run_all(&mut self, plan: &Plan) -> Result<(), GpuError> {
+        plan.steps.chunk_by(|(pass, _), (next, _)| pass.steps_like(next)).try_for_each(|passes| match passes {
+            [(pass, _)] => self.run(pass),
+            together => self.step(together.iter().map(|(pass, _)| pass)),
+        })
+    }
+
     fn run(&mut self, pass: &Pass) -> Result<(), GpuError> {
         match pass {
             Pass::UploadEnvironment { light, key } => {
@@ -197,7 +207,7 @@ impl Renderer {
                 Ok(())
             }),
             Pass::SaveField { film, slot, .. } => self.copy_state(*film, |film, recorder| film.save(recorder, *slot)),
-            Pass::StepField { film, key, ticks } => self.step(*film, key, ticks.start),
+            Pass::StepField { .. } => self.step([pass].into_iter()),
             Pass::ShowField { film, key } => self.show(*film, key),
             Pass::OpenHole { film, key } => self.open_hole(*film, key),
             Pass::Draw(key) => self.draw(key),
@@ -274,11 +284,22 @@ impl Renderer {
         Ok(())
     }
 
-    fn step(&mut self, film: usize, key: &FieldKey, from_tick: u64) -> Result<(), GpuError> {
+    /// Takes the steps of some passes, which are the same, together.
+    fn step<'p>(&mut self, passes: impl Iterator<Item = &'p Pass>) -> Result<(), GpuError> {
         let Self { gpu, products, times, counts, watcher, .. } = self;
-        let Some(Some(film)) = products.films.get_mut(film) else { return Ok(()) };
-        let per_submission = (CELLS_PER_SUBMISSION / key.cell_count()).max(1) as usize;
-        film.play(gpu, key, from_tick, per_submission, |recorder| {
+        let (mut keys, mut from_tick) = (BTreeMap::new(), 0);
+        for pass in passes {
+            if let Pass::StepField { film, key, ticks } = pass {
+                keys.insert(*film, key);
+                from_tick = ticks.start;
+            }
+        }
+        let films = products.films.iter_mut().enumerate();
+        let mut members: Vec<_> =
+            films.filter_map(|(index, film)| Some((film.as_mut()?, *keys.get(&index)?))).collect();
+        let cells: u64 = members.iter().map(|(_, key)| key.cell_count()).sum();
+        let per_submission = (CELLS_PER_SUBMISSION / cells.max(1)).max(1) as usize;
+        play_together(gpu, &mut members, &mut products.company, (from_tick, per_submission), |recorder| {
             let work = recorder.counts.cells_stepped;
             Self::submit(times, counts, recorder);
             told(watcher, gpu, work)

@@ -1,6 +1,9 @@
 //! Plans the fields of films: where one starts from, its steps, and what is shown.
 
-use std::{collections::BTreeMap, ops::Range};
+use std::{
+    collections::{BTreeMap, VecDeque},
+    ops::Range,
+};
 
 use super::{DrawKey, FieldKey, FieldState, FilmKey, Moment, Pace, Pass, Planner, Reason};
 
@@ -36,7 +39,8 @@ impl Planner {
         self.after.fields.get(film).and_then(Option::as_ref).map_or(0, |field| field.key.moment.tick)
     }
 
-    /// Plans the fields of all films in sight, each once, and puts what will be shown in their place.
+    /// Plans the fields of all films in sight, each once, and puts what will be shown in their place. Films that take the same steps take them
+    /// one after the other, so that they can be taken together.
     pub(super) fn fields(&mut self, draw: &mut DrawKey) {
         let mut shown: BTreeMap<usize, FieldKey> = BTreeMap::new();
         for (index, film) in draw.films_mut() {
@@ -46,9 +50,14 @@ impl Planner {
         }
         let mut order: Vec<usize> = shown.keys().copied().collect();
         order.sort_by_key(|film| self.reached_tick(*film));
+        let before = std::mem::take(&mut self.steps);
+        let mut of_films = Vec::with_capacity(order.len());
         for film in order {
             shown.entry(film).and_modify(|field| *field = self.field(film, field));
+            of_films.push(VecDeque::from(std::mem::take(&mut self.steps)));
         }
+        self.steps = before;
+        self.steps.extend(in_rounds(of_films));
         for (index, film) in draw.films_mut() {
             if let FilmKey::Field(field) = film {
                 field.clone_from(&shown[&index]);
@@ -137,5 +146,25 @@ impl Planner {
         if !ticks.is_empty() {
             self.push(Pass::StepField { film, key: end.clone(), ticks }, Reason::Changed("the moment"));
         }
+    }
+}
+
+/// The passes of films, which do not depend on each other, in an order in which equal steps of different films stand side by side.
+fn in_rounds(mut films: Vec<VecDeque<(Pass, Reason)>>) -> Vec<(Pass, Reason)> {
+    let is_step = |(pass, _): &(Pass, Reason)| matches!(pass, Pass::StepField { .. });
+    let mut ordered = Vec::with_capacity(films.iter().map(VecDeque::len).sum());
+    loop {
+        // What leads to a film's next steps comes first.
+        for film in &mut films {
+            while let Some(pass) = film.pop_front_if(|pass| !is_step(pass)) {
+                ordered.push(pass);
+            }
+        }
+        films.retain(|film| !film.is_empty());
+        let Some(round) = films.first_mut().and_then(VecDeque::pop_front) else { return ordered };
+        let alike = films.iter_mut().filter_map(|film| film.pop_front_if(|(pass, _)| pass.steps_like(&round.0)));
+        let alike: Vec<_> = alike.collect();
+        ordered.push(round);
+        ordered.extend(alike);
     }
 }

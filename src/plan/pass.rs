@@ -89,6 +89,16 @@ pub enum Pass {
 }
 
 impl Pass {
+    /// Whether both move films, and by steps of the same ticks: those of passes that stand side by side can be taken together.
+    #[must_use]
+    pub fn steps_like(&self, other: &Self) -> bool {
+        let (Self::StepField { key, ticks, .. }, Self::StepField { key: other, ticks: of_other, .. }) = (self, other)
+        else {
+            return false;
+        };
+        ticks == of_other && key.steps_from(ticks.start).eq(other.steps_from(ticks.start))
+    }
+
     /// The pass's name, as reports print it.
     #[must_use]
     pub fn name(&self) -> &'static str {

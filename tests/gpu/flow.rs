@@ -11,6 +11,7 @@ use soapfilm::{
         timing::Recorder,
     },
     physics::{
+        film::Cap,
         flow::{self, FlowCase, FlowCaseKind, FlowForces, Mode, relative_l2},
         sphere::PaddedField,
     },
@@ -124,6 +125,80 @@ fn the_gpu_matches_its_f64_twin() {
         let error = relative_l2(grid, &read(&gpu, &solver, found), &expected);
         eprintln!("measured: GPU - f64 twin, {name}: l2 {error:.1e}");
         assert!(error <= 2e-5, "{name}: {error}");
+    }
+}
+
+/// A film in a solver: where it starts, and what acts on it.
+struct Together {
+    mode: (u32, u32),
+    ripple: f64,
+    forces: FlowForces,
+}
+
+impl Together {
+    /// Three films that differ in all that films which step together may differ in.
+    fn films() -> [Self; 3] {
+        let film = |mode, ripple, gravity_z, drag, air_drag, viscosity| Self {
+            mode,
+            ripple,
+            forces: FlowForces { gravity: DVec3::new(0.3, -0.2, gravity_z), drag, air_drag, viscosity },
+        };
+        [
+            film((1, 1), 3.0, -2.0, 0.5, 1.5, 0.01),
+            film((5, 3), 5.0, 1.0, 0.0, 0.7, 2.0),
+            film((3, 2), 2.0, -4.0, 0.1, 0.0, 0.0003),
+        ]
+    }
+
+    /// Moves some films in one solver; gives the bits of all that there is of each, and the dispatches of the last step.
+    fn run(gpu: &Gpu, films: &[Self], cap: Option<Cap>, drop_rad: Option<f64>) -> (Vec<Vec<u32>>, u64) {
+        let mut solver = FlowSolver::of_films(gpu, 24, films.len());
+        solver.end_at(gpu, cap);
+        solver.pin(gpu, drop_rad);
+        let grid = solver.sphere();
+        let cells = |value: &dyn Fn(&Self, DVec3) -> f64| -> Vec<f32> {
+            let of_film = |film| (0..grid.cells()).map(move |cell| value(film, grid.cell_direction(cell)) as f32);
+            films.iter().flat_map(of_film).collect()
+        };
+        let zeta = cells(&|film, x| case(FlowCaseKind::RossbyHaurwitz, film.mode, 0.3).zeta(x, 0.0));
+        let thickness = cells(&|film, x| 0.2 * (film.ripple * x.x).sin() - 0.5 * x.z);
+        gpu.upload(solver.log_thickness(), &solver.padded(&thickness));
+        gpu.upload(solver.forcing(), &solver.padded(&cells(&|film, x| film.ripple * x.x * x.y)));
+        let forces: Vec<FlowForces> = films.iter().map(|film| film.forces).collect();
+        let mut dispatches = 0;
+        submit(gpu, |recorder| {
+            solver.seed(recorder, &zeta).unwrap();
+            for step in 0..4 {
+                let before = recorder.counts.dispatches;
+                solver.step_films(recorder, 0.04, &forces, step == 2).unwrap();
+                dispatches = recorder.counts.dispatches - before;
+            }
+        });
+        let mut bits = vec![Vec::new(); films.len()];
+        for buffer in [solver.zeta(), solver.psi(), solver.velocity(), solver.measures()] {
+            let bytes = Readback::of_buffer(gpu, buffer, buffer.size()).wait(gpu).unwrap();
+            let words: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
+            for (film, words) in bits.iter_mut().zip(words.chunks(words.len() / films.len())) {
+                film.extend(words);
+            }
+        }
+        (bits, dispatches)
+    }
+}
+
+/// Whether a film has company shows neither in its bits nor in the number of dispatches.
+#[test]
+fn films_that_step_together_get_the_bits_that_each_gets_alone() {
+    let Some(gpu) = gpu() else { return };
+    let films = Together::films();
+    let cap = Cap::above(2.0);
+    for (cap, drop_rad) in [(None, None), (Some(cap), None), (None, Some(0.3))] {
+        let (together, dispatches) = Together::run(&gpu, &films, cap, drop_rad);
+        for (film, bits) in films.iter().zip(&together) {
+            let (alone, dispatches_alone) = Together::run(&gpu, std::slice::from_ref(film), cap, drop_rad);
+            assert!(alone[0] == *bits, "{:?}, cap {cap:?}, drop {drop_rad:?}", film.mode);
+            assert_eq!(dispatches, dispatches_alone);
+        }
     }
 }
 

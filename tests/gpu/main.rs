@@ -7,6 +7,7 @@ mod backends;
 mod boundaries;
 mod breaking;
 mod bursting;
+mod company;
 mod extremes;
 mod far;
 mod film_model;

@@ -27,6 +27,7 @@ use crate::{
 };
 
 /// What a free film is subject to during a step.
+#[derive(Clone, Copy)]
 pub struct Surroundings<'a> {
     /// When the step begins, how long it lasts, and what acts on the film.
     pub part: &'a FreePart,
@@ -41,6 +42,55 @@ impl Surroundings<'_> {
     fn reference_nm(&self) -> f64 {
         self.part.reference_nm(self.mean_nm)
     }
+}
+
+/// A film that moves by itself, in one step of its flow.
+pub(super) struct Flowing<'a> {
+    pub(super) field: &'a mut Field,
+    pub(super) around: Surroundings<'a>,
+    /// Ticks that the step counts as.
+    pub(super) ticks: u32,
+}
+
+/// Moves films by one step each, which lasts as long for all and is tried first for all or for none. The solver has a place for each.
+pub(super) fn advance_together(
+    recorder: &mut Recorder<'_>,
+    solver: &mut FlowSolver,
+    films: &mut [Flowing<'_>],
+) -> Result<(), GpuError> {
+    for operation in FREE_STEP {
+        if operation == Operation::StepFlow {
+            step_flow(recorder, solver, films)?;
+            continue;
+        }
+        for (film, Flowing { field, around, ticks }) in (0..).zip(&mut *films) {
+            let flow = FlowOf { solver, film };
+            match operation {
+                Operation::FeelThickness => flow.feel(recorder, field, around),
+                Operation::BlowAir => flow.blow(recorder, field, around),
+                Operation::Push => flow.push(recorder, field, &around.part.pushes),
+                of_any_film => field.run(of_any_film, recorder, &flow.ahead(around.part.dt_s), *ticks),
+            }?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether a step of the flow is tried first, as one is in which eddies turn too far.
+pub(super) fn is_corrected(part: &FreePart) -> bool {
+    part.strain * part.dt_s > FOLLOWED_TURN
+}
+
+/// Moves the flow of all films by a step.
+fn step_flow(recorder: &mut Recorder<'_>, solver: &mut FlowSolver, films: &[Flowing<'_>]) -> Result<(), GpuError> {
+    let Some(first) = films.first().map(|film| film.around.part) else { return Ok(()) };
+    // The flow knows thicknesses relative to a reference.
+    let forces = |Flowing { around, .. }: &Flowing<'_>| {
+        let forces = around.part.forces;
+        FlowForces { air_drag: forces.air_drag / around.reference_nm(), ..forces }
+    };
+    let forces: Vec<FlowForces> = films.iter().map(forces).collect();
+    solver.step_films(recorder, first.dt_s, &forces, is_corrected(first))
 }
 
 /// The flow of a film that moves by itself.
@@ -59,10 +109,7 @@ impl FreeMotion {
 
     /// A flow whose state is yet to come.
     pub(super) fn empty(gpu: &Gpu, field: &Field) -> Self {
-        let mut solver = FlowSolver::new(gpu, field.flow_grid().cells);
-        solver.end_at(gpu, field.rules.cap);
-        solver.pin(gpu, field.rules.drop_rad);
-        Self { solver }
+        Self { solver: solver_of(gpu, field, 1) }
     }
 
     /// Sets the number of multigrid cycles per step.
@@ -84,31 +131,35 @@ impl FreeMotion {
         around: &Surroundings<'_>,
         ticks: u32,
     ) -> Result<(), GpuError> {
-        FREE_STEP.into_iter().try_for_each(|operation| match operation {
-            Operation::FeelThickness => self.feel(recorder, field, around),
-            Operation::BlowAir => self.blow(recorder, field, around),
-            Operation::Push => self.push(recorder, field, &around.part.pushes),
-            Operation::StepFlow => self.step_flow(recorder, around),
-            of_any_film => field.run(of_any_film, recorder, &self.ahead(around.part.dt_s), ticks),
-        })
-    }
-
-    /// Moves the flow by a step; what turns too fast for one is tried first.
-    fn step_flow(&mut self, recorder: &mut Recorder<'_>, around: &Surroundings<'_>) -> Result<(), GpuError> {
-        let FreePart { dt_s, strain, forces, .. } = *around.part;
-        // The flow knows thicknesses relative to a reference.
-        let forces = FlowForces { air_drag: forces.air_drag / around.reference_nm(), ..forces };
-        if strain * dt_s > FOLLOWED_TURN {
-            self.solver.step_corrected(recorder, dt_s, &forces)
-        } else {
-            self.solver.step(recorder, dt_s, &forces)
-        }
+        advance_together(recorder, &mut self.solver, &mut [Flowing { field, around: *around, ticks }])
     }
 
     /// A step of the film in the velocity of now.
     #[must_use]
     pub fn ahead(&self, dt_s: f64) -> Step {
-        Step::Solved(self.solver.velocity().clone(), dt_s)
+        FlowOf { solver: &self.solver, film: 0 }.ahead(dt_s)
+    }
+}
+
+/// A solver for the flows of some films like one.
+pub(super) fn solver_of(gpu: &Gpu, field: &Field, films: usize) -> FlowSolver {
+    let mut solver = FlowSolver::of_films(gpu, field.flow_grid().cells, films);
+    solver.end_at(gpu, field.rules.cap);
+    solver.pin(gpu, field.rules.drop_rad);
+    solver
+}
+
+/// The flow of one of a solver's films.
+struct FlowOf<'a> {
+    solver: &'a FlowSolver,
+    /// Place of the film.
+    film: u32,
+}
+
+impl FlowOf<'_> {
+    /// A step of the film in the velocity of now.
+    fn ahead(&self, dt_s: f64) -> Step {
+        Step::Solved { velocity: self.solver.velocity().clone(), film: self.film, dt_s }
     }
 
     /// Tells the flow the film's thickness.
@@ -126,6 +177,7 @@ impl FreeMotion {
             black_nm: (around.part.black_nm - reference_nm) as f32,
             rim_z,
             inversion,
+            film: self.film,
         };
         let map = field.map_so_far();
         let kernel = FlowThickness {
@@ -146,7 +198,8 @@ impl FreeMotion {
     fn blow(&self, recorder: &mut Recorder<'_>, field: &Field, around: &Surroundings<'_>) -> Result<(), GpuError> {
         let flow = field.flow_grid();
         let rate = air_rate(&around.part.forces, around.mean_nm.max(around.part.black_nm));
-        let gusts = &gusts(recorder.gpu, &around.air.frozen_at(around.part.from_s), flow.cells, rate);
+        let air = around.air.frozen_at(around.part.from_s);
+        let gusts = &gusts(recorder.gpu, &air, [flow.cells, self.film], rate);
         let kernel = FlowGusts { gusts, tangents: &flow.tangents, forcing: self.solver.forcing() };
         kernel.flow_gusts(recorder, STEP_FLOW, flow.cell_groups())
     }
@@ -155,7 +208,12 @@ impl FreeMotion {
     fn push(&self, recorder: &mut Recorder<'_>, field: &Field, pushes: &[Push]) -> Result<(), GpuError> {
         let flow = field.flow_grid();
         for some in pushes.chunks(MAX_PUSHES) {
-            let mut uniform = PushesUniform { cells: flow.cells, count: some.len() as u32, ..PushesUniform::zeroed() };
+            let mut uniform = PushesUniform {
+                cells: flow.cells,
+                count: some.len() as u32,
+                film: self.film,
+                ..PushesUniform::zeroed()
+            };
             for (slot, push) in uniform.pushes.iter_mut().zip(some) {
                 *slot = push.frozen();
             }
@@ -172,12 +230,13 @@ impl FreeMotion {
     }
 }
 
-fn gusts(gpu: &Gpu, air: &FrozenFlow, cells: u32, rate: f64) -> UniformBuffer<GustsUniform> {
+fn gusts(gpu: &Gpu, air: &FrozenFlow, [cells, film]: [u32; 2], rate: f64) -> UniformBuffer<GustsUniform> {
     let mut uniform = Box::new(GustsUniform {
         cells,
         waves_count: air.waves.len().min(MAX_WAVES) as u32,
         vortices_count: air.vortices.len().min(MAX_VORTICES) as u32,
         rate: rate as f32,
+        film,
         ..GustsUniform::zeroed()
     });
     for (slot, wave) in uniform.waves.iter_mut().zip(&air.waves) {

@@ -13,16 +13,20 @@
 //! sphere; nothing is ever copied across edges.
 
 mod checkpoint;
+mod company;
 mod free;
 mod moving;
+mod play;
 mod remap;
 mod rest;
 mod seeded;
 mod shown;
 mod step;
 
+pub use company::{Company, Member};
 pub use free::{FreeMotion, Surroundings};
 pub use moving::{MovingFilm, rules};
+pub use play::play_together;
 use seeded::{Seeded, level_of};
 
 use super::{

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Field, FreeMotion, Rules, Surroundings, checkpoint::Checkpoint, rest::RestWatch};
+use super::{Field, FreeMotion, Rules, checkpoint::Checkpoint, rest::RestWatch};
 use crate::{
     gpu::{
         device::{Gpu, GpuError},
@@ -46,81 +46,24 @@ impl MovingFilm {
         self.watch.rest()
     }
 
-    /// Moves the film through some ticks of its history; what is recorded goes out in submissions of at most `steps_per_submission` steps.
-    pub fn play(
-        &mut self,
-        gpu: &Gpu,
-        key: &FieldKey,
-        from_tick: u64,
-        steps_per_submission: usize,
-        mut submit: impl FnMut(Recorder<'_>) -> Result<(), GpuError>,
-    ) -> Result<(), GpuError> {
-        let mut law = LawInForce::default();
-        let moving = |step: &Range<u64>| key.law(step.start) != FlowLaw::Rest;
-        let mut steps = key.steps_from(from_tick).filter(moving).peekable();
-        loop {
-            while steps.next_if(|step| self.stays_at_rest(key, step)).is_some() {}
-            if steps.peek().is_none() {
-                return Ok(());
-            }
-            let mut recorder = Recorder::new(gpu);
-            let mut asking = None;
-            for step in steps.by_ref().take(steps_per_submission) {
-                self.advance(&mut recorder, key, &mut law, step.clone())?;
-                let undisturbed = key.undisturbed(&step);
-                if undisturbed.is_none() {
-                    self.watch = RestWatch::default();
-                }
-                asking = undisturbed.filter(|_| key.asks_for_speed(&step)).map(|law| (step.end, law));
-                if asking.is_some() {
-                    break;
-                }
-            }
-            submit(recorder)?;
-            if let (Some((tick, law)), Some(motion)) = (asking, &self.motion) {
-                let rest = RestingFilm { since_tick: tick, law };
-                self.watch.watch(gpu, motion.flow(), rest, key.resting_speed())?;
-            }
+    /// What the film comes to rest under, if its speed is asked for at the end of a step that it has taken.
+    pub(super) fn asks(&mut self, key: &FieldKey, step: &Range<u64>) -> Option<RestingFilm> {
+        let undisturbed = key.undisturbed(step);
+        if undisturbed.is_none() {
+            self.watch = RestWatch::default();
         }
+        let law = undisturbed.filter(|_| key.asks_for_speed(step))?;
+        Some(RestingFilm { since_tick: step.end, law })
     }
 
     /// Whether the film rests through a step; if the step moves it again, it is watched again.
-    fn stays_at_rest(&mut self, key: &FieldKey, step: &Range<u64>) -> bool {
+    pub(super) fn stays_at_rest(&mut self, key: &FieldKey, step: &Range<u64>) -> bool {
         let Some(rest) = self.watch.rest() else { return false };
         let stays = key.undisturbed(step) == Some(rest.law);
         if !stays {
             self.watch = RestWatch::default();
         }
         stays
-    }
-
-    /// Moves the film by one of the history's steps, by the law in force alone.
-    fn advance(
-        &mut self,
-        recorder: &mut Recorder<'_>,
-        key: &FieldKey,
-        law: &mut LawInForce,
-        ticks: Range<u64>,
-    ) -> Result<(), GpuError> {
-        let step = key.film_step(&ticks);
-        self.field.diffuse(recorder.gpu, step.law.diffusion(), key.tick_s);
-        self.field.collapse(recorder.gpu, step.blackening);
-        self.field.drain(step.drain);
-        if !matches!(step.law, FlowLaw::Free(_)) {
-            return self.field.advance(recorder, &law.step(key, ticks.start, step.ticks.into()), step.ticks);
-        }
-        let Self { field, motion, .. } = self;
-        let motion = match motion {
-            Some(motion) => motion,
-            None => motion.insert(FreeMotion::new(recorder, field)?),
-        };
-        let air = law.flow(key, ticks.start);
-        for (k, part) in step.parts.iter().enumerate() {
-            let around = Surroundings { part, air, mean_nm: field.mean() };
-            // The film counts its ticks once.
-            motion.advance(recorder, field, &around, if k == 0 { step.ticks } else { 0 })?;
-        }
-        Ok(())
     }
 
     /// Keeps the state in a slot, the next new one at most.
@@ -192,17 +135,17 @@ pub fn rules(key: &FieldKey) -> Rules {
 
 /// The law that drives a film, made into a flow once for as long as it holds.
 #[derive(Default)]
-struct LawInForce(Option<(FlowLaw, PrescribedFlow)>);
+pub(super) struct LawInForce(Option<(FlowLaw, PrescribedFlow)>);
 
 impl LawInForce {
     /// A step of a number of ticks.
-    fn step(&mut self, key: &FieldKey, tick: u64, ticks: f64) -> Step {
+    pub(super) fn step(&mut self, key: &FieldKey, tick: u64, ticks: f64) -> Step {
         let [from_s, to_s] = [tick as f64, tick as f64 + ticks].map(|tick| key.tick_s * tick);
         Step::prescribed(self.flow(key, tick), from_s, to_s)
     }
 
     /// The flow at a tick.
-    fn flow(&mut self, key: &FieldKey, tick: u64) -> &PrescribedFlow {
+    pub(super) fn flow(&mut self, key: &FieldKey, tick: u64) -> &PrescribedFlow {
         let law = key.law(tick);
         if self.0.as_ref().is_some_and(|(known, _)| *known != law) {
             self.0 = None;

@@ -15,6 +15,22 @@ impl FlowSolver {
         [&self.zeta, &self.psi, &self.psi_before, &self.velocity, &self.velocity_ahead, &self.measures]
     }
 
+    /// Copies the state of another solver's only film to a place here. All that come here must be as far: before their first step, or after it.
+    pub(in crate::gpu) fn take_in(&mut self, recorder: &mut Recorder<'_>, place: usize, film: &Self) {
+        self.has_history = film.has_history;
+        for (from, to) in film.state().into_iter().zip(self.state()) {
+            recorder.encoder().copy_buffer_to_buffer(from, 0, to, place as u64 * from.size(), from.size());
+        }
+    }
+
+    /// Copies the state of the film at a place to another solver, whose only film it is.
+    pub(in crate::gpu) fn hand_back(&self, recorder: &mut Recorder<'_>, place: usize, film: &mut Self) {
+        film.has_history = self.has_history;
+        for (from, to) in self.state().into_iter().zip(film.state()) {
+            recorder.encoder().copy_buffer_to_buffer(from, place as u64 * to.size(), to, 0, to.size());
+        }
+    }
+
     /// Keeps the state aside.
     #[must_use]
     pub fn save(&self, recorder: &mut Recorder<'_>) -> FlowCheckpoint {

@@ -26,7 +26,7 @@ impl RimMirror {
         Self {
             cap,
             uniform: gpu.uniform("mirror", &uniform),
-            with_mirror: buffer(gpu, "vorticity with its mirror image", grid.sphere.padded_len() as u64 * 4),
+            with_mirror: buffer(gpu, "vorticity with its mirror image", grid.padded_len() * 4),
         }
     }
 

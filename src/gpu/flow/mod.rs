@@ -1,5 +1,8 @@
 //! The film's own motion on the device: vorticity and stream function under buoyancy, drag and viscosity. See its f64 twin,
 //! [`physics::flow`](crate::physics::flow), for the equations and the order of a step.
+//!
+//! A solver may hold many films on equal grids, one after the other in each of its buffers: a step of all of them takes as many dispatches as
+//! a step of one, and gives each the bits that it would get alone.
 
 mod checkpoint;
 mod mirror;
@@ -15,7 +18,7 @@ use pin::PinnedDrop;
 use super::{
     device::{Gpu, GpuError},
     grid::halo_entries,
-    passes::{flow_halo::HaloOfScalar, flow_measure::FlowMeasures},
+    passes::{flow_halo::HaloOfScalar, flow_measure::FlowMeasures, flow_residual::MAX_FILMS},
     timing::{Recorder, STEP_FLOW},
 };
 use crate::physics::{
@@ -42,23 +45,40 @@ impl Default for Cycles {
 /// What the passes over the finest grid share.
 struct FlowGrid {
     sphere: CubedSphere,
+    films: u32,
     tangents: wgpu::Buffer,
     halo: wgpu::Buffer,
 }
 
 impl FlowGrid {
-    /// A workgroup for each 64 cells of a row.
+    /// Workgroups of a pass with one invocation per cell, in tiles of 8 x 8: rows of 64 would leave many idle.
     fn groups(&self) -> [u32; 3] {
+        let tiles = (self.sphere.n() as u32).div_ceil(8);
+        [tiles, tiles, 6 * self.films]
+    }
+
+    /// Workgroups of a pass with one invocation for four cells of each of two rows, in tiles of 32 x 8 cells.
+    fn eights_groups(&self) -> [u32; 3] {
         let cells = self.sphere.n() as u32;
-        [cells.div_ceil(64), cells, 6]
+        [cells.div_ceil(32), cells.div_ceil(8), 6 * self.films]
+    }
+
+    /// A workgroup for each film.
+    fn film_groups(&self) -> [u32; 3] {
+        [self.films, 1, 1]
+    }
+
+    /// Cells of all films, halos included.
+    fn padded_len(&self) -> u64 {
+        u64::from(self.films) * self.sphere.padded_len() as u64
     }
 
     fn fill_halo(&self, recorder: &mut Recorder<'_>, field: &wgpu::Buffer) -> Result<(), GpuError> {
-        HaloOfScalar { entries: &self.halo, scalar: field }.halo_of_scalar(recorder, STEP_FLOW, [1; 3])
+        HaloOfScalar { entries: &self.halo, scalar: field }.halo_of_scalar(recorder, STEP_FLOW, self.film_groups())
     }
 }
 
-/// Vorticity, stream function and velocity of a film, in padded storage. What its steps change is listed once, for checkpoints: in
+/// Vorticity, stream function and velocity of one or more films, in padded storage. What its steps change is listed once, for checkpoints: in
 /// `checkpoint.rs`. All of its methods but [`Self::new`] only record.
 pub struct FlowSolver {
     grid: FlowGrid,
@@ -93,6 +113,8 @@ pub struct FlowSolver {
 }
 
 impl FlowSolver {
+    /// Films that one solver can hold at most.
+    pub const MAX_FILMS: usize = MAX_FILMS;
     /// Minimum cells along a panel's edge.
     pub const MIN_CELLS: u32 = 16;
     /// Cells along a panel's edge at most: beyond, the coarse grids are too much for one workgroup.
@@ -103,18 +125,25 @@ impl FlowSolver {
     /// A film at rest, on a grid with a number of cells along a panel's edge within [`Self::MIN_CELLS`] and [`Self::MAX_CELLS`].
     #[must_use]
     pub fn new(gpu: &Gpu, cells: u32) -> Self {
+        Self::of_films(gpu, cells, 1)
+    }
+
+    /// Films at rest that take their steps together, [`Self::MAX_FILMS`] at most.
+    #[must_use]
+    pub fn of_films(gpu: &Gpu, cells: u32, films: usize) -> Self {
         let cells = cells.clamp(Self::MIN_CELLS, Self::MAX_CELLS);
         // The range lies within the range of grids, for which the constructor cannot fail.
         let sphere = CubedSphere::new(cells as usize).expect("a size in range");
-        let field = |label| buffer(gpu, label, sphere.padded_len() as u64 * 4);
-        let velocity = |label| buffer(gpu, label, sphere.padded_len() as u64 * 16);
+        let grid = FlowGrid {
+            sphere,
+            films: films.clamp(1, MAX_FILMS) as u32,
+            tangents: gpu.storage("flow tangents", &sphere.edge_tangents()),
+            halo: gpu.storage("flow halo", &halo_entries(sphere)),
+        };
+        let numbers = |label, bytes: u64| buffer(gpu, label, grid.padded_len() * bytes);
+        let field = |label| numbers(label, 4);
         Self {
-            grid: FlowGrid {
-                sphere,
-                tangents: gpu.storage("flow tangents", &sphere.edge_tangents()),
-                halo: gpu.storage("flow halo", &halo_entries(sphere)),
-            },
-            multigrid: Multigrid::new(gpu, sphere),
+            multigrid: Multigrid::new(gpu, &grid),
             mirror: None,
             drop: None,
             zeta: field("vorticity"),
@@ -123,17 +152,18 @@ impl FlowSolver {
             psi: field("stream function"),
             psi_before: field("stream function before"),
             psi_next: field("next stream function"),
-            pushed: buffer(gpu, "pushed vorticity", sphere.padded_len() as u64 * 8),
+            pushed: numbers("pushed vorticity", 8),
             decay: field("decay"),
             stages: ["first viscous stage", "second viscous stage"].map(field),
             once: field("vorticity after the first"),
             twice: field("source of the second"),
             moved: field("moved"),
-            velocity: velocity("velocity"),
-            velocity_ahead: velocity("velocity ahead"),
-            measures: buffer(gpu, "flow measures", size_of::<FlowMeasures>() as u64),
+            velocity: numbers("velocity", 16),
+            velocity_ahead: numbers("velocity ahead", 16),
+            measures: buffer(gpu, "flow measures", u64::from(grid.films) * size_of::<FlowMeasures>() as u64),
             has_history: false,
             cycles: Cycles::default(),
+            grid,
         }
     }
 
@@ -152,6 +182,11 @@ impl FlowSolver {
     /// Makes vorticity beyond the rim, if there is one, the image of that within.
     fn reflect(&self, recorder: &mut Recorder<'_>, zeta: &wgpu::Buffer) -> Result<(), GpuError> {
         self.mirror.as_ref().map_or(Ok(()), |mirror| mirror.reflect(recorder, &self.grid, zeta))
+    }
+
+    /// Whether it has taken a step since the seed.
+    pub(in crate::gpu) fn has_history(&self) -> bool {
+        self.has_history
     }
 
     /// The grid.
@@ -192,13 +227,13 @@ impl FlowSolver {
         &self.forcing
     }
 
-    /// One [`FlowMeasures`].
+    /// [`FlowMeasures`] of each film.
     #[must_use]
     pub fn measures(&self) -> &wgpu::Buffer {
         &self.measures
     }
 
-    /// Sets vorticity in 1/s in each cell, in the grid's order, finds its stream function, and forgets all motion. A mean is left out.
+    /// Sets vorticity in 1/s in each cell, film after film and in the grid's order, finds its stream function, and forgets all motion. A mean is left out.
     pub fn seed(&mut self, recorder: &mut Recorder<'_>, zeta: &[f32]) -> Result<(), GpuError> {
         recorder.gpu.upload(&self.zeta, &self.padded(zeta));
         self.has_history = false;
@@ -206,16 +241,28 @@ impl FlowSolver {
             recorder.encoder().clear_buffer(cleared, 0, None);
         }
         self.reflect(recorder, &self.zeta)?;
-        let system = System { shift: 0.0, gain: 1.0, source: &self.zeta };
-        self.multigrid.cycles(recorder, &self.grid, &system, &self.psi, Self::FIRST_CYCLES)?;
-        let still = self.uniform(recorder.gpu, 0.0, &FlowForces::default());
+        let systems = vec![System::POISSON; self.grid.films as usize];
+        self.multigrid.cycles(recorder, &self.grid, (&systems, &self.zeta), &self.psi, Self::FIRST_CYCLES)?;
+        let still = self.uniform(recorder.gpu, 0.0);
         self.find_velocity(recorder, &still, &self.psi, &self.psi)
     }
 
     /// Moves vorticity by one step of `dt_s` seconds under forces, with ln h given half a step from now, which is what `velocity` then
     /// carries the thickness with from half a step before to half a step after. Steps that last no time change nothing.
     pub fn step(&mut self, recorder: &mut Recorder<'_>, dt_s: f64, forces: &FlowForces) -> Result<(), GpuError> {
-        self.take(recorder, dt_s, forces, 0)
+        self.step_films(recorder, dt_s, &[*forces], false)
+    }
+
+    /// A step of all films, each under its own forces: with viscosity all of them, or none. It may be tried first, as by
+    /// [`Self::step_corrected`].
+    pub fn step_films(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        dt_s: f64,
+        forces: &[FlowForces],
+        corrected: bool,
+    ) -> Result<(), GpuError> {
+        self.take(recorder, dt_s, forces, usize::from(corrected))
     }
 
     /// A step for flows whose eddies turn by more than [`FOLLOWED_TURN`](crate::physics::flow::FOLLOWED_TURN) in a step: it is tried
@@ -226,29 +273,31 @@ impl FlowSolver {
         dt_s: f64,
         forces: &FlowForces,
     ) -> Result<(), GpuError> {
-        self.take(recorder, dt_s, forces, 1)
+        self.step_films(recorder, dt_s, &[*forces], true)
     }
 
-    /// Values of cells, in the grid's order, in padded storage with an empty halo.
+    /// Values of cells, film after film and in the grid's order, in padded storage with empty halos.
     #[must_use]
     pub fn padded(&self, values: &[f32]) -> Vec<f32> {
-        let mut padded = vec![0.0; self.grid.sphere.padded_len()];
+        let mut padded = vec![0.0; self.grid.padded_len() as usize];
         for (cell, value) in values.iter().enumerate() {
             padded[self.place(cell)] = *value;
         }
         padded
     }
 
-    /// The cells of padded storage, in the grid's order.
+    /// The cells of padded storage, film after film and in the grid's order.
     #[must_use]
     pub fn inner(&self, padded: &[f32]) -> Vec<f32> {
-        (0..self.grid.sphere.cells()).map(|cell| padded[self.place(cell)]).collect()
+        let films = padded.len() / self.grid.sphere.padded_len();
+        (0..films * self.grid.sphere.cells()).map(|cell| padded[self.place(cell)]).collect()
     }
 
-    /// Place of a cell in padded storage.
+    /// Place in padded storage of a cell, counted on from film to film.
     fn place(&self, cell: usize) -> usize {
-        let (panel, i, j) = self.grid.sphere.cell(cell);
-        self.grid.sphere.padded_index(panel, i as isize, j as isize)
+        let sphere = self.grid.sphere;
+        let (panel, i, j) = sphere.cell(cell % sphere.cells());
+        cell / sphere.cells() * sphere.padded_len() + sphere.padded_index(panel, i as isize, j as isize)
     }
 }
 

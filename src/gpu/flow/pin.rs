@@ -31,7 +31,7 @@ impl PinnedDrop {
         psi: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
         let kernel = FlowPin { pin: &self.uniform, tangents: &grid.tangents, zeta, psi };
-        kernel.flow_pin(recorder, STEP_FLOW, [1; 3])?;
+        kernel.flow_pin(recorder, STEP_FLOW, grid.film_groups())?;
         grid.fill_halo(recorder, psi)
     }
 }

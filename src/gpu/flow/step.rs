@@ -1,14 +1,17 @@
 //! A step of the flow: the passes in order.
 
+use bytemuck::Zeroable;
+
 use super::{FlowSolver, multigrid::System};
 use crate::{
     gpu::{
         device::{Gpu, GpuError},
         passes::{
             flow_combine::{CombineUniform, FlowCombine},
-            flow_force::FlowForce,
+            flow_force::{FilmForces, FlowForce},
             flow_halo::{HaloOfPair, HaloOfVelocities},
             flow_measure::{FlowMeasure, FlowUniform},
+            flow_residual::MAX_FILMS,
             flow_trace::{TraceTracer, TraceVorticity},
             flow_velocity::FlowVelocity,
         },
@@ -19,18 +22,18 @@ use crate::{
 };
 
 impl FlowSolver {
-    /// Takes a step after a number of trial steps, which improve the velocity that it is taken with.
+    /// Takes a step of all films, each under its forces, after a number of trial steps, which improve the velocity that it is taken with.
     pub(super) fn take(
         &mut self,
         recorder: &mut Recorder<'_>,
         dt_s: f64,
-        forces: &FlowForces,
+        forces: &[FlowForces],
         trials: usize,
     ) -> Result<(), GpuError> {
         if !(dt_s.is_finite() && dt_s > 0.0) {
             return Ok(());
         }
-        let uniform = self.uniform(recorder.gpu, dt_s, forces);
+        let uniform = self.uniform(recorder.gpu, dt_s);
         self.grid.fill_halo(recorder, &self.log_thickness)?;
         let is_first = !std::mem::replace(&mut self.has_history, true);
         if is_first {
@@ -56,24 +59,30 @@ impl FlowSolver {
         &self,
         recorder: &mut Recorder<'_>,
         dt_s: f64,
-        forces: &FlowForces,
+        forces: &[FlowForces],
         uniform: &UniformBuffer<FlowUniform>,
     ) -> Result<(), GpuError> {
         let Self { grid, stages: [first, second], .. } = self;
-        self.push(recorder, uniform)?;
-        match forces.viscous_stage(dt_s) {
+        self.push(recorder, uniform, forces)?;
+        let stages: Option<Vec<f64>> = forces.iter().map(|forces| forces.viscous_stage(dt_s)).collect();
+        match stages {
             None => self.combine(recorder, &[(1.0, first), (1.0, second)], 0.0, &self.moved)?,
-            Some(stage) => self.viscous(recorder, stage)?,
+            Some(stages) => self.viscous(recorder, &stages)?,
         }
         self.reflect(recorder, &self.moved)?;
         self.combine(recorder, &[(2.0, &self.psi), (-1.0, &self.psi_before)], -1.0, &self.psi_next)?;
-        let system = System { shift: 0.0, gain: 1.0, source: &self.moved };
-        self.multigrid.cycles(recorder, grid, &system, &self.psi_next, self.cycles.poisson)?;
+        let systems = vec![System::POISSON; forces.len()];
+        self.multigrid.cycles(recorder, grid, (&systems, &self.moved), &self.psi_next, self.cycles.poisson)?;
         self.drop.as_ref().map_or(Ok(()), |drop| drop.stop(recorder, grid, &self.moved, &self.psi_next))
     }
 
     /// From ζ, ψ and ψ before to what the two viscous stages take.
-    fn push(&self, recorder: &mut Recorder<'_>, flow: &UniformBuffer<FlowUniform>) -> Result<(), GpuError> {
+    fn push(
+        &self,
+        recorder: &mut Recorder<'_>,
+        flow: &UniformBuffer<FlowUniform>,
+        forces: &[FlowForces],
+    ) -> Result<(), GpuError> {
         let Self { grid, zeta, log_thickness, measures, pushed, decay, velocity_ahead, .. } = self;
         let (tangents, [first_stage, second_stage]) = (&grid.tangents, &self.stages);
         let measure = FlowMeasure {
@@ -86,7 +95,7 @@ impl FlowSolver {
             velocity: &self.velocity,
             measures,
         };
-        measure.flow_measure(recorder, STEP_FLOW, [1; 3])?;
+        measure.flow_measure(recorder, STEP_FLOW, grid.film_groups())?;
         let force = FlowForce {
             flow,
             tangents,
@@ -97,9 +106,10 @@ impl FlowSolver {
             forcing: &self.forcing,
             pushed,
             decay,
+            forces: &recorder.gpu.uniform("forces", &film_forces(forces)),
         };
         force.flow_force(recorder, STEP_FLOW, grid.groups())?;
-        HaloOfPair { entries: &grid.halo, pair: pushed }.halo_of_pair(recorder, STEP_FLOW, [1; 3])?;
+        HaloOfPair { entries: &grid.halo, pair: pushed }.halo_of_pair(recorder, STEP_FLOW, grid.film_groups())?;
         let trace =
             TraceVorticity { flow, tangents, velocity: velocity_ahead, pushed, decay, first_stage, second_stage };
         trace.trace_vorticity(recorder, STEP_FLOW, grid.groups())
@@ -107,7 +117,7 @@ impl FlowSolver {
 
     /// Carries ln h along the velocity for `dt_s` seconds on the flow's own grid. For a film whose thickness lives here too.
     pub fn carry_log_thickness(&mut self, recorder: &mut Recorder<'_>, dt_s: f64) -> Result<(), GpuError> {
-        let uniform = self.uniform(recorder.gpu, dt_s, &FlowForces::default());
+        let uniform = self.uniform(recorder.gpu, dt_s);
         self.grid.fill_halo(recorder, &self.log_thickness)?;
         let kernel = TraceTracer {
             flow: &uniform,
@@ -122,20 +132,21 @@ impl FlowSolver {
     }
 
     /// Viscosity on what the two implicit stages take, into `moved`: see the twin.
-    fn viscous(&self, recorder: &mut Recorder<'_>, stage: f64) -> Result<(), GpuError> {
+    fn viscous(&self, recorder: &mut Recorder<'_>, stages: &[f64]) -> Result<(), GpuError> {
         let Self { grid, stages: [first, second], once, twice, moved, .. } = self;
         let root = std::f64::consts::SQRT_2;
-        let system = |source| System { shift: (1.0 - 2.0 * stage) / stage, gain: -1.0 / stage, source };
+        let system = |stage: &f64| System { shift: (1.0 - 2.0 * stage) / stage, gain: -1.0 / stage };
+        let systems: &[System] = &stages.iter().map(system).collect::<Vec<_>>();
         for taken in [first, second] {
             self.reflect(recorder, taken)?;
             grid.fill_halo(recorder, taken)?;
         }
         recorder.encoder().copy_buffer_to_buffer(first, 0, once, 0, first.size());
-        self.multigrid.cycles(recorder, grid, &system(first), once, self.cycles.viscous)?;
+        self.multigrid.cycles(recorder, grid, (systems, first), once, self.cycles.viscous)?;
         // What the first stage took away, the second nearly will of its part.
         self.combine(recorder, &[(root, once), (1.0, second), (1.0 - root, first)], 0.0, moved)?;
         self.combine(recorder, &[(1.0, once), (1.0, second)], 0.0, twice)?;
-        self.multigrid.cycles(recorder, grid, &system(twice), moved, self.cycles.viscous)
+        self.multigrid.cycles(recorder, grid, (systems, twice), moved, self.cycles.viscous)
     }
 
     pub(super) fn find_velocity(
@@ -150,7 +161,7 @@ impl FlowSolver {
         let find = FlowVelocity { flow: uniform, tangents, psi, psi_before: before, velocity, velocity_ahead };
         find.flow_velocity(recorder, STEP_FLOW, grid.groups())?;
         let fill = HaloOfVelocities { entries: &grid.halo, velocity, velocity_ahead };
-        fill.halo_of_velocities(recorder, STEP_FLOW, [1; 3])
+        fill.halo_of_velocities(recorder, STEP_FLOW, grid.film_groups())
     }
 
     /// The weighted sum of up to three fields and of the guess's mean, halos included.
@@ -163,7 +174,9 @@ impl FlowSolver {
     ) -> Result<(), GpuError> {
         // Where there are fewer, the first stands for the rest, times nothing.
         let [first, second, third] = [0, 1, 2].map(|k| terms.get(k).copied().unwrap_or((0.0, terms[0].1)));
-        let factors = CombineUniform { first: first.0 as f32, second: second.0 as f32, third: third.0 as f32, mean };
+        let values = self.grid.sphere.padded_len() as u32;
+        let factors =
+            CombineUniform { first: first.0 as f32, second: second.0 as f32, third: third.0 as f32, mean, values };
         let kernel = FlowCombine {
             combine: &recorder.gpu.uniform("combine", &factors),
             measures: &self.measures,
@@ -172,20 +185,30 @@ impl FlowSolver {
             third: third.1,
             combined: to,
         };
-        kernel.flow_combine(recorder, STEP_FLOW, [(self.grid.sphere.padded_len() as u32).div_ceil(64), 1, 1])
+        kernel.flow_combine(recorder, STEP_FLOW, [values.div_ceil(64), self.grid.films, 1])
     }
 
-    pub(super) fn uniform(&self, gpu: &Gpu, dt_s: f64, forces: &FlowForces) -> UniformBuffer<FlowUniform> {
+    pub(super) fn uniform(&self, gpu: &Gpu, dt_s: f64) -> UniformBuffer<FlowUniform> {
         let uniform = FlowUniform {
-            gravity: forces.gravity.as_vec3().to_array(),
             dt_s: dt_s as f32,
-            drag: forces.drag as f32,
-            air_drag: forces.air_drag as f32,
             min_air_speed: MIN_AIR_SPEED as f32,
             cell_angle: self.grid.sphere.cell_angle() as f32,
             cells: self.grid.sphere.n() as u32,
-            padding: [0; 3],
         };
         gpu.uniform("flow step", &uniform)
     }
+}
+
+/// What acts on each film, as shaders read it.
+fn film_forces(forces: &[FlowForces]) -> [FilmForces; MAX_FILMS] {
+    let mut found = [FilmForces::zeroed(); MAX_FILMS];
+    for (slot, forces) in found.iter_mut().zip(forces) {
+        *slot = FilmForces {
+            gravity: forces.gravity.as_vec3().to_array(),
+            drag: forces.drag as f32,
+            air_drag: forces.air_drag as f32,
+            padding: [0; 3],
+        };
+    }
+    found
 }

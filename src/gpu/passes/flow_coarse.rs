@@ -1,7 +1,7 @@
-//! One multigrid cycle on all grids below the finest, by one workgroup.
+//! One multigrid cycle on all grids below the finest, by one workgroup for each film.
 
 use crate::{
-    gpu::kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
+    gpu::kernel::{Read, ReadWrite, kernels, shader_struct},
     physics::{
         flow::{MAX_COARSEST_SWEEPS, SWEEPS},
         sphere::HaloEntry,
@@ -31,11 +31,11 @@ shader_struct! {
 }
 
 shader_struct! {
-    /// All grids: see `shaders/pass/flow_coarse.wgsl`.
-    pub struct CoarseUniform {
+    /// All grids, for one film: see `shaders/pass/flow_coarse.wgsl`.
+    pub struct CoarseSystem {
         /// How many.
         pub levels: u32,
-        /// Values of all coarse grids.
+        /// Values of all films on all grids.
         pub values: u32,
         /// k.
         pub shift: f32,
@@ -53,7 +53,7 @@ kernels! {
 
     /// Corrections of all coarse grids.
     struct FlowCoarse {
-        @0 coarse: Uniform<CoarseUniform>;
+        @0 coarse: Read<[CoarseSystem]>;
         @1 tangents: Read<[f32]>;
         @2 entries: Read<[HaloEntry]>;
         @3 f: ReadWrite<[f32]>;

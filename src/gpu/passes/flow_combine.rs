@@ -14,6 +14,8 @@ shader_struct! {
         pub third: f32,
         /// Factor of the mean of the guess.
         pub mean: f32,
+        /// Values of each film.
+        pub values: u32,
     }
 }
 
@@ -23,7 +25,7 @@ kernels! {
     /// The weighted sum of three fields and of the guess's mean, halos included.
     struct FlowCombine {
         @0 combine: Uniform<CombineUniform>;
-        @1 measures: Read<FlowMeasures>;
+        @1 measures: Read<[FlowMeasures]>;
         @2 first: Read<[f32]>;
         @3 second: Read<[f32]>;
         @4 third: Read<[f32]>;

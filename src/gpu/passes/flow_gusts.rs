@@ -16,6 +16,10 @@ shader_struct! {
         pub vortices_count: u32,
         /// Rate at which the air drags the film along, 1/s.
         pub rate: f32,
+        /// Which of the films that flow together.
+        pub film: u32,
+        /// Fills 32 bytes.
+        pub padding: [u32; 3],
         /// Waves; those in use come first.
         pub waves: [FrozenWave; MAX_WAVES],
         /// Vortices; those in use come first.

@@ -3,29 +3,21 @@
 use crate::gpu::kernel::{Read, ReadWrite, Uniform, kernels, shader_struct};
 
 shader_struct! {
-    /// One step, for all of its passes: see `shaders/flow/step.wgsl`.
+    /// One step, for all of its passes and films: see `shaders/flow/step.wgsl`.
     pub struct FlowUniform {
-        /// Gravity over the radius, 1/s².
-        pub gravity: [f32; 3],
         /// Length of the step, seconds.
         pub dt_s: f32,
-        /// Drag that is the same everywhere, 1/s.
-        pub drag: f32,
-        /// Drag of air over the root of the speed, times the thickness, nm/√s.
-        pub air_drag: f32,
-        /// Slowest speed that it is reckoned with, rad/s.
+        /// Slowest speed that the drag of air is reckoned with, rad/s.
         pub min_air_speed: f32,
         /// Angle of a cell, radians.
         pub cell_angle: f32,
         /// Cells along a panel's edge.
         pub cells: u32,
-        /// Fills 48 bytes.
-        pub padding: [u32; 3],
     }
 }
 
 shader_struct! {
-    /// What was measured of the whole film at the start of the last step: see `shaders/flow/step.wgsl`.
+    /// What was measured of a whole film at the start of the last step: see `shaders/flow/step.wgsl`.
     #[derive(Default, PartialEq)]
     pub struct FlowMeasures {
         /// Mean vorticity, which the step took away, 1/s.
@@ -52,7 +44,7 @@ kernels! {
         @4 psi_before: Read<[f32]>;
         @5 log_thickness: Read<[f32]>;
         @6 velocity: Read<[[f32; 4]]>;
-        @7 measures: ReadWrite<FlowMeasures>;
+        @7 measures: ReadWrite<[FlowMeasures]>;
     }
     compute flow_measure;
 }

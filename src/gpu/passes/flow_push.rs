@@ -17,8 +17,10 @@ shader_struct! {
         pub cells: u32,
         /// Pushes in use.
         pub count: u32,
+        /// Which of the films that flow together.
+        pub film: u32,
         /// Fills 16 bytes.
-        pub padding: [u32; 2],
+        pub padding: u32,
         /// Pushes; those in use come first.
         pub pushes: [FrozenPush; MAX_PUSHES],
     }

@@ -5,15 +5,26 @@ use crate::{
     physics::flow::SWEEPS,
 };
 
+/// Films that one dispatch can step at most.
+pub const MAX_FILMS: usize = 64;
+
 shader_struct! {
-    /// One solution on the finest grid, for all of its passes: see `shaders/flow/solve.wgsl`.
-    pub struct SolveUniform {
+    /// The linear system of one film: see `shaders/flow/solve.wgsl`.
+    pub struct FilmSystem {
         /// Weights of the sweeps after a correction.
         pub weights: [f32; SWEEPS],
         /// k.
         pub shift: f32,
         /// f over the source that it is read from.
         pub gain: f32,
+        /// Fills 32 bytes.
+        pub padding: [u32; 3],
+    }
+}
+
+shader_struct! {
+    /// One solution on the finest grid, for all of its passes: see `shaders/flow/solve.wgsl`.
+    pub struct SolveUniform {
         /// Angle of a cell, radians.
         pub cell_angle: f32,
         /// Cells along a panel's edge.
@@ -22,8 +33,8 @@ shader_struct! {
         pub coarse_cells: u32,
         /// Where the corrections of the next grid start.
         pub coarse_field: u32,
-        /// Fills 48 bytes.
-        pub padding: [u32; 3],
+        /// The system of each film.
+        pub systems: [FilmSystem; MAX_FILMS],
     }
 }
 

@@ -26,6 +26,8 @@ shader_struct! {
         pub rim_z: f32,
         /// The inversion in it.
         pub inversion: f32,
+        /// Which of the films that flow together.
+        pub film: u32,
     }
 }
 

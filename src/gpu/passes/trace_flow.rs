@@ -9,8 +9,10 @@ shader_struct! {
         pub dt_s: f32,
         /// Cells along a panel's edge.
         pub cells: u32,
+        /// Which of the films that flow together.
+        pub film: u32,
         /// Fills 16 bytes.
-        pub padding: [u32; 2],
+        pub padding: u32,
     }
 }
 

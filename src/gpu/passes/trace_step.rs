@@ -103,8 +103,15 @@ kernels! {
 pub enum Step {
     /// In a flow in closed form.
     Closed(FlowKind, Box<StepUniform>),
-    /// In a solver's velocity on the grid that steps are traced on, held constant for a number of seconds.
-    Solved(wgpu::Buffer, f64),
+    /// In a solver's velocity on the grid that steps are traced on, held constant.
+    Solved {
+        /// The velocity of all of the solver's films.
+        velocity: wgpu::Buffer,
+        /// Place of the film among them.
+        film: u32,
+        /// For how many seconds.
+        dt_s: f64,
+    },
 }
 
 impl Step {
@@ -171,7 +178,9 @@ impl Step {
                 uniform.vortices.reverse();
                 Self::Closed(*kind, uniform)
             }
-            Self::Solved(velocity, dt_s) => Self::Solved(velocity.clone(), -dt_s),
+            Self::Solved { velocity, film, dt_s } => {
+                Self::Solved { velocity: velocity.clone(), film: *film, dt_s: -dt_s }
+            }
         }
     }
 
@@ -183,7 +192,7 @@ impl Step {
                 let moments_are_finite = uniform.moments.iter().all(|moment| moment.reversal.is_finite());
                 uniform.dt_s.is_finite() && uniform.dt_s >= 0.0 && moments_are_finite
             }
-            Self::Solved(_, dt_s) => dt_s.is_finite() && *dt_s >= 0.0,
+            Self::Solved { dt_s, .. } => dt_s.is_finite() && *dt_s >= 0.0,
         }
     }
 }
@@ -207,8 +216,8 @@ pub fn trace_step(
             let step = &recorder.gpu.uniform("step", &StepUniform { cells: grid.cells, ..**uniform });
             TraceStep { FLOW: *kind, step, tangents, step_map }.trace_step(recorder, name, groups)
         }
-        Step::Solved(velocity, dt_s) => {
-            let uniform = SolvedUniform { dt_s: *dt_s as f32, cells: grid.cells, padding: [0; 2] };
+        Step::Solved { velocity, film, dt_s } => {
+            let uniform = SolvedUniform { dt_s: *dt_s as f32, cells: grid.cells, film: *film, padding: 0 };
             let solved = &recorder.gpu.uniform("solved step", &uniform);
             TraceFlow { solved, tangents, velocity, step_map }.trace_flow(recorder, name, groups)
         }

@@ -233,6 +233,32 @@ fn films_share_the_cells_of_a_frame_and_all_get_on() {
 }
 
 #[test]
+fn films_that_take_the_same_steps_take_them_side_by_side() {
+    let mut scene = Scene { bubbles: side_by_side(3).bubbles, ..checkpoints::free_scene() };
+    scene.bubbles.iter_mut().for_each(|bubble| bubble.film.cells = 16);
+    let stepped = |state: &GpuState, tick, pace| -> Vec<Vec<Range<u64>>> {
+        let plan = plan(&frame_request(&scene, tick, pace), state);
+        let rounds = plan.steps.chunk_by(|(pass, _), (next, _)| pass.steps_like(next));
+        let ticks = |(pass, _): &(Pass, Reason)| match pass {
+            Pass::StepField { ticks, .. } => Some(ticks.clone()),
+            _ => None,
+        };
+        rounds
+            .map(|round| round.iter().filter_map(ticks).collect::<Vec<_>>())
+            .filter(|ticks| !ticks.is_empty())
+            .collect()
+    };
+    assert_eq!(stepped(&GpuState::default(), 9, Pace::Whole), [vec![0..9; 3]]);
+    // With a checkpoint on the way.
+    let rounds = stepped(&GpuState::default(), 61, Pace::Frame);
+    assert!(rounds.len() > 1 && rounds.iter().all(|round| *round == vec![round[0].clone(); 3]), "{rounds:?}");
+    // The second was out of sight meanwhile.
+    let mut state = after(&scene, 9);
+    state.fields[1] = after(&scene, 4).fields[1].clone();
+    assert_eq!(stepped(&state, 12, Pace::Whole), [vec![4..12; 1], vec![9..12; 2]]);
+}
+
+#[test]
 fn products_that_the_scene_cannot_need_are_dropped() {
     let (three, mut one) = (side_by_side(3), side_by_side(1));
     let state = after(&three, 4);
