@@ -1,6 +1,6 @@
 //! What `render` and `sequence` share: the options of a picture, and the picture that they ask for.
 
-use std::path::Path;
+use std::{collections::BTreeSet, path::Path};
 
 use anyhow::{Context, bail};
 use clap::Args;
@@ -124,7 +124,7 @@ impl<'a> Painter<'a> {
 
     /// Opens the adapter if a picture needs one. Called before a bar is shown, so that the adapter's name does not run into it.
     pub fn prepare(&mut self, request: &FrameRequest) -> anyhow::Result<()> {
-        if !self.arguments.is_reference() || request.picture.draw.bubbles.iter().any(needs_device) {
+        if !self.arguments.is_reference() || request.picture.draw.all_bubbles().iter().any(needs_device) {
             self.renderer()?;
         }
         Ok(())
@@ -179,15 +179,17 @@ impl<'a> Painter<'a> {
 
     /// The films that only the device can move, at their moment.
     fn moved_films(&mut self, request: &FrameRequest) -> anyhow::Result<MovedFilms> {
-        let bubbles = &request.picture.draw.bubbles;
-        if !bubbles.iter().any(needs_device) {
+        let bubbles = request.picture.draw.all_bubbles();
+        let moved: BTreeSet<usize> =
+            bubbles.iter().filter(|bubble| needs_device(bubble)).map(|bubble| bubble.index).collect();
+        if moved.is_empty() {
             return Ok(MovedFilms::new());
         }
         let renderer = self.renderer()?;
         renderer.render(request)?;
-        let films = bubbles.iter().filter(|bubble| needs_device(bubble)).map(|bubble| {
-            let (_, field) = moved_film(renderer, bubble.index)?.context("the film was not moved")?;
-            Ok((bubble.index, field))
+        let films = moved.into_iter().map(|film| {
+            let (_, field) = moved_film(renderer, film)?.context("the film was not moved")?;
+            Ok((film, field))
         });
         films.collect()
     }

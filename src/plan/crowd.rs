@@ -33,6 +33,9 @@ fn small_below_pixels(quality: Quality) -> f64 {
     }
 }
 
+/// Distance of the eye from a bubble's center, in radii, below which the bubble is drawn like all others, however few pixels the picture has.
+const NEAR_RADII: f64 = 1.5;
+
 /// Radius in pixels below which nothing of a bubble is seen: it covers a ten thousandth of a pixel.
 const INVISIBLE_PIXELS: f64 = 0.006;
 
@@ -52,7 +55,8 @@ pub(super) fn in_sight(story: &Story, camera: &CameraKey, shot: &Shot) -> InSigh
                 sight.lent.push(lent);
             }
             let Some(place) = places[film] else { continue };
-            if radius_pixels < small_below_pixels(story.view.quality) {
+            let is_near = member.center_m.distance(camera.eye_m) < NEAR_RADII * member.radius_m;
+            if radius_pixels < small_below_pixels(story.view.quality) && !is_near {
                 sight.small.push(small(&member, place, corners));
             } else {
                 sight.bubbles.extend(large(lender, &member, &sight.lent[place], camera, shot, corners, radius_pixels));

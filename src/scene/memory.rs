@@ -6,8 +6,8 @@ use super::{Film, FilmStateName, Generator, check::Fault};
 const MOST: f64 = 16.0 * GIGABYTE;
 const GIGABYTE: f64 = 1e9;
 /// What a moving film takes for each cell, bytes: its thickness, its map, its flow and their copies. By the address space that lavapipe takes for
-/// films of 256 and of 512 cells it is 111.
-const FILM_BYTES_PER_CELL: f64 = 120.0;
+/// films of 256 and of 512 cells it is 111; films that flow together have a second solver.
+const FILM_BYTES_PER_CELL: f64 = 150.0;
 /// What it takes beside its cells.
 const FILM_BYTES: f64 = 0.5e6;
 /// What a bubble of a generator takes, on the processor and on the GPU.

@@ -186,7 +186,7 @@ fn absurd_numbers_are_refused_with_the_memory_that_they_need() {
     assert_refused(&[
         (
             "[[generator]]\ncount = 100000000",
-            "3: `count` in [[generator]] is 100000000, which takes the scene to 50.2 GB of memory, of 16.0 GB that are allowed; ask for fewer bubbles",
+            "3: `count` in [[generator]] is 100000000, which takes the scene to 50.3 GB of memory, of 16.0 GB that are allowed; ask for fewer bubbles",
         ),
         ("[[generator]]\ncount = 0", "3: `count` in [[generator]] is 0; it must be within 1 ..= 10000000"),
         (

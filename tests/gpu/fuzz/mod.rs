@@ -143,8 +143,8 @@ fn frame_request(loaded: &LoadedScene, mut moment: Moment) -> Result<FrameReques
 
 fn is_cheap(request: &FrameRequest) -> bool {
     let (mut steps, mut cells) = (0, 0);
-    for bubble in &request.picture.draw.bubbles {
-        if let FilmKey::Field(film) = &bubble.film {
+    for (_, film) in request.picture.draw.films() {
+        if let FilmKey::Field(film) = film {
             let own = film.steps_from(0).take(MAX_STEPS + 1).count();
             (steps, cells) = (steps + own, cells + own as u64 * film.cell_count());
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 use proptest::prelude::*;
-use soapfilm::scene::{Boundary, Change, FilmStateName, Flow, Motion, Scene};
+use soapfilm::scene::{Boundary, Change, FilmStateName, Flow, Generator, Layout, Motion, Scene};
 use toml::{Table, Value};
 
 use super::values::value;
@@ -14,6 +14,9 @@ use crate::support::page::documented;
 const MAX_ITEMS: usize = 2;
 /// Cells along an edge of a film at most: random patches take a while on grids as fine as scenes may have, which are tested elsewhere.
 const MAX_CELLS: u32 = 24;
+/// Bubbles and films of a generator at most.
+const MAX_MADE: u32 = 60;
+const MAX_FILMS: u32 = 2;
 /// Keys that decide which pipelines and tables draw a scene, for each of which a software driver works for a second.
 const OF_PIPELINES: [&str; 15] = [
     "boundary",
@@ -41,6 +44,7 @@ type Settings = BTreeMap<(&'static str, usize, &'static str), Value>;
 pub struct Frame {
     settings: Settings,
     bubbles: usize,
+    generators: usize,
     patches: usize,
     /// Sections of the kinds of the events.
     events: Vec<&'static str>,
@@ -53,6 +57,7 @@ pub fn frames() -> impl Strategy<Value = Frame> {
     let kinds: Vec<_> =
         documented().iter().map(|row| row.section).filter(|section| section.starts_with("kind")).collect();
     let bubbles = prop_oneof![6 => Just(1), 1 => Just(0), 1 => Just(MAX_ITEMS)];
+    let generators = prop_oneof![3 => Just(0), 1 => Just(1)];
     let events = prop::collection::vec(prop::sample::select(kinds), 0..=MAX_ITEMS);
     let patches = prop_oneof![4 => Just(0), 1 => 1..=MAX_ITEMS];
     let radii = prop_oneof![
@@ -60,8 +65,16 @@ pub fn frames() -> impl Strategy<Value = Frame> {
         2 => prop::sample::select(vec![0.0, 0.5, 1.0, 1.02, 2.0, 100.0]).prop_map(Some),
         1 => Just(None)
     ];
-    (settings(|key| OF_PIPELINES.contains(&key)), bubbles, patches, events, radii)
-        .prop_map(|(settings, bubbles, patches, events, radii)| Frame { settings, bubbles, patches, events, radii })
+    (settings(|key| OF_PIPELINES.contains(&key)), bubbles, generators, patches, events, radii).prop_map(
+        |(settings, bubbles, generators, patches, events, radii)| Frame {
+            settings,
+            bubbles,
+            generators,
+            patches,
+            events,
+            radii,
+        },
+    )
 }
 
 /// Random valid scenes in a frame.
@@ -92,10 +105,10 @@ impl Frame {
             .into_iter()
             .collect();
         scene.insert("version".to_owned(), Value::Integer(1));
-        let bubble = |item| {
-            let mut bubble = table("bubble", item);
-            bubble.insert("film".to_owned(), Value::Table(table("bubble.film", item)));
-            bubble
+        let with_film = |section, item| {
+            let mut owner = table(section, item);
+            owner.insert("film".to_owned(), Value::Table(table("bubble.film", item)));
+            owner
         };
         let event = |(item, kind): (usize, &&str)| {
             let name = kind.split('"').nth(1).unwrap_or_default();
@@ -103,7 +116,12 @@ impl Frame {
             event.insert("kind".to_owned(), name.into());
             event
         };
-        scene.insert("bubble".to_owned(), (0..self.bubbles).map(bubble).collect::<Vec<_>>().into());
+        scene.insert(
+            "bubble".to_owned(),
+            (0..self.bubbles).map(|item| with_film("bubble", item)).collect::<Vec<_>>().into(),
+        );
+        let generators = (0..self.generators).map(|item| with_film("generator", item)).collect::<Vec<_>>();
+        scene.insert("generator".to_owned(), generators.into());
         scene.insert("event".to_owned(), self.events.iter().enumerate().map(event).collect::<Vec<_>>().into());
         let patches = (0..self.patches).map(|item| table("light.patch", item)).collect::<Vec<_>>();
         if let Some(light) = scene["light"].as_table_mut() {
@@ -126,7 +144,8 @@ impl Frame {
 
 /// Makes values that are right each for itself right together, as the format's page says.
 fn reconcile(scene: &mut Scene) {
-    let Scene { bubbles, camera, motion, events, .. } = scene;
+    scene.generators.iter_mut().for_each(reconcile_generator);
+    let Scene { bubbles, generators, camera, motion, events, .. } = scene;
     if let [first, others @ ..] = &mut bubbles[..] {
         for other in others {
             (other.film.index, other.film.skin_nm) = (first.film.index.clone(), first.film.skin_nm);
@@ -134,6 +153,7 @@ fn reconcile(scene: &mut Scene) {
     }
     if bubbles.iter().any(|bubble| bubble.boundary == Boundary::Bath) {
         let height_m = bubbles[0].center_m[2];
+        generators.clear();
         for bubble in bubbles.iter_mut() {
             (bubble.boundary, bubble.center_m[2]) = (Boundary::Bath, height_m);
         }
@@ -168,6 +188,21 @@ fn reconcile(scene: &mut Scene) {
     if has_rim {
         motion.spin_deg_s = [0.0, 0.0, motion.spin_deg_s[2]];
         motion.flow = rimmed(motion.flow);
+    }
+}
+
+fn reconcile_generator(generator: &mut Generator) {
+    (generator.count, generator.films) = (generator.count.min(MAX_MADE), generator.films.min(MAX_FILMS));
+    generator.film.cells = generator.film.cells.min(MAX_CELLS);
+    if generator.film.state != FilmStateName::Uniform {
+        let thinnest = 1.0 - generator.thickness_spread;
+        generator.film.thickness_nm = generator.film.thickness_nm.max(1.0 / thinnest);
+    }
+    if generator.layout == Layout::Wand {
+        generator.life_s = generator.life_s.max(1e-3);
+        if generator.direction == [0.0; 3] {
+            generator.direction[2] = 1.0;
+        }
     }
 }
 
