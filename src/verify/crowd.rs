@@ -30,8 +30,10 @@ static LIMITS: Limits =
 static INTERSECTING: Limits =
     [(Quality::Fast, [1.3, 8.0]), (Quality::Standard, [0.5, 4.0]), (Quality::Spectral, [0.5, 4.0])];
 
-/// The same of small bubbles, whose walls are looked up in the table at all qualities; in spectral pictures bubbles are small only below 16 pixels.
-static SMALL: Limits = [(Quality::Fast, [1.3, 8.0]), (Quality::Standard, [1.0, 8.0]), (Quality::Spectral, [0.25, 3.5])];
+/// What is reached with small bubbles, whose walls are looked up in the table at all qualities, which mirror no others, and of which some intersect;
+/// in spectral pictures bubbles are small only below 16 pixels.
+static SMALL: Limits =
+    [(Quality::Fast, [1.6, 10.0]), (Quality::Standard, [1.6, 10.0]), (Quality::Spectral, [0.4, 6.0])];
 
 /// Random scenes of one kind.
 struct Kind {

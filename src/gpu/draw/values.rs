@@ -32,11 +32,11 @@ fn max_samples(quadrature: &Quadrature) -> u32 {
     (MAX_ITERATIONS / (quadrature.count + ITERATIONS_BESIDE_QUADRATURE)).isqrt()
 }
 
-/// Samples that all small bubbles of a picture may take: for the fast quality as many as a bubble takes that fills a picture.
+/// Samples that all small bubbles of a picture may take. In windows twice as many along each side change their error by less than a hundredth, for
+/// most of it is that of products of the table's colours.
 fn small_samples(quality: Quality) -> f64 {
     match quality {
-        Quality::Fast => 0.6e6,
-        Quality::Standard => 1.2e6,
+        Quality::Fast | Quality::Standard => 0.4e6,
         Quality::Spectral => 10e6,
     }
 }
