@@ -19,7 +19,7 @@ const SIZES: [[u32; 2]; 2] = [[1280, 720], [1920, 1080]];
 const SMOKE: [[u32; 2]; 1] = [[320, 180]];
 /// Frames of which the table of parts is the median.
 const ROUNDS: usize = 15;
-/// The same of the table of crowds, whose frames take longer.
+/// Frames of which each number in the table of crowds is the median: such a frame takes longer.
 const CROWD_ROUNDS: usize = 5;
 const PASSES: [&str; 7] = ["bake_table", "fit_quadrature", "seed_field", "step_field", "show_field", "draw", "tonemap"];
 

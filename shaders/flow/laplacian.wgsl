@@ -1,5 +1,7 @@
-// The Laplacian of the stream function that a pass works on, which it declares as `psi: array<f32>` in padded storage. Four cells of each of
-// two rows are done together: they share most of what they read, and reading is what a pass costs.
+// The Laplacian of the stream function that a pass works on, which it declares as `psi: array<f32>` in padded storage, with the grid's
+// `tangents: array<f32>`. Four cells of each of two rows are done together: they share most of what they read, and reading is what a pass costs.
+
+import package::sphere::cubed::{HALO, padded_index};
 
 // Four cells of a row and their neighbours along it: the cells 2 and 1 before each, itself, and 1 and 2 after.
 struct Row {
@@ -41,6 +43,22 @@ fn four_cells(rows: array<Row, 5>, along: vec4f, across: f32) -> FourCells {
     let delta2 = a + b - 1.0;
     let found = delta2 / a * by_aa + 2.0 * delta2 * along * across / (a * b) * by_ab + delta2 / b * by_bb;
     return FourCells(here, found, -2.5 * (delta2 / a + delta2 / b));
+}
+
+// An invocation's cells, four of each of two rows, and where each four begin in storage.
+struct EightCells {
+    at: vec2u,
+    rows: array<FourCells, 2>,
+}
+
+// Where eight cells do not divide a panel, the last ones overlap others, with the same answer.
+fn eight_cells(id: vec3u, cells: u32) -> EightCells {
+    let first = min(vec2u(4u, 2u) * id.xy, vec2u(cells) - vec2u(4u, 2u));
+    let k = first + HALO;
+    let side = cells + 2u * HALO;
+    let at = padded_index(id.z, i32(first.x), i32(first.y), cells);
+    let along = vec4f(tangents[k.x], tangents[k.x + 1u], tangents[k.x + 2u], tangents[k.x + 3u]);
+    return EightCells(vec2u(at, at + side), two_rows(at, side, along, vec2f(tangents[k.y], tangents[k.y + 1u])));
 }
 
 // Four cells of each of two rows from a place in storage, whose rows are `side` long.

@@ -21,9 +21,3 @@ struct Solve {
     // Of each film.
     systems: array<FilmSystem, 64>,
 }
-
-// The first of an invocation's cells, four of each of two rows. Where they do not divide a panel, the last ones overlap others, with the
-// same answer.
-fn first_of_eight(id: vec2u, cells: u32) -> vec2u {
-    return min(vec2u(4u, 2u) * id, vec2u(cells) - vec2u(4u, 2u));
-}

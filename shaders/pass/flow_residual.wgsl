@@ -1,8 +1,7 @@
 // What is left of f - (laplacian - k) psi on the finest grid. One invocation for four cells of each of two rows.
 
-import package::flow::laplacian::{FourCells, two_rows};
-import package::flow::solve::{FilmSystem, Solve, first_of_eight};
-import package::sphere::cubed::{HALO, padded_index};
+import package::flow::laplacian::{FourCells, eight_cells};
+import package::flow::solve::{FilmSystem, Solve};
 
 @group(0) @binding(0) var<uniform> solve: Solve;
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
@@ -24,13 +23,8 @@ fn flow_residual(@builtin(global_invocation_id) id: vec3u) {
     if (any(id.xy * vec2u(4u, 2u) >= vec2u(solve.cells))) {
         return;
     }
-    let first = first_of_eight(id.xy, solve.cells);
-    let k = first + HALO;
-    let at = padded_index(id.z, i32(first.x), i32(first.y), solve.cells);
-    let side = solve.cells + 2u * HALO;
-    let along = vec4f(tangents[k.x], tangents[k.x + 1u], tangents[k.x + 2u], tangents[k.x + 3u]);
-    let rows = two_rows(at, side, along, vec2f(tangents[k.y], tangents[k.y + 1u]));
+    let eight = eight_cells(id, solve.cells);
     let system = solve.systems[id.z / 6u];
-    find(at, rows[0], system);
-    find(at + side, rows[1], system);
+    find(eight.at.x, eight.rows[0], system);
+    find(eight.at.y, eight.rows[1], system);
 }

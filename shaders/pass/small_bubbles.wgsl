@@ -18,6 +18,9 @@ override TILE: u32;
 // Samples along each side of a pixel.
 override SAMPLES: u32;
 
+// 1: a bubble is a mirror with one environment lookup, the yardstick of the frame's cost.
+override YARDSTICK: u32;
+
 // The bubbles of a tile in `lists`.
 // Mirrors `SmallTile` in src/gpu/passes/small_bubbles.rs.
 struct Tile {
@@ -112,6 +115,10 @@ fn through_bubble(bubble: OtherBubble, path: Path, behind: vec3f) -> vec3f {
     let front = path.foot - path.cos_theta * path.direction;
     let back = path.foot + path.cos_theta * path.direction;
     let outward = path.direction + 2.0 * path.cos_theta * front;
+    let seen_outward = surroundings(path, outward, 2.0);
+    if (YARDSTICK == 1u) {
+        return light.seen * seen_outward;
+    }
     let inward = path.direction - 2.0 * path.cos_theta * back;
     let next = back + 2.0 * path.cos_theta * inward;
     let twice = inward - 2.0 * path.cos_theta * next;
@@ -126,7 +133,7 @@ fn through_bubble(bubble: OtherBubble, path: Path, behind: vec3f) -> vec3f {
     let over_white = 1.0 / (light.seen * vec3f(1.0));
     let ones = vec3f(1.0);
     let passed = passed_before(axes.index, path.cos_theta, over_white * (outer * ones), over_white * (inner * ones));
-    return behind + outer * (surroundings(path, outward, 2.0) - light_behind)
+    return behind + outer * (seen_outward - light_behind)
         + passed * (inner * (seen_inward + more - light_behind));
 }
 

@@ -48,7 +48,7 @@ fn locate(direction: vec3f, cells: u32) -> CubePoint {
     return CubePoint(panel, vec2f(cell_coordinate(tangent.x, cells), cell_coordinate(tangent.y, cells)));
 }
 
-// The same in the storage of many films, one after the other, whose panels are numbered on from film to film.
+// The cell of a direction in storage that holds many films, one after the other. Film 1 begins with panel 6.
 fn locate_in(film: u32, direction: vec3f, cells: u32) -> CubePoint {
     let at = locate(direction, cells);
     return CubePoint(6u * film + at.panel, at.cell);

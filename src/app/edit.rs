@@ -18,10 +18,8 @@ pub enum Edit {
     Light(Light),
     /// Another bubble in the place of one.
     Bubble(usize, Box<Bubble>),
-    /// A new list of bubbles.
-    Bubbles(Vec<Bubble>),
-    /// A new list of generators.
-    Generators(Vec<Generator>),
+    /// Another generator in the place of one.
+    Generator(usize, Box<Generator>),
     /// New lists of bubbles and of generators.
     Films(Vec<Bubble>, Vec<Generator>),
     /// Every film blown again, with a new seed for film and flow.
@@ -43,14 +41,11 @@ impl Edit {
             Self::Camera(camera) => Self::Camera(std::mem::replace(&mut scene.camera, camera)),
             Self::View(view) => Self::View(std::mem::replace(&mut scene.view, view)),
             Self::Light(light) => Self::Light(std::mem::replace(&mut scene.light, light)),
-            Self::Bubbles(bubbles) => Self::Bubbles(std::mem::replace(&mut scene.bubbles, bubbles)),
-            Self::Bubble(index, bubble) => Self::Bubbles(replace_bubble(scene, index, *bubble)),
-            Self::Reseed => {
-                let bubbles = scene.bubbles.iter().cloned().map(reseeded).collect();
-                let generators = scene.generators.iter().cloned().map(reseeded_generator).collect();
-                Self::Films(bubbles, generators).apply(scene, tick)
+            Self::Bubble(index, bubble) => change_films(scene, |scene| put(&mut scene.bubbles, index, *bubble)),
+            Self::Generator(index, generator) => {
+                change_films(scene, |scene| put(&mut scene.generators, index, *generator))
             }
-            Self::Generators(generators) => Self::Generators(std::mem::replace(&mut scene.generators, generators)),
+            Self::Reseed => change_films(scene, reseed),
             Self::Films(bubbles, generators) => Self::Films(
                 std::mem::replace(&mut scene.bubbles, bubbles),
                 std::mem::replace(&mut scene.generators, generators),
@@ -76,22 +71,25 @@ impl Edit {
     }
 }
 
-fn replace_bubble(scene: &mut Scene, index: usize, bubble: Bubble) -> Vec<Bubble> {
-    let before = scene.bubbles.clone();
-    if let Some(slot) = scene.bubbles.get_mut(index) {
-        *slot = bubble;
-    }
+/// Changes bubbles or generators, and returns what takes it back.
+fn change_films(scene: &mut Scene, change: impl FnOnce(&mut Scene)) -> Edit {
+    let before = Edit::Films(scene.bubbles.clone(), scene.generators.clone());
+    change(scene);
     before
 }
 
-fn reseeded(mut bubble: Bubble) -> Bubble {
-    bubble.film.seed = new_seed();
-    bubble
+/// Puts an item in the place of another, if there is one.
+fn put<T>(items: &mut [T], index: usize, item: T) {
+    if let Some(slot) = items.get_mut(index) {
+        *slot = item;
+    }
 }
 
-fn reseeded_generator(mut generator: Generator) -> Generator {
-    (generator.seed, generator.film.seed) = (new_seed(), new_seed());
-    generator
+fn reseed(scene: &mut Scene) {
+    scene.bubbles.iter_mut().for_each(|bubble| bubble.film.seed = new_seed());
+    for generator in &mut scene.generators {
+        (generator.seed, generator.film.seed) = (new_seed(), new_seed());
+    }
 }
 
 /// A seed that was not there before, short enough to be written down.
@@ -111,7 +109,7 @@ fn move_by(scene: &mut Scene, tick: u64, motion: Motion) {
     }
 }
 
-/// Whether a film of a scene begins otherwise than it did.
+/// Whether a film begins otherwise than it did, by the owners of all films.
 #[must_use]
 pub fn begins_anew(before: &[Bubble], after: &[Bubble]) -> bool {
     // What a film is made of, and the size and place of its bubble, shape no film at its beginning.
@@ -121,15 +119,6 @@ pub fn begins_anew(before: &[Bubble], after: &[Bubble]) -> bool {
         same
     };
     before.len() != after.len() || before.iter().zip(after).any(|(a, b)| a != b && beginning(a) != beginning(b))
-}
-
-/// Whether films that generators share begin otherwise than they did.
-#[must_use]
-pub fn shares_anew(before: &[Generator], after: &[Generator]) -> bool {
-    let owner = |generator: &Generator| Bubble { film: generator.film.clone(), ..Bubble::default() };
-    let owners = |generators: &[Generator]| generators.iter().map(owner).collect::<Vec<_>>();
-    let counts = |generators: &[Generator]| generators.iter().map(|generator| generator.films).collect::<Vec<_>>();
-    counts(before) != counts(after) || begins_anew(&owners(before), &owners(after))
 }
 
 #[cfg(test)]
@@ -142,14 +131,14 @@ mod tests {
     fn an_edit_returns_its_inverse() {
         let stirred = MotionChange { flow: Some(Flow::Stirred), ..MotionChange::default() };
         let events = vec![Event { tick: 30, change: Change::Motion(stirred) }];
-        let scene = Scene { events, ..Scene::default() };
+        let scene = Scene { events, generators: vec![Generator::default()], ..Scene::default() };
         let edits = [
             Edit::Camera(Camera { azimuth_deg: 77.0, ..Camera::default() }),
             Edit::View(View { quality: Quality::Fast, ..View::default() }),
             Edit::Light(Light { intensity: 3.0, ..Light::default() }),
             Edit::Bubble(0, Bubble { radius_mm: 10.0, ..Bubble::default() }.into()),
-            Edit::Bubbles(Vec::new()),
-            Edit::Generators(vec![Generator::default()]),
+            Edit::Films(Vec::new(), vec![Generator::default()]),
+            Edit::Generator(0, Generator { count: 7, ..Generator::default() }.into()),
             Edit::Reseed,
             Edit::Motion(Motion { drainage: 7.0, speed: 2.0, ..Motion::default() }.into()),
             Edit::Happens(Change::Prick(Prick::default())),

@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 use super::{
     clock::Clock,
     costs::Costs,
-    edit::{Edit, begins_anew, new_seed, shares_anew},
+    edit::{Edit, begins_anew, new_seed},
     keys::Action,
     messages::Messages,
     orbit,
@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     input::LoadedScene,
-    plan::{Resources, Story, settle_detail},
+    plan::{Resources, Story, film_owners, settle_detail},
     scene::{Light, Motion, MotionChange},
 };
 
@@ -188,13 +188,9 @@ impl Model {
             self.messages.problem(error.to_string());
             return false;
         }
-        let begins_anew = match &back {
-            Edit::Bubbles(before) => begins_anew(before, &self.scene.bubbles),
-            Edit::Films(..) => true,
-            Edit::Generators(before) => shares_anew(before, &self.scene.generators),
-            _ => false,
-        };
-        if begins_anew {
+        if let Edit::Films(bubbles, generators) = &back
+            && begins_anew(&film_owners(bubbles, generators), self.scene.owners())
+        {
             self.clock.reset();
         }
         true

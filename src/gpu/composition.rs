@@ -99,8 +99,17 @@ pub struct Placed {
 pub struct Composition {
     /// The place of each bubble of the picture's list.
     pub placed: Vec<Placed>,
-    /// Small bubbles by their layer and their material: their places in the picture's list of small ones, farthest first.
-    pub small: BTreeMap<[usize; 2], Vec<usize>>,
+    /// Small bubbles by their layer and their material, farthest first.
+    pub small: BTreeMap<[usize; 2], Vec<PlacedSmall>>,
+}
+
+/// A small bubble in the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedSmall {
+    /// Its place in the picture's list of small ones.
+    pub place: usize,
+    /// Its pixels.
+    pub rect: PixelRect,
 }
 
 impl Composition {
@@ -149,7 +158,7 @@ struct Stack<'a> {
     across: u32,
     tiles: Vec<TileState>,
     placed: Vec<Option<Placed>>,
-    small: BTreeMap<[usize; 2], Vec<usize>>,
+    small: BTreeMap<[usize; 2], Vec<PlacedSmall>>,
 }
 
 impl<'a> Stack<'a> {
@@ -196,7 +205,7 @@ impl<'a> Stack<'a> {
         let Some(layer) = rect.tiles(self.across).map(|tile| layer_of(&self.tiles[tile])).max() else { return };
         let state = TileState { free: layer + 1, small: Some([layer, material]) };
         rect.tiles(self.across).for_each(|tile| self.tiles[tile] = state);
-        self.small.entry([layer, material]).or_default().push(place);
+        self.small.entry([layer, material]).or_default().push(PlacedSmall { place, rect });
     }
 }
 

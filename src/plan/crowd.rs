@@ -1,11 +1,11 @@
 //! Bubbles of generators: which of them are in sight, and the films that they share.
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec2};
 
 use super::{
-    BubbleKey, CameraKey, FilmKey, LentFilm, Shot, SmallBubble, Story,
+    BubbleKey, CameraKey, LentFilm, Shot, SmallBubble, Story,
     lender::Lender,
-    sight::{SMALLEST_FIELD_PIXELS, bounds, is_filtered, is_magnified},
+    sight::{bounds, is_filtered, is_magnified},
 };
 use crate::{
     physics::bubble::{Member, reach},
@@ -47,7 +47,7 @@ pub(super) fn in_sight(story: &Story, camera: &CameraKey, shot: &Shot) -> InSigh
         // The place in the list of each of its films, once one is shown.
         let mut places: Vec<Option<usize>> = vec![None; lender.swarm.lending.films as usize];
         for member in lender.swarm.at(time_s) {
-            let Some((corners, radius_pixels)) = seen(camera, shot, member.center_m, member.radius_m) else { continue };
+            let Some(seen) = Seen::of(lender, &member, camera, shot) else { continue };
             let film = member.film as usize;
             if places[film].is_none() {
                 let Some(lent) = lent_film(story, lender, film, shot) else { continue };
@@ -55,11 +55,10 @@ pub(super) fn in_sight(story: &Story, camera: &CameraKey, shot: &Shot) -> InSigh
                 sight.lent.push(lent);
             }
             let Some(place) = places[film] else { continue };
-            let is_near = member.center_m.distance(camera.eye_m) < NEAR_RADII * member.radius_m;
-            if radius_pixels < small_below_pixels(story.view.quality) && !is_near {
-                sight.small.push(small(&member, place, corners));
+            if seen.is_small(&member, camera, story.view.quality) {
+                sight.small.push(small(&member, place, seen.bounds));
             } else {
-                sight.bubbles.extend(large(lender, &member, &sight.lent[place], camera, shot, corners, radius_pixels));
+                sight.bubbles.push(large(&member, &sight.lent[place], &seen, camera));
             }
         }
     }
@@ -75,14 +74,31 @@ fn farthest_first(small: &[SmallBubble], camera: &CameraKey) -> Vec<SmallBubble>
     order.into_iter().map(|(_, place)| small[place]).collect()
 }
 
-/// The bounding rectangle and the radius in pixels of a bubble that can be seen.
-fn seen(camera: &CameraKey, shot: &Shot, center_m: DVec3, radius_m: f64) -> Option<([DVec2; 2], f64)> {
-    let distance_m = center_m.distance(camera.eye_m).max(radius_m);
-    let radius_pixels = radius_m / distance_m / camera.pixel_height_m;
-    if radius_pixels < INVISIBLE_PIXELS {
-        return None;
+/// What a picture can see of a bubble.
+struct Seen {
+    stretch: DMat3,
+    /// Bounding rectangle in clip coordinates.
+    bounds: [DVec2; 2],
+    radius_pixels: f64,
+}
+
+impl Seen {
+    fn of(lender: &Lender, member: &Member, camera: &CameraKey, shot: &Shot) -> Option<Self> {
+        let (center_m, radius_m) = (member.center_m, member.radius_m);
+        let radius_pixels = radius_m / center_m.distance(camera.eye_m).max(radius_m) / camera.pixel_height_m;
+        if radius_pixels < INVISIBLE_PIXELS {
+            return None;
+        }
+        let stretch = lender.swarm.shape(member).stretch();
+        let reach = if stretch == DMat3::IDENTITY { 1.0 } else { reach(stretch) };
+        Some(Self { stretch, bounds: bounds(camera, shot.size, center_m, radius_m * reach)?, radius_pixels })
     }
-    Some((bounds(camera, shot.size, center_m, radius_m)?, radius_pixels))
+
+    /// Whether it is drawn as a small bubble.
+    fn is_small(&self, member: &Member, camera: &CameraKey, quality: Quality) -> bool {
+        self.radius_pixels < small_below_pixels(quality)
+            && member.center_m.distance(camera.eye_m) > NEAR_RADII * member.radius_m
+    }
 }
 
 /// One of a generator's films at the moment of a shot.
@@ -111,32 +127,13 @@ fn small(member: &Member, lent: usize, bounds: [DVec2; 2]) -> SmallBubble {
     }
 }
 
-fn large(
-    lender: &Lender,
-    member: &Member,
-    lent: &LentFilm,
-    camera: &CameraKey,
-    shot: &Shot,
-    corners: [DVec2; 2],
-    radius_pixels: f64,
-) -> Option<BubbleKey> {
-    let (center_m, radius_m) = (member.center_m, member.radius_m);
-    let stretch = lender.swarm.shape(member).stretch();
-    let bounds = match stretch == DMat3::IDENTITY {
-        true => corners,
-        false => bounds(camera, shot.size, center_m, radius_m * reach(stretch))?,
-    };
-    let bubble = small(member, 0, corners).whole(lent, camera);
-    let film = match bubble.film {
-        FilmKey::Field(field) if radius_pixels < SMALLEST_FIELD_PIXELS => FilmKey::Uniform(field.initial.mean_nm()),
-        film => film,
-    };
-    Some(BubbleKey {
-        stretch,
-        bounds,
-        filtered: is_filtered(&film, radius_pixels),
-        magnified: is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m)),
-        film,
+fn large(member: &Member, lent: &LentFilm, seen: &Seen, camera: &CameraKey) -> BubbleKey {
+    let bubble = small(member, 0, seen.bounds).whole(lent, camera);
+    let distance_m = member.center_m.distance(camera.eye_m);
+    BubbleKey {
+        stretch: seen.stretch,
+        filtered: is_filtered(&bubble.film, seen.radius_pixels),
+        magnified: is_magnified(&bubble.film, member.radius_m, seen.radius_pixels, distance_m),
         ..bubble
-    })
+    }
 }

@@ -26,7 +26,7 @@ pub fn film_grids(scene: &Scene, index: usize) -> [u32; 2] {
     grids(&bubble.film, settled(scene, index, bubble))
 }
 
-/// The same of a film that bubbles share, which is seen on small ones most of the time.
+/// Cells along a panel's edge of a film that bubbles share, and of its flow. It is seen on small bubbles most of the time.
 pub(super) fn shared_grids(film: &Film) -> [u32; 2] {
     grids(film, if film.detail == Detail::Auto { Detail::Half } else { film.detail })
 }

@@ -63,12 +63,17 @@ impl Lender {
     }
 }
 
-/// Bubbles in whose place the films of a generator move: of its mean size, where it is.
-pub(super) fn owners(generator: &Generator) -> impl Iterator<Item = Bubble> {
-    (0..generator.films).map(|number| Bubble {
-        center_m: generator.center_m,
-        radius_mm: generator.radius_mm,
-        film: Film { seed: generator.film.seed.wrapping_add(number.into()), ..generator.film.clone() },
-        ..Bubble::default()
-    })
+/// The bubbles of a scene, and then one for each film that its generators lend, of the generator's mean size and where it is: the index of a film is
+/// that of its owner.
+#[must_use]
+pub fn film_owners(bubbles: &[Bubble], generators: &[Generator]) -> Vec<Bubble> {
+    let lent = generators.iter().flat_map(|generator| {
+        (0..generator.films).map(|number| Bubble {
+            center_m: generator.center_m,
+            radius_mm: generator.radius_mm,
+            film: Film { seed: generator.film.seed.wrapping_add(number.into()), ..generator.film.clone() },
+            ..Bubble::default()
+        })
+    });
+    bubbles.iter().cloned().chain(lent).collect()
 }

@@ -30,6 +30,7 @@ pub use keys::{
     FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey,
     QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
 };
+pub use lender::film_owners;
 pub use pass::{Pass, Reason};
 pub use request::{Resources, SpectralLight, request};
 pub use shot::Shot;

@@ -9,7 +9,7 @@ use super::{
     detail::{film_grids, shared_grids},
     films::{film, has_field},
     laws::courses,
-    lender::{Lender, owners},
+    lender::{Lender, film_owners},
     turns::Turns,
 };
 use crate::{
@@ -72,7 +72,7 @@ impl Story {
         self.plot().turns.at(ticks)
     }
 
-    /// The bubbles of the scene, and then one for each film that generators lend: the index of a film is that of its owner.
+    /// The owners of all films: see [`film_owners`].
     #[must_use]
     pub fn owners(&self) -> &[Bubble] {
         &self.plot().owners
@@ -150,17 +150,18 @@ impl Plot {
     fn new(scene: &Scene) -> Self {
         let motions = scene.motions().collect();
         let turns = Turns::new(&motions, scene.motion.tick_s);
-        let (mut all, mut lenders) = (scene.bubbles.clone(), Vec::new());
-        for generator in &scene.generators {
-            lenders.push(Lender::new(generator, all.len(), scene.motion.tick_s));
-            all.extend(owners(generator));
-        }
-        let mut courses = courses(&all, &scene.events, &motions, &turns).into_iter();
+        let owners = film_owners(&scene.bubbles, &scene.generators);
+        let lenders = scene.generators.iter().scan(scene.bubbles.len(), |owner, generator| {
+            let first_owner = std::mem::replace(owner, *owner + generator.films as usize);
+            Some(Lender::new(generator, first_owner, scene.motion.tick_s))
+        });
+        let lenders: Vec<Lender> = lenders.collect();
+        let mut courses = courses(&owners, &scene.events, &motions, &turns).into_iter();
         let mut life_cycles: Vec<LifeCycle> = courses.by_ref().take(scene.bubbles.len()).map(LifeCycle::new).collect();
         let renewals = lenders.iter().flat_map(Lender::renewals);
         life_cycles.extend(courses.zip(renewals).map(|(course, renewal)| LifeCycle::shared(course, renewal)));
         let source = (scene.motion.clone(), scene.bubbles.clone(), scene.generators.clone(), scene.events.clone());
-        Self { source, owners: all, lenders, motions, turns, life_cycles }
+        Self { source, owners, lenders, motions, turns, life_cycles }
     }
 
     /// Whether it follows from a scene.

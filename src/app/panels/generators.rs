@@ -24,13 +24,13 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         slider(ui, "Generator", &mut number, 1..=count, "The generator to edit", |slider| slider);
         model.selected_generator = number - 1;
     }
-    let mut edited = model.scene.generators.clone();
-    let Some(generator) = edited.get_mut(model.selected_generator) else { return };
-    bubbles(ui, generator);
-    way(ui, generator);
-    film::film(ui, &mut generator.film);
-    if edited != model.scene.generators {
-        model.edit(Edit::Generators(edited));
+    let Some(generator) = model.scene.generators.get(model.selected_generator) else { return };
+    let mut edited = generator.clone();
+    bubbles(ui, &mut edited);
+    way(ui, &mut edited);
+    film::film(ui, &mut edited.film);
+    if edited != *generator {
+        model.edit(Edit::Generator(model.selected_generator, edited.into()));
     }
 }
 

@@ -60,7 +60,7 @@ pub fn strips([width, height]: [u32; 2]) -> impl Iterator<Item = std::ops::Range
 /// The uniforms and bind groups of one picture, made once and used for each of its strips.
 pub struct DrawPass {
     backdrop: BackdropDraw,
-    /// Bubbles that do not overlap; the layers behind first.
+    /// The farthest first. Bubbles of one layer do not overlap, but for small ones, which are drawn in their order.
     layers: Vec<Layer>,
     width: u32,
 }
@@ -86,6 +86,29 @@ enum BackdropDraw {
     Colour(wgpu::Color),
 }
 
+impl BackdropDraw {
+    fn new(
+        gpu: &Gpu,
+        key: &DrawKey,
+        lighting: &Lighting,
+        (view, light, environment): (&UniformBuffer<ViewUniform>, &UniformBuffer<LightUniform>, &Environment),
+    ) -> Result<Self, GpuError> {
+        if let (BackdropKey::Colour(radiance), false) = (&lighting.light.backdrop, key.on_bath) {
+            return Ok(Self::Colour(backdrop_colour(key, lighting, *radiance)));
+        }
+        let backdrop = Backdrop {
+            ON_BATH: key.on_bath,
+            FULL_PRECISION: key.full_precision,
+            BACKDROP_IS_ENVIRONMENT: lighting.light.backdrop == BackdropKey::Environment,
+            view,
+            light,
+            environment: &environment.view,
+            environment_sampler: &environment.sampler,
+        };
+        Ok(Self::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?))
+    }
+}
+
 /// What all bubbles of a picture are drawn with.
 struct Shared<'a> {
     key: &'a DrawKey,
@@ -98,6 +121,8 @@ struct Shared<'a> {
     so_far: &'a wgpu::TextureView,
     others: Others,
     films: &'a wgpu::TextureView,
+    /// All small bubbles.
+    small: wgpu::Buffer,
 }
 
 /// All bubbles as others show them, and which of them each bubble has to do with.
@@ -152,21 +177,7 @@ impl DrawPass {
         }
         let view = gpu.uniform("view", &view_uniform(key));
         let light = gpu.uniform("light", &light_uniform(lighting, key.exposed_ev));
-        let DrawInputs { environment, .. } = *inputs;
-        let backdrop = if let (BackdropKey::Colour(radiance), false) = (&lighting.light.backdrop, key.on_bath) {
-            BackdropDraw::Colour(backdrop_colour(key, lighting, *radiance))
-        } else {
-            let backdrop = Backdrop {
-                ON_BATH: key.on_bath,
-                FULL_PRECISION: key.full_precision,
-                BACKDROP_IS_ENVIRONMENT: lighting.light.backdrop == BackdropKey::Environment,
-                view: &view,
-                light: &light,
-                environment: &environment.view,
-                environment_sampler: &environment.sampler,
-            };
-            BackdropDraw::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?)
-        };
+        let backdrop = BackdropDraw::new(gpu, key, lighting, (&view, &light, inputs.environment))?;
         let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0] };
         let table_sampler = table_sampler(gpu);
         let [behind, so_far] = inputs.drawn.map(|target| &target.view);
@@ -176,27 +187,29 @@ impl DrawPass {
             lighting,
             view,
             light,
-            environment,
+            environment: inputs.environment,
             table_sampler,
             behind,
             so_far,
             others,
             films: &inputs.atlas.view,
+            small: gpu.storage("small bubbles", &small_bubbles(key, lighting, inputs.atlas)),
         };
         // Fills the binding where the quality has no table.
         let unread = |films: &FilmColours| films.table.is_none().then(|| Table::unread(gpu, &films.quadrature.optics));
         let unread: Vec<Option<Table>> = lighting.films.iter().map(unread).collect();
         let (no_film, no_hole) = (NoFilm::new(gpu), OpenHole::new(gpu));
         pass.layers.resize_with(inputs.composition.layers(), Layer::default);
+        let colours = |material: usize| {
+            let (table, quadrature) = (inputs.colours)(material)?;
+            Some(Colours { films: &lighting.films[material], table: unread[material].as_ref().or(table)?, quadrature })
+        };
         for (place, (bubble, placed)) in key.bubbles.iter().zip(&inputs.composition.placed).enumerate() {
-            let Some((table, quadrature)) = (inputs.colours)(bubble.material) else { continue };
-            let films = &lighting.films[bubble.material];
-            let Some(table) = unread[bubble.material].as_ref().or(table) else { continue };
-            let colours = Colours { films, table, quadrature };
+            let Some(colours) = colours(bubble.material) else { continue };
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
             let first_other = shared.others.first[place];
-            for ring in bubble_rings(key, bubble, films) {
+            for ring in bubble_rings(key, bubble, colours.films) {
                 let vertices = if ring.edges_rad.is_some() { 2 * (SIDES + 1) } else { 3 };
                 let drawn = Drawn { bubble, placed, first_other, ring: &ring, colours: &colours, film: &film, hole };
                 pass.layers[placed.layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
@@ -206,10 +219,9 @@ impl DrawPass {
                 pass.layers[placed.layer].so_far.push(placed.rect.clone());
             }
         }
-        let all = small_bubbles(key, lighting, inputs.atlas);
-        for ([layer, material], places) in &inputs.composition.small {
-            let Some((Some(table), _)) = (inputs.colours)(*material) else { continue };
-            let small = shared.small(gpu, table, &all, places)?;
+        for ([layer, material], bubbles) in &inputs.composition.small {
+            let Some(colours) = colours(*material) else { continue };
+            let small = shared.small(gpu, &colours, bubbles)?;
             pass.layers[*layer].behind.extend(small.rects.iter().cloned());
             pass.layers[*layer].small.push(small);
         }
@@ -263,7 +275,7 @@ fn copy_part(encoder: &mut wgpu::CommandEncoder, from: &Target, to: &Target, par
 impl Shared<'_> {
     /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
-        let Self { key, lighting, view, light, environment, table_sampler, behind, so_far, others, films } = self;
+        let Self { key, lighting, view, light, environment, table_sampler, behind, so_far, others, films, .. } = self;
         let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
         let bubble = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
         let part = &gpu.storage("part of the lists", &[list_part(drawn)]);

@@ -1,14 +1,13 @@
 //! Small bubbles of one layer and one material: which tiles show which of them.
 
-use super::{Shared, values::max_small_samples};
+use super::{Colours, Shared, values::max_small_samples};
 use crate::gpu::{
-    composition::PixelRect,
+    composition::{PixelRect, PlacedSmall},
     device::{Gpu, GpuError},
     formats::radiance_format,
     kernel::Drawable,
     passes::{
-        bake_table::{Table, TableOverrides},
-        bubble::OtherBubble,
+        bake_table::TableOverrides,
         small_bubbles::{SmallBubbles, SmallTile, TILE},
     },
 };
@@ -23,12 +22,12 @@ struct TileLists {
 }
 
 impl TileLists {
-    /// The lists of bubbles, by their places and the pixels that may show each, in the order in which they are drawn.
-    fn new(bubbles: &[(usize, PixelRect)], [width, height]: [u32; 2]) -> Self {
+    /// The lists of bubbles, in the order in which they are drawn.
+    fn new(bubbles: &[PlacedSmall], [width, height]: [u32; 2]) -> Self {
         let [across, down] = [width, height].map(|pixels| pixels.div_ceil(TILE));
         // After the last bubble of each tile: first how many, then where.
         let mut ends = vec![0; (across * down) as usize];
-        for (_, rect) in bubbles {
+        for PlacedSmall { rect, .. } in bubbles {
             rect.tiles(across).for_each(|tile| ends[tile] += 1);
         }
         let mut tiles = Vec::with_capacity(ends.len());
@@ -38,7 +37,7 @@ impl TileLists {
             (*end, sum) = (sum, sum + *end);
         }
         let mut lists = vec![0; sum as usize];
-        for (place, rect) in bubbles {
+        for PlacedSmall { place, rect } in bubbles {
             for tile in rect.tiles(across) {
                 lists[ends[tile] as usize] = *place as u32;
                 ends[tile] += 1;
@@ -82,24 +81,20 @@ pub(super) struct SmallDraw {
 }
 
 impl Shared<'_> {
-    /// Makes some of all small bubbles ready, by their places.
+    /// Makes some small bubbles ready, whose films have these colours.
     pub(super) fn small(
         &self,
         gpu: &Gpu,
-        table: &Table,
-        all: &[OtherBubble],
-        places: &[usize],
+        Colours { films, table, .. }: &Colours<'_>,
+        bubbles: &[PlacedSmall],
     ) -> Result<SmallDraw, GpuError> {
         let key = self.key;
-        let rects = places.iter().map(|place| (*place, PixelRect::around(key.small[*place].bounds, key.size)));
-        let rects: Vec<(usize, PixelRect)> = rects.collect();
-        let lists = TileLists::new(&rects, key.size);
-        let material = key.lent[key.small[places[0]].lent].material;
-        let films = &self.lighting.films[material];
+        let lists = TileLists::new(bubbles, key.size);
         let coloured = films.table.as_ref().is_some_and(|table| table.coloured);
         let small = SmallBubbles {
             SAMPLES: max_small_samples(key, films.quadrature.quality, lists.most()),
             FULL_PRECISION: key.full_precision,
+            YARDSTICK: key.yardstick,
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: self.lighting.light.polariser.is_some() },
             view: &self.view,
             light: &self.light,
@@ -109,7 +104,7 @@ impl Shared<'_> {
             table: &table.view,
             table_sampler: &self.table_sampler,
             films: self.films,
-            bubbles: &gpu.storage("small bubbles", all),
+            bubbles: &self.small,
             lists: &gpu.storage("lists of small bubbles", &lists.lists),
             tiles: &gpu.storage("tiles", &lists.tiles),
             picture_behind: self.behind,
@@ -127,6 +122,7 @@ mod tests {
     fn each_tile_lists_its_bubbles_in_their_order() {
         let rect = |columns, rows| PixelRect { columns, rows };
         let bubbles = [(5, rect(0..17, 0..4)), (2, rect(20..40, 3..20)), (9, rect(30..33, 0..16))];
+        let bubbles = bubbles.map(|(place, rect)| PlacedSmall { place, rect });
         let lists = TileLists::new(&bubbles, [44, 32]);
         let of = |tile: usize| &lists.lists[lists.tiles[tile].first as usize..lists.tiles[tile].end as usize];
         assert_eq!(

@@ -28,7 +28,7 @@ impl MovingFilm {
     }
 }
 
-/// Moves films, whose histories have the same steps, through some ticks; what is recorded goes out in submissions of at most so many steps.
+/// Moves films through some ticks. Their histories have the same steps. A submission takes `steps_per_submission` steps at most.
 pub fn play_together(
     gpu: &Gpu,
     members: &mut [Member<'_>],

@@ -31,6 +31,7 @@ kernels! {
         const BACKDROP_IS_ENVIRONMENT: bool = false;
         override SAMPLES: u32 in [1, 4];
         override FULL_PRECISION: bool;
+        override YARDSTICK: bool;
         overrides table_kind: TableOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! T is its inertia (of the air in it, of half as much around it, and of its film) over its drag, linear around a speed U with the drag
-//! coefficient c of a sphere (Clift, Grace & Weber 1978, Bubbles, Drops and Particles, ch. 5). On top come slow gusts: a displacement that is
-//! the same for all bubbles at one place, a sum of transverse waves and so free of divergence.
+//! coefficient c of a sphere (Clift, Grace & Weber 1978, Bubbles, Drops and Particles, ch. 5). Slow gusts come on top: they
+//! displace all bubbles at one place alike. They are a sum of transverse waves, so they bring no air together.
 
 use std::f64::consts::TAU;
 

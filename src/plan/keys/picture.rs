@@ -273,7 +273,7 @@ impl DrawKey {
         bubbles.chain(self.lent.iter().map(|lent| (lent.index, &lent.film)))
     }
 
-    /// The same to be changed.
+    /// The films of all bubbles in sight, to be changed: see [`Self::films`].
     pub fn films_mut(&mut self) -> impl Iterator<Item = (usize, &mut FilmKey)> {
         let bubbles = self.bubbles.iter_mut().map(|bubble| (bubble.index, &mut bubble.film));
         bubbles.chain(self.lent.iter_mut().map(|lent| (lent.index, &mut lent.film)))
