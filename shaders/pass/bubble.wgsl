@@ -2,9 +2,9 @@
 // wall with the thickness at its own hit.
 
 import package::camera::view::{View, clip_position, pixel_angle, view_plane};
-import package::film::control::{Balance, balanced};
-import package::film::hole::{HOLE_MERIDIANS, Rim, TAU, angle_from, meridian_of, mixed, pierced};
-import package::film::shown::film_at;
+import package::film::control::Balance;
+import package::film::hole::{Rim, TAU};
+import package::film::wall::optical_nm;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
 import package::light::others::{AMONG_OTHERS, mirrored_light, passed_others};
 import package::light::stored::storable;
@@ -16,27 +16,16 @@ import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls};
 import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
-import package::sphere::lookup::{map_at, tracer_at};
 import package::sphere::others::OtherBubble;
 import package::sphere::path::{Path, footprint, polarisation_along};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
-// 1: the film has one thickness everywhere, and no field is read.
-override UNIFORM_FILM: u32;
-// 1: cells are larger than pixels, and the film is looked up through its flow map at each of them.
-override MAGNIFIED: u32;
 // Samples along each side of a pixel: 1, or more near the outline, and for bubbles of a few pixels, whose film is finer than a pixel.
 override SAMPLES: u32;
 // 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
 override OUTLINE: u32;
 // 1: the bubble is an ellipsoid. It is traced where it is round: `unstretch` takes the picture there, `stretch` back.
 override STRETCHED: u32;
-// 1: the bubble bursts, and its film has a hole.
-override BURST: u32;
-// 1: the film has skins of soap on both faces.
-override SKINS: u32;
-// 1: the film ends at a ring.
-override ON_RING: u32;
 // 1: the eye is inside the bubble.
 override INSIDE: u32;
 // 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
@@ -145,60 +134,6 @@ fn from_round(vector: vec3f) -> vec3f {
 @vertex
 fn everywhere(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
-}
-
-fn map_value(unused: u32, place: u32) -> vec4f {
-    return film_map[place];
-}
-
-fn tracer_value(place: u32) -> f32 {
-    return film_tracer[place];
-}
-
-// The tracer of the last remap, through the flow map: as sharp as what is known of the film.
-fn film_through_map(direction: vec3f) -> f32 {
-    let origin = map_at(0u, direction, bubble.map_cells).xyz;
-    return balanced(tracer_at(origin, bubble.tracer_cells), film_balance);
-}
-
-// Thickness at a point of the unit sphere.
-fn thickness_nm(place: vec3f) -> f32 {
-    if (ON_RING == 1u && place.z < bubble.rim_z) {
-        return 0.0;
-    }
-    let point = upward(place);
-    var thickness_nm = bubble.thickness_nm;
-    if (UNIFORM_FILM == 0u) {
-        let direction = bubble.to_film * point;
-        if (MAGNIFIED == 1u) {
-            thickness_nm = film_through_map(direction);
-        } else {
-            thickness_nm = film_at(film, direction, bubble.cells);
-        }
-    }
-    thickness_nm *= bubble.thickness_factor;
-    thickness_nm = max(thickness_nm - bubble.evaporated_nm, min(thickness_nm, bubble.black_nm));
-    if (BURST == 1u) {
-        return with_hole(bubble.to_film * point, thickness_nm);
-    }
-    return thickness_nm;
-}
-
-fn with_hole(direction: vec3f, thickness_nm: f32) -> f32 {
-    let middle = hole_middle.xyz;
-    let meridian = meridian_of(direction, middle);
-    let low = hole_rim[u32(meridian) % HOLE_MERIDIANS];
-    let high = hole_rim[(u32(meridian) + 1u) % HOLE_MERIDIANS];
-    return pierced(mixed(low, high, fract(meridian)), angle_from(direction, middle), thickness_nm);
-}
-
-// The thickness of the plain film that looks like the one at a point of the unit sphere.
-fn optical_nm(direction: vec3f) -> f32 {
-    let nm = thickness_nm(direction);
-    if (SKINS == 0u) {
-        return nm;
-    }
-    return nm + bubble.extra_nm * min(nm / bubble.skins_nm, 1.0);
 }
 
 fn backdrop(direction: vec3f, footprint: f32) -> vec3f {

@@ -2,6 +2,7 @@
 
 mod noise;
 mod park;
+mod photographer;
 mod shape;
 mod softbox;
 mod studio;

@@ -10,15 +10,22 @@
 //! coefficient c of a sphere (Clift, Grace & Weber 1978, Bubbles, Drops and Particles, ch. 5). Slow gusts come on top: they
 //! displace all bubbles at one place alike. They are a sum of transverse waves, so they bring no air together.
 
+mod gust;
+mod lending;
+
 use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
+
+pub use lending::Lending;
 
 use super::shape::{Oscillator, Shape, traceless};
 use crate::physics::film::{
     pcg3d,
     properties::{AIR_DENSITY, DENSITY},
 };
+use gust::{GUSTS, Gust};
+use lending::LIVES;
 
 /// Drag coefficient of a sphere at Reynolds numbers of some hundreds.
 const DRAG: f64 = 0.5;
@@ -26,8 +33,6 @@ const DRAG: f64 = 0.5;
 const DRAG_SPEED_M_S: f64 = 0.3;
 /// How long a bubble takes to be blown, s.
 const BLOWN_S: f64 = 0.4;
-/// Lives last for a part of their mean between these.
-const LIVES: [f64; 2] = [0.6, 1.4];
 /// How fast bubbles leave a wand, over the mean.
 const SPEEDS: [f64; 2] = [0.8, 1.2];
 /// Time after which gusts carry a bubble that has begun to move with the wand's air, s.
@@ -80,41 +85,6 @@ pub struct Swarm {
     pub wander_m: f64,
     /// By how much a bubble is longer than round when it leaves a wand.
     pub wobble: f64,
-}
-
-/// How films are lent to bubbles. A film is blown anew from time to time, at other times than the others, and a bubble shows the one that was blown
-/// last before the bubble, so that no film changes while it is seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lending {
-    /// How many films there are.
-    pub films: u32,
-    /// Mean life of a bubble, s; none if all stay.
-    pub life_s: Option<f64>,
-    /// Length of a tick, s.
-    pub tick_s: f64,
-}
-
-impl Lending {
-    /// Ticks between the beginnings of two films; none if films go on for ever.
-    #[must_use]
-    pub fn interval_ticks(&self) -> Option<u64> {
-        let longest_s = LIVES[1] * self.life_s?;
-        let others = self.films.checked_sub(1).filter(|others| *others > 0)?;
-        Some((longest_s / self.tick_s / f64::from(others)).ceil().max(1.0) as u64)
-    }
-
-    /// The film that a bubble shows which begins at a time in seconds, by a random number where the time leaves a choice.
-    fn film(&self, born_s: f64, choice: f64) -> u32 {
-        match self.interval_ticks() {
-            Some(interval) if born_s >= 0.0 => {
-                ((born_s / self.tick_s) as u64 / interval % u64::from(self.films)) as u32
-            }
-            // These two are not blown anew while a bubble lives that was there at the beginning.
-            Some(_) if choice < 0.5 => self.films - 1,
-            Some(_) => 0,
-            None => ((choice * f64::from(self.films)) as u32).min(self.films - 1),
-        }
-    }
 }
 
 /// One bubble of a swarm at a moment.
@@ -178,7 +148,7 @@ impl Swarm {
             lattice: self.lattice(),
             gap: f64::from(self.count).cbrt().recip(),
             first: unit(pcg3d([self.seed, 0, 0xe000_0000])),
-            gusts: std::array::from_fn(|number| Gust::new(self, number as u32)),
+            gusts: std::array::from_fn(|number| Gust::new(self.seed, number as u32, self.wander_m)),
         };
         (0..self.count).filter_map(move |slot| self.member(slot, time_s, &common))
     }
@@ -283,54 +253,6 @@ impl Swarm {
         // Golden ratio: bubbles of one slot have nothing to do with those of another.
         let life = (generation as u32).wrapping_mul(0x9e37_79b9) ^ ((purpose as u32) << 28);
         unit(pcg3d([self.seed, slot, life]))
-    }
-}
-
-/// How many waves gusts are made of.
-const GUSTS: usize = 3;
-/// The longest wave of the gusts over their amplitude, so that bubbles do not pass each other, and the shortest over the longest.
-const GUST_WAVES: [f64; 2] = [16.0, 0.5];
-/// The longest period of the gusts, s, and the shortest over the longest.
-const GUST_PERIODS: [f64; 2] = [9.0, 0.5];
-
-/// A transverse wave of air.
-#[derive(Clone, Copy, Debug)]
-struct Gust {
-    /// What it displaces by at its crest, m.
-    crest_m: DVec3,
-    /// Wave vector, 1/m.
-    wave_1_m: DVec3,
-    /// Angular frequency, 1/s.
-    frequency_1_s: f64,
-    phase: f64,
-}
-
-impl Gust {
-    fn new(swarm: &Swarm, number: u32) -> Self {
-        let random = |k: u32| unit(pcg3d([swarm.seed, number, 0xf000_0000 | k]));
-        let [height, around, phase] = random(0);
-        let [turn, length, period] = random(1);
-        let z = 2.0 * height - 1.0;
-        let (y, x) = (TAU * around).sin_cos();
-        let along = DVec3::new((1.0 - z * z).sqrt() * x, (1.0 - z * z).sqrt() * y, z);
-        let (sin, cos) = (TAU * turn).sin_cos();
-        let right = along.any_orthonormal_vector();
-        let across = cos * right + sin * along.cross(right);
-        let wavelength_m = GUST_WAVES[0] * swarm.wander_m.max(1e-6) * (1.0 - GUST_WAVES[1] * length);
-        let period_s = GUST_PERIODS[0] * (1.0 - GUST_PERIODS[1] * period);
-        Self {
-            crest_m: across * swarm.wander_m / (GUSTS as f64).sqrt(),
-            wave_1_m: along * TAU / wavelength_m,
-            frequency_1_s: TAU / period_s,
-            phase: TAU * phase,
-        }
-    }
-
-    fn at(&self, place_m: DVec3, time_s: f64) -> DVec3 {
-        if self.crest_m == DVec3::ZERO {
-            return DVec3::ZERO;
-        }
-        self.crest_m * (self.wave_1_m.dot(place_m) - self.frequency_1_s * time_s + self.phase).sin()
     }
 }
 

@@ -1,5 +1,7 @@
 //! Walks a plan: owns the products, records each pass from its key, and keeps the record of what is on the GPU.
 
+mod films;
+
 use std::{collections::BTreeMap, ops::Range};
 
 use glam::DVec3;
@@ -10,7 +12,7 @@ use super::{
     device::{Gpu, GpuError},
     draw::{DrawInputs, DrawPass, pixels_shaded, strips},
     environment::Environment,
-    film::{Company, Field, MovingFilm, play_together, rules},
+    film::{Company, MovingFilm},
     film_atlas::FilmAtlas,
     formats::{PICTURE_FORMAT, radiance_format},
     passes::{add_light::add_light, bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
@@ -22,11 +24,8 @@ use super::{
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{DrawKey, FieldKey, FilmKey, FrameRequest, GpuState, OpenHoleKey, Pass, Plan, TableKey, TonemapKey, plan},
+    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pass, Plan, TableKey, TonemapKey, plan},
 };
-
-/// Cells stepped in one submission, so that none runs long: about 50 ms on a software rasteriser.
-const CELLS_PER_SUBMISSION: u64 = 1_600_000;
 
 /// Everything that is on the device.
 #[derive(Default)]
@@ -253,78 +252,6 @@ impl Renderer {
             let colours = self.colours(place);
             colours.table = colours.baking.take();
         }
-        Ok(())
-    }
-
-    fn seed(&mut self, film: usize, key: &FieldKey) -> Result<(), GpuError> {
-        if self.products.films.len() <= film {
-            self.products.films.resize_with(film + 1, || None);
-        }
-        let sphere = CubedSphere::new(key.cells as usize).map_err(|error| GpuError::Refused(error.to_string()))?;
-        let slot = &mut self.products.films[film];
-        let fits = |film: &MovingFilm| (film.field.sphere(), film.field.rules()) == (sphere, rules(key));
-        let film = match slot.take().filter(fits) {
-            Some(film) => slot.insert(film),
-            None => slot.insert(MovingFilm::new(Field::new(&self.gpu, sphere, rules(key))?)),
-        };
-        film.seed(&self.gpu, &key.initial);
-        Ok(())
-    }
-
-    /// Copies a film's state to or from a checkpoint.
-    fn copy_state(
-        &mut self,
-        film: usize,
-        copy: impl FnOnce(&mut MovingFilm, &mut Recorder<'_>) -> Result<(), GpuError>,
-    ) -> Result<(), GpuError> {
-        let Some(Some(film)) = self.products.films.get_mut(film) else { return Ok(()) };
-        let mut recorder = Recorder::new(&self.gpu);
-        copy(film, &mut recorder)?;
-        Self::submit(&self.times, &mut self.counts, recorder);
-        Ok(())
-    }
-
-    /// Takes the steps of some passes, which are the same, together.
-    fn step<'p>(&mut self, passes: impl Iterator<Item = &'p Pass>) -> Result<(), GpuError> {
-        let Self { gpu, products, times, counts, watcher, .. } = self;
-        let (mut keys, mut from_tick) = (BTreeMap::new(), 0);
-        for pass in passes {
-            if let Pass::StepField { film, key, ticks } = pass {
-                keys.insert(*film, key);
-                from_tick = ticks.start;
-            }
-        }
-        let films = products.films.iter_mut().enumerate();
-        let mut members: Vec<_> =
-            films.filter_map(|(index, film)| Some((film.as_mut()?, *keys.get(&index)?))).collect();
-        let cells: u64 = members.iter().map(|(_, key)| key.cell_count()).sum();
-        let per_submission = (CELLS_PER_SUBMISSION / cells.max(1)).max(1) as usize;
-        play_together(gpu, &mut members, &mut products.company, (from_tick, per_submission), |recorder| {
-            let work = recorder.counts.cells_stepped;
-            Self::submit(times, counts, recorder);
-            told(watcher, gpu, work)
-        })
-    }
-
-    fn show(&mut self, film: usize, key: &FieldKey) -> Result<(), GpuError> {
-        let Some(Some(film)) = self.products.films.get_mut(film) else { return Ok(()) };
-        let mut recorder = Recorder::new(&self.gpu);
-        let ahead = film.ahead(key);
-        film.field.show(&mut recorder, ahead.as_ref())?;
-        Self::submit(&self.times, &mut self.counts, recorder);
-        Ok(())
-    }
-
-    fn open_hole(&mut self, film: usize, key: &OpenHoleKey) -> Result<(), GpuError> {
-        let Products { films, holes, .. } = &mut self.products;
-        if holes.len() <= film {
-            holes.resize_with(film + 1, || None);
-        }
-        let hole = holes[film].get_or_insert_with(|| OpenHole::new(&self.gpu));
-        let shown = films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());
-        let mut recorder = Recorder::new(&self.gpu);
-        hole.open(&mut recorder, key, shown)?;
-        Self::submit(&self.times, &mut self.counts, recorder);
         Ok(())
     }
 
