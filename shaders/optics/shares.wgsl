@@ -29,13 +29,21 @@ fn s_of_colour(colour: vec3f, share: ShareOfS) -> vec3f {
     return colour * s_part(colour, share);
 }
 
-// The part of what a second wall reflects that has passed a first one, both by their colours over white. s light passes less than p light, and
-// reflects more.
-fn passed_before(n: f32, cos_theta: f32, first: vec3f, second: vec3f) -> vec3f {
+// What light keeps on its way between walls, as factors on the colour that the second wall reflects.
+struct Between {
+    // After it has passed the first wall.
+    passed: vec3f,
+    // And after a third wall has reflected it, too.
+    reflected: vec3f,
+}
+
+// From the colours of three walls over white. s light passes less than p light, and is reflected more.
+fn between_walls(n: f32, cos_theta: f32, first: vec3f, second: vec3f, third: vec3f) -> Between {
     let share = share_of_s(n, cos_theta);
     let s_first = s_of_colour(first, share);
     let s_second = s_part(second, share);
+    let s_third = s_part(third, share);
     let s = max(1.0 - s_first, vec3f(0.0)) * s_second;
     let p = max(1.0 - 2.0 * first + s_first, vec3f(0.0)) * (2.0 - s_second);
-    return 0.5 * (s + p);
+    return Between(0.5 * (s + p), 0.5 * third * (s * s_third + p * (2.0 - s_third)));
 }

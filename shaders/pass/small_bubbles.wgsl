@@ -1,13 +1,13 @@
 // Small bubbles, all of one layer at once: each pixel goes through the bubbles of its tile, the farthest first, and lays what a bubble reflects
-// over what is behind it. A bubble is round and whole, and two of its walls are looked up in the table; light that is reflected inside more than
-// once follows the mean over all thicknesses.
+// over what is behind it. A bubble is round and whole, and three of its walls are looked up in the table; light that is reflected inside more
+// than twice follows the mean over all thicknesses.
 
 import package::camera::view::{View, pixel_angle, view_plane};
 import package::light::environment::{Light, environment_radiance};
 import package::light::stored::storable;
 import package::optics::airy::{max_reflectance, surface_reflectance};
 import package::optics::film_colour::{COLOURED, POLARISED};
-import package::optics::shares::passed_before;
+import package::optics::shares::between_walls;
 import package::optics::table::{FilmPoint, TableAxes, table_coordinates};
 import package::sphere::others::{OtherBubble, chord_through, other_nm};
 import package::sphere::path::{Path, footprint, polarisation_along};
@@ -122,19 +122,28 @@ fn through_bubble(bubble: OtherBubble, path: Path, behind: vec3f) -> vec3f {
     let inward = path.direction - 2.0 * path.cos_theta * back;
     let next = back + 2.0 * path.cos_theta * inward;
     let twice = inward - 2.0 * path.cos_theta * next;
+    let thrice = twice - 2.0 * path.cos_theta * (next + 2.0 * path.cos_theta * twice);
     let light_behind = light.unseen * behind;
     let seen_inward = surroundings(path, inward, -2.0);
+    let seen_twice = surroundings(path, twice, -4.0);
     // One reflection more, by the mean reflectance over all thicknesses of s light, which outlasts p.
     let r2 = surface_reflectance(axes.index, path.cos_theta).x;
-    let more = 2.0 * r2 / (1.0 + r2) * (surroundings(path, twice, -4.0) - seen_inward);
+    let more = 2.0 * r2 / (1.0 + r2) * (surroundings(path, thrice, -6.0) - seen_twice);
     let outer = wall_colours(path, other_nm(films, bubble, front));
     let inner = wall_colours(path, other_nm(films, bubble, back));
-    // The walls' reflectances for each primary of the picture: colours over white.
-    let over_white = 1.0 / (light.seen * vec3f(1.0));
+    let third = wall_colours(path, other_nm(films, bubble, next));
+    // Colours over white are the walls' reflectances for each primary of the picture.
     let ones = vec3f(1.0);
-    let passed = passed_before(axes.index, path.cos_theta, over_white * (outer * ones), over_white * (inner * ones));
-    return behind + outer * (seen_outward - light_behind)
-        + passed * (inner * (seen_inward + more - light_behind));
+    let over_white = 1.0 / (light.seen * ones);
+    let between = between_walls(
+        axes.index,
+        path.cos_theta,
+        over_white * (outer * ones),
+        over_white * (inner * ones),
+        over_white * (third * ones),
+    );
+    return behind + outer * (seen_outward - light_behind) + between.passed * (inner * (seen_inward - light_behind))
+        + between.reflected * (inner * (seen_twice - seen_inward + more));
 }
 
 // One sample of a tile's bubbles.

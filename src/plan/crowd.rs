@@ -23,8 +23,8 @@ pub(super) struct InSight {
     pub lent: Vec<LentFilm>,
 }
 
-/// Radius in pixels below which a bubble is drawn as a small one, with all others like it at once: where only the outer and the first inner
-/// reflection can be told apart.
+/// Radius in pixels below which a bubble is drawn as a small one, with all others like it at once: where only the outer and the first two
+/// inner reflections can be told apart.
 fn small_below_pixels(quality: Quality) -> f64 {
     match quality {
         Quality::Fast => 64.0,

@@ -32,8 +32,7 @@ static INTERSECTING: Limits =
 
 /// What is reached with small bubbles, whose walls are looked up in the table at all qualities, which mirror no others, and of which some intersect;
 /// in spectral pictures bubbles are small only below 16 pixels.
-static SMALL: Limits =
-    [(Quality::Fast, [1.6, 10.0]), (Quality::Standard, [1.6, 10.0]), (Quality::Spectral, [0.4, 6.0])];
+static SMALL: Limits = [(Quality::Fast, [0.9, 6.0]), (Quality::Standard, [0.9, 6.0]), (Quality::Spectral, [0.25, 3.5])];
 
 /// Random scenes of one kind.
 struct Kind {

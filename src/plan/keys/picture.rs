@@ -87,7 +87,7 @@ pub struct LentFilm {
     pub max_thickness_factor: f64,
 }
 
-/// A bubble of a generator that is drawn with all others like it at once: round, whole, and with the reflections on two walls.
+/// A bubble of a generator that is drawn with all others like it at once: round, whole, and with the reflections on three walls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmallBubble {
     /// Center in metres.
