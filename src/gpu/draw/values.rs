@@ -32,8 +32,8 @@ fn max_samples(quadrature: &Quadrature) -> u32 {
     (MAX_ITERATIONS / (quadrature.count + ITERATIONS_BESIDE_QUADRATURE)).isqrt()
 }
 
-/// Samples that all small bubbles of a picture may take. In windows twice as many along each side change their error by less than a hundredth, for
-/// most of it is that of products of the table's colours.
+/// Samples that all small bubbles of a picture may take. A hundred times as many would take a twentieth off their error in windows, most of which is
+/// that of products of the table's colours.
 fn small_samples(quality: Quality) -> f64 {
     match quality {
         Quality::Fast | Quality::Standard => 0.4e6,
