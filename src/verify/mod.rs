@@ -5,6 +5,7 @@ mod crowd;
 mod extremes;
 mod flow;
 mod free_film;
+mod hard_light;
 pub mod interaction;
 mod optics;
 mod phenomena;
