@@ -9,6 +9,8 @@ struct Light {
     texel_angle: f32,
     // Radiance of the backdrop where it is a colour.
     backdrop: vec3f,
+    // The same angle as texel_angle, of the map that is seen behind the bubbles.
+    backdrop_texel_angle: f32,
     // Factor that makes daylight's white (1, 1, 1), exposed as the linear picture is.
     scale: vec3f,
     // cos and sin of the environment's turn about the vertical are turn_cos here and turn_sin below.
@@ -33,19 +35,32 @@ fn environment_radiance(
     direction: vec3f,
     footprint: f32,
 ) -> vec3f {
+    return map_radiance(environment, environment_sampler, light, direction, footprint, light.texel_angle);
+}
+
+// The same from a map with some angle between texels.
+fn map_radiance(
+    environment: texture_cube<f32>,
+    environment_sampler: sampler,
+    light: Light,
+    direction: vec3f,
+    footprint: f32,
+    texel_angle: f32,
+) -> vec3f {
     let turned = vec3f(
         light.turn_cos * direction.x + light.turn_sin * direction.y,
         light.turn_cos * direction.y - light.turn_sin * direction.x,
         direction.z,
     );
     // A texel of a level, blurred by its own box and by interpolation, has the variance of a box sqrt(3) times as wide.
-    let level = log2(max(0.577 * footprint / light.texel_angle, 1.0));
+    let level = log2(max(0.577 * footprint / texel_angle, 1.0));
     return light.gain * textureSampleLevel(environment, environment_sampler, turned, level).rgb;
 }
 
+// What is seen straight behind the bubbles: of the environment a map of its own, which may be out of focus.
 fn backdrop_radiance(
-    environment: texture_cube<f32>,
-    environment_sampler: sampler,
+    backdrop_map: texture_cube<f32>,
+    backdrop_sampler: sampler,
     light: Light,
     direction: vec3f,
     footprint: f32,
@@ -53,5 +68,5 @@ fn backdrop_radiance(
     if (BACKDROP_IS_ENVIRONMENT == 0u) {
         return light.backdrop;
     }
-    return environment_radiance(environment, environment_sampler, light, direction, footprint);
+    return map_radiance(backdrop_map, backdrop_sampler, light, direction, footprint, light.backdrop_texel_angle);
 }

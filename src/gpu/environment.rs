@@ -7,6 +7,8 @@ use crate::physics::environment::CubeMap;
 pub struct Environment {
     /// The cube.
     pub view: wgpu::TextureView,
+    /// Angle between neighbouring texels at the center of a face of the finest level, in radians.
+    pub texel_angle: f32,
     /// Linear within and between levels; cube maps have no seams.
     pub sampler: wgpu::Sampler,
 }
@@ -43,7 +45,7 @@ impl Environment {
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
-        Self { view, sampler }
+        Self { view, texel_angle: 2.0 / width as f32, sampler }
     }
 }
 
@@ -62,8 +64,3 @@ fn write_face(gpu: &Gpu, texture: &wgpu::Texture, level: u32, face: u32, texels:
     );
 }
 
-/// Angle between neighbouring texels at the center of a face, in radians.
-#[must_use]
-pub fn texel_angle(size: u32) -> f32 {
-    2.0 / size as f32
-}

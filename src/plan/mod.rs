@@ -26,7 +26,7 @@ pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary, FilmColours,
+    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary, FilmColours,
     FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey,
     QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
 };
@@ -79,6 +79,8 @@ pub struct LightState {
     pub films: Vec<FilmColoursState>,
     /// The environment.
     pub environment: Option<EnvironmentKey>,
+    /// The environment as it is seen behind the bubbles, where that is out of focus.
+    pub defocused: Option<DefocusKey>,
 }
 
 /// What there is on the GPU of the colours of films of one material in a light.
@@ -162,6 +164,9 @@ impl fmt::Display for Plan {
                 Pass::FitQuadrature { key, .. } => {
                     format!("{} wavelengths, {}, films to {} nm", key.count(), key.quality.name(), key.range_nm)
                 }
+                Pass::DefocusBackdrop { key, .. } => {
+                    format!("each point a disc of {:.2}°", 2.0 * key.half_angle_rad.to_degrees())
+                }
                 Pass::UploadEnvironment { key, .. } => format!("6x{0}x{0} texels", key.size()),
             };
             writeln!(f, "{:<18} {detail}: {reason}", pass.name())?;
@@ -200,6 +205,7 @@ pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
         }
         if needs_environment {
             planner.environment(light, &lighting.environment);
+            planner.defocus(light, lighting.defocus());
         }
     }
     planner.fields(draw);
@@ -296,6 +302,18 @@ impl Planner {
         if let Some(reason) = changed(current.as_ref(), requested, |_, _| "environment") {
             *current = Some(requested.clone());
             self.push(Pass::UploadEnvironment { light, key: requested.clone() }, reason);
+        }
+    }
+
+    fn defocus(&mut self, light: usize, requested: Option<DefocusKey>) {
+        let current = &mut self.after.lights[light].defocused;
+        let Some(requested) = requested else {
+            *current = None;
+            return;
+        };
+        if let Some(reason) = changed(current.as_ref(), &requested, |_, _| "environment or lens") {
+            *current = Some(requested.clone());
+            self.push(Pass::DefocusBackdrop { light, key: requested }, reason);
         }
     }
 

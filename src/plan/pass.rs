@@ -2,7 +2,7 @@
 
 use std::{fmt, ops::Range};
 
-use super::keys::{DrawKey, EnvironmentKey, FieldKey, OpenHoleKey, QuadratureKey, TableKey, TonemapKey};
+use super::keys::{DefocusKey, DrawKey, EnvironmentKey, FieldKey, OpenHoleKey, QuadratureKey, TableKey, TonemapKey};
 
 /// One pass, with all that it reads.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +13,13 @@ pub enum Pass {
         light: usize,
         /// The environment.
         key: EnvironmentKey,
+    },
+    /// Blurs a light's environment as it is seen behind the bubbles, and sends it.
+    DefocusBackdrop {
+        /// Index of the light.
+        light: usize,
+        /// The environment and how far it is out of focus.
+        key: DefocusKey,
     },
     /// Bakes some rows of a lookup table.
     BakeTable {
@@ -104,6 +111,7 @@ impl Pass {
     pub fn name(&self) -> &'static str {
         match self {
             Self::UploadEnvironment { .. } => "upload_environment",
+            Self::DefocusBackdrop { .. } => "defocus_backdrop",
             Self::BakeTable { .. } => "bake_table",
             Self::FitQuadrature { .. } => "fit_quadrature",
             Self::SeedField { .. } => "seed_field",

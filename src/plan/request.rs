@@ -146,6 +146,7 @@ fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
         polariser,
         rotation_rad: scene.light.rotation_deg.to_radians(),
         backdrop,
+        defocus_rad: scene.lens.defocus_rad(&scene.camera),
     }
 }
 

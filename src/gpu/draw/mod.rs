@@ -34,6 +34,8 @@ use values::{
 pub struct DrawInputs<'a> {
     /// The environment.
     pub environment: &'a Environment,
+    /// The environment as it is seen behind the bubbles.
+    pub backdrop: &'a Environment,
     /// The table, where the quality has one, and the quadrature of each material, by its index, that a bubble in sight has.
     pub colours: &'a dyn Fn(usize) -> Option<(Option<&'a Table>, &'a Quadrature)>,
     /// What a film shows, by its index.
@@ -91,7 +93,7 @@ impl BackdropDraw {
         gpu: &Gpu,
         key: &DrawKey,
         lighting: &Lighting,
-        (view, light, environment): (&UniformBuffer<ViewUniform>, &UniformBuffer<LightUniform>, &Environment),
+        (view, light, map): (&UniformBuffer<ViewUniform>, &UniformBuffer<LightUniform>, &Environment),
     ) -> Result<Self, GpuError> {
         if let (BackdropKey::Colour(radiance), false) = (&lighting.light.backdrop, key.on_bath) {
             return Ok(Self::Colour(backdrop_colour(key, lighting, *radiance)));
@@ -102,8 +104,8 @@ impl BackdropDraw {
             BACKDROP_IS_ENVIRONMENT: lighting.light.backdrop == BackdropKey::Environment,
             view,
             light,
-            environment: &environment.view,
-            environment_sampler: &environment.sampler,
+            backdrop_map: &map.view,
+            backdrop_sampler: &map.sampler,
         };
         Ok(Self::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?))
     }
@@ -116,6 +118,7 @@ struct Shared<'a> {
     view: UniformBuffer<ViewUniform>,
     light: UniformBuffer<LightUniform>,
     environment: &'a Environment,
+    backdrop: &'a Environment,
     table_sampler: wgpu::Sampler,
     behind: &'a wgpu::TextureView,
     so_far: &'a wgpu::TextureView,
@@ -176,8 +179,8 @@ impl DrawPass {
             return Err(GpuError::TooManyBubbles { count, most });
         }
         let view = gpu.uniform("view", &view_uniform(key));
-        let light = gpu.uniform("light", &light_uniform(lighting, key.exposed_ev));
-        let backdrop = BackdropDraw::new(gpu, key, lighting, (&view, &light, inputs.environment))?;
+        let light = gpu.uniform("light", &light_uniform(lighting, key.exposed_ev, [inputs.environment, inputs.backdrop]));
+        let backdrop = BackdropDraw::new(gpu, key, lighting, (&view, &light, inputs.backdrop))?;
         let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0] };
         let table_sampler = table_sampler(gpu);
         let [behind, so_far] = inputs.drawn.map(|target| &target.view);
@@ -188,6 +191,7 @@ impl DrawPass {
             view,
             light,
             environment: inputs.environment,
+            backdrop: inputs.backdrop,
             table_sampler,
             behind,
             so_far,
@@ -275,7 +279,7 @@ fn copy_part(encoder: &mut wgpu::CommandEncoder, from: &Target, to: &Target, par
 impl Shared<'_> {
     /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
-        let Self { key, lighting, view, light, environment, table_sampler, behind, so_far, others, films, .. } = self;
+        let Self { key, lighting, view, light, environment, backdrop, table_sampler, behind, so_far, others, films, .. } = self;
         let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
         let bubble = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
         let part = &gpu.storage("part of the lists", &[list_part(drawn)]);
@@ -305,6 +309,7 @@ impl Shared<'_> {
             lists: &others.lists,
             films,
             part,
+            backdrop_map: &backdrop.view,
         };
         let format = radiance_format(key.full_precision);
         match (key.yardstick, ring.edges_rad) {

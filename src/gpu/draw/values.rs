@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use super::Drawn;
 use crate::{
     gpu::{
-        environment::texel_angle,
+        environment::Environment,
         film_atlas::FilmAtlas,
         passes::{
             backdrop::{LightUniform, ViewUniform},
@@ -103,7 +103,11 @@ pub(super) fn view_uniform(key: &DrawKey) -> ViewUniform {
 }
 
 /// A light, as a picture exposed by some stops needs it.
-pub(super) fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUniform {
+pub(super) fn light_uniform(
+    lighting: &Lighting,
+    exposed_ev: i32,
+    [environment, behind]: [&Environment; 2],
+) -> LightUniform {
     let light = &lighting.light;
     let exposure = f64::from(exposed_ev).exp2();
     let backdrop = match light.backdrop {
@@ -112,9 +116,9 @@ pub(super) fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUnifor
     };
     LightUniform {
         gain: floats(light.gain),
-        texel_angle: texel_angle(lighting.environment.size()),
+        texel_angle: environment.texel_angle,
         backdrop: floats(backdrop),
-        padding: 0.0,
+        backdrop_texel_angle: behind.texel_angle,
         scale: floats(exposure * light.scale),
         turn_cos: light.rotation_rad.cos() as f32,
         polariser: floats(light.polariser.unwrap_or(DVec3::ZERO)),

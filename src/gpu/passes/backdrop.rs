@@ -29,8 +29,8 @@ shader_struct! {
         pub texel_angle: f32,
         /// Radiance of the backdrop where it is a colour.
         pub backdrop: [f32; 3],
-        /// Fills 16 bytes.
-        pub padding: f32,
+        /// Angle between texels of the backdrop's finest level.
+        pub backdrop_texel_angle: f32,
         /// Factor that makes daylight's white (1, 1, 1), exposed as the linear picture is.
         pub scale: [f32; 3],
         /// Cosine of the environment's turn.
@@ -56,8 +56,8 @@ kernels! {
         override BACKDROP_IS_ENVIRONMENT: bool;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
-        @2 environment: TextureCube;
-        @3 environment_sampler: Sampler;
+        @2 backdrop_map: TextureCube;
+        @3 backdrop_sampler: Sampler;
     }
     draw cover as backdrop;
 }

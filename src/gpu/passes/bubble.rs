@@ -176,6 +176,7 @@ kernels! {
         @18 lists: Read<[u32]>;
         @19 films: Texture2dArray;
         @20 part: Read<ListPart>;
+        @21 backdrop_map: TextureCube;
     }
     draw ring, everywhere as shade;
 
@@ -191,6 +192,7 @@ kernels! {
         @4 bubble: Uniform<BubbleUniform>;
         @15 picture_behind: Texture2d;
         @16 picture_so_far: Texture2d;
+        @21 backdrop_map: TextureCube;
     }
     draw ring, everywhere as shade_mirror;
 }
@@ -199,7 +201,7 @@ impl<'a> ShadeMirror<'a> {
     /// The mirror that stands where a bubble would.
     pub fn in_place_of(shade: &Shade<'a>) -> Self {
         let Shade { shape, table_kind, summed, view, light, environment, environment_sampler, bubble, .. } = *shade;
-        let Shade { picture_behind, picture_so_far, .. } = *shade;
+        let Shade { picture_behind, picture_so_far, backdrop_map, .. } = *shade;
         Self {
             shape,
             table_kind,
@@ -211,6 +213,7 @@ impl<'a> ShadeMirror<'a> {
             bubble,
             picture_behind,
             picture_so_far,
+            backdrop_map,
         }
     }
 }

@@ -51,6 +51,8 @@ struct Products {
 struct LightProducts {
     films: Vec<FilmColours>,
     environment: Option<Environment>,
+    /// The environment as it is seen behind the bubbles, where that is out of focus.
+    defocused: Option<Environment>,
 }
 
 /// The colours of films of one material in a light.
@@ -66,7 +68,10 @@ impl Products {
     fn keep(&mut self, state: &GpuState) {
         self.lights.truncate(state.lights.len());
         let lights = self.lights.iter_mut().zip(&state.lights);
-        lights.for_each(|(light, state)| light.films.truncate(state.films.len()));
+        lights.for_each(|(light, state)| {
+            light.films.truncate(state.films.len());
+            light.defocused.take_if(|_| state.defocused.is_none());
+        });
         if state.lights.len() <= 1 {
             (self.added, self.sum) = (None, None);
         }
@@ -195,6 +200,11 @@ impl Renderer {
                 self.light(*light).environment = Some(Environment::upload(&self.gpu, &key.0));
                 Ok(())
             }
+            Pass::DefocusBackdrop { light, key } => {
+                let map = key.environment.0.defocused(key.half_angle_rad);
+                self.light(*light).defocused = Some(Environment::upload(&self.gpu, &map));
+                Ok(())
+            }
             Pass::BakeTable { light, material, key, rows } => self.bake([*light, *material], key, rows.clone()),
             Pass::FitQuadrature { light, material, key } => {
                 self.colours([*light, *material]).quadrature = Some(Quadrature::fit(&self.gpu, key));
@@ -317,6 +327,7 @@ impl Renderer {
         // Without an environment key nothing of it is read; a black one fills the binding.
         let environment =
             products.environment.get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant(DVec3::ZERO)));
+        let backdrop = products.defocused.as_ref().unwrap_or(environment);
         let (films, holes) = (&self.products.films, &self.products.holes);
         let hole = |film: usize| holes.get(film).and_then(Option::as_ref);
         let film = |film: usize| films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());
@@ -334,7 +345,16 @@ impl Renderer {
             &self.gpu,
             key,
             lighting,
-            &DrawInputs { environment, colours: &colours, film: &film, hole: &hole, composition, drawn, atlas },
+            &DrawInputs {
+                environment,
+                backdrop,
+                colours: &colours,
+                film: &film,
+                hole: &hole,
+                composition,
+                drawn,
+                atlas,
+            },
         )?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);

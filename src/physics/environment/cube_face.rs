@@ -48,6 +48,19 @@ impl CubeFace {
         }
     }
 
+    /// A direction in the face's own axes: s, t and the depth of its plane, with which [`Self::direction`] of (s, t) has depth 1.
+    pub fn local(self, direction: DVec3) -> DVec3 {
+        let DVec3 { x, y, z } = direction;
+        match self {
+            Self::PositiveX => DVec3::new(-z, -y, x),
+            Self::NegativeX => DVec3::new(z, -y, -x),
+            Self::PositiveY => DVec3::new(x, z, y),
+            Self::NegativeY => DVec3::new(x, -z, -y),
+            Self::PositiveZ => DVec3::new(x, -y, z),
+            Self::NegativeZ => DVec3::new(-x, -y, -z),
+        }
+    }
+
     /// The face that `direction` (of any length but zero) meets, and where on it: (s, t) in [−1, 1]. On an edge z wins over y
     /// over x.
     pub fn of_direction(direction: DVec3) -> (Self, DVec2) {
@@ -102,6 +115,7 @@ mod tests {
                 let (found, st) = CubeFace::of_direction(5.0 * face.direction(DVec2::new(s, t)));
                 assert_eq!(found, face);
                 assert!(st.distance(DVec2::new(s, t)) < 1e-15);
+                assert_eq!(face.local(face.direction(DVec2::new(s, t))), DVec3::new(s, t, 1.0));
             }
         }
     }

@@ -80,11 +80,17 @@ impl CubeMap {
 
     /// Radiance from `direction` (of any length but zero), interpolated in the largest level, across the faces' edges too.
     pub fn sample(&self, direction: DVec3) -> DVec3 {
+        self.sample_level(0, direction)
+    }
+
+    /// Radiance from `direction` (of any length but zero), interpolated in one level, across the faces' edges too.
+    pub(super) fn sample_level(&self, level: usize, direction: DVec3) -> DVec3 {
+        let level = &self.mips[level];
         let (face, st) = CubeFace::of_direction(direction);
-        let position = (st + 1.0) * (self.size() as f64 / 2.0) - 0.5;
+        let position = (st + 1.0) * (level.size as f64 / 2.0) - 0.5;
         let corner = position.floor();
         let weight = position - corner;
-        let tap = |x: f64, y: f64| self.texel(face, corner + DVec2::new(x, y));
+        let tap = |x: f64, y: f64| level.texel(face, corner + DVec2::new(x, y));
         let across = |y| tap(0.0, y).lerp(tap(1.0, y), weight.x);
         across(0.0).lerp(across(1.0), weight.y)
     }
@@ -98,19 +104,19 @@ impl CubeMap {
         radiance / weight
     }
 
-    /// The texel of the largest level at column and row `index` of `face`, or the neighbouring face's nearest if that lies
-    /// outside.
-    fn texel(&self, face: CubeFace, index: DVec2) -> DVec3 {
-        let last = self.size() as f64 - 1.0;
-        let center = (index + 0.5) * (2.0 / self.size() as f64) - 1.0;
-        let inside = center.abs().max_element() < 1.0;
-        let (face, st) = if inside { (face, center) } else { CubeFace::of_direction(face.direction(center)) };
-        let nearest = ((st + 1.0) * (self.size() as f64 / 2.0)).floor().clamp(DVec2::ZERO, DVec2::splat(last));
-        self.mips[0].radiance(face.layer(), nearest.y as usize * self.size() + nearest.x as usize)
-    }
 }
 
 impl CubeLevel {
+    /// The texel at column and row `index` of `face`, or the neighbouring face's nearest if that lies outside.
+    fn texel(&self, face: CubeFace, index: DVec2) -> DVec3 {
+        let last = self.size as f64 - 1.0;
+        let center = (index + 0.5) * (2.0 / self.size as f64) - 1.0;
+        let inside = center.abs().max_element() < 1.0;
+        let (face, st) = if inside { (face, center) } else { CubeFace::of_direction(face.direction(center)) };
+        let nearest = ((st + 1.0) * (self.size as f64 / 2.0)).floor().clamp(DVec2::ZERO, DVec2::splat(last));
+        self.radiance(face.layer(), nearest.y as usize * self.size + nearest.x as usize)
+    }
+
     fn radiance(&self, layer: usize, index: usize) -> DVec3 {
         let [r, g, b, _] = self.faces[layer][index].map(f64::from);
         DVec3::new(r, g, b)

@@ -6,6 +6,7 @@
 
 mod cube_face;
 mod cube_map;
+mod defocus;
 mod equirect;
 mod mip;
 mod patch;

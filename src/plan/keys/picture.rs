@@ -25,6 +25,15 @@ impl PartialEq for EnvironmentKey {
     }
 }
 
+/// The environment as it is seen behind the bubbles, out of focus.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DefocusKey {
+    /// The environment.
+    pub environment: EnvironmentKey,
+    /// Half angle of the cones that it is averaged over, in radians; above 0.
+    pub half_angle_rad: f64,
+}
+
 /// One bubble as the picture sees it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BubbleKey {
@@ -195,6 +204,8 @@ pub struct LightKey {
     pub rotation_rad: f64,
     /// The backdrop.
     pub backdrop: BackdropKey,
+    /// Half angle of the cone that each point of the backdrop is spread over, out of the lens's focus, in radians; 0: it is sharp.
+    pub defocus_rad: f64,
 }
 
 /// The linear picture.
@@ -314,6 +325,13 @@ impl DrawKey {
 }
 
 impl Lighting {
+    /// What is seen behind the bubbles where it is an environment that is out of focus.
+    #[must_use]
+    pub fn defocus(&self) -> Option<DefocusKey> {
+        let is_blurred = self.light.backdrop == BackdropKey::Environment && self.light.defocus_rad > 0.0;
+        is_blurred.then(|| DefocusKey { environment: self.environment.clone(), half_angle_rad: self.light.defocus_rad })
+    }
+
     fn difference(&self, other: &Self) -> &'static str {
         if self.light != other.light || self.environment != other.environment {
             "the light"

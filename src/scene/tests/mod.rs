@@ -65,6 +65,7 @@ fn tables() -> Vec<(&'static str, Vec<Key>)> {
         ("bubble.film", Film::ALL_KEYS.to_vec()),
         ("generator", Generator::ALL_KEYS.to_vec()),
         ("camera", Camera::ALL_KEYS.to_vec()),
+        ("lens", Lens::ALL_KEYS.to_vec()),
         ("light", Light::ALL_KEYS.to_vec()),
         ("light.patch", LightPatch::ALL_KEYS.to_vec()),
         ("view", View::ALL_KEYS.to_vec()),

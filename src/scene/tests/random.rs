@@ -49,6 +49,10 @@ fn camera() -> impl Strategy<Value = Camera> {
     )
 }
 
+fn lens() -> impl Strategy<Value = Lens> {
+    (0.0..200.0, prop::option::of(0.01..1e3)).prop_map(|(aperture_mm, focus_m)| Lens { aperture_mm, focus_m })
+}
+
 fn radiance() -> impl Strategy<Value = [f64; 3]> {
     prop::array::uniform3(0.0..65504.0)
 }
@@ -233,13 +237,13 @@ fn scene() -> impl Strategy<Value = Scene> {
         prop::collection::vec(generator(), 0..3),
         prop::collection::vec(event(), 0..4),
     );
-    (lists, camera(), light(), view(), motion()).prop_map(
-        |((bubbles, generators, mut events), camera, light, view, motion)| {
+    (lists, (camera(), lens()), light(), view(), motion()).prop_map(
+        |((bubbles, generators, mut events), (camera, lens), light, view, motion)| {
             events.sort_by_key(|event| event.tick);
             if bubbles.is_empty() {
                 events.retain(|event| event.change.bubble().is_none());
             }
-            Scene { version: VERSION, bubbles, generators, camera, light, view, motion, events }
+            Scene { version: VERSION, bubbles, generators, camera, lens, light, view, motion, events }
         },
     )
 }

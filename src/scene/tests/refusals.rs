@@ -77,7 +77,7 @@ fn unknown_keys_name_the_nearest_known_one() {
         ),
         (
             "\"a\\nb\" = 1",
-            "2: unknown key `a\\nb`; known here: `bubble`, `camera`, `event`, `generator`, `light`, `motion`, `version`, `view`",
+            "2: unknown key `a\\nb`; known here: `bubble`, `camera`, `event`, `generator`, `lens`, `light`, `motion`, `version`, `view`",
         ),
     ]);
 }
