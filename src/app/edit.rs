@@ -5,7 +5,9 @@
 //! Everything else holds for the whole history: editing it changes the past too, and a film that would have begun differently is blown again.
 
 use super::history;
-use crate::scene::{Bubble, Camera, Change, Event, FilmIndexName, Generator, Lens, Light, Motion, MotionChange, Scene, View};
+use crate::scene::{
+    Bubble, Camera, Change, Event, FilmIndexName, Generator, Lens, Light, Motion, MotionChange, Scene, View,
+};
 
 /// A change of a scene.
 #[derive(Clone, Debug, PartialEq)]

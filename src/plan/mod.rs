@@ -26,9 +26,10 @@ pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary, FilmColours,
-    FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey,
-    QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
+    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary,
+    FilmColours, FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey,
+    Opening, OpticsKey, QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm,
+    remaining_nm,
 };
 pub use lender::film_owners;
 pub use pass::{Pass, Reason};
@@ -195,6 +196,7 @@ pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
     let mut picture = request.picture.clone();
     let draw = &mut picture.draw;
     let needs_environment = draw.needs_environment();
+    let defocus: Vec<Option<DefocusKey>> = draw.lights().map(|lighting| draw.defocus(lighting)).collect();
     let shown: Vec<bool> = (0..draw.lighting.films.len()).map(|material| draw.shows(material)).collect();
     planner.after.lights.resize_with(1 + draw.spectral_lights.len(), LightState::default);
     for (light, lighting) in std::iter::once(&mut draw.lighting).chain(&mut draw.spectral_lights).enumerate() {
@@ -205,8 +207,10 @@ pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
         }
         if needs_environment {
             planner.environment(light, &lighting.environment);
-            planner.defocus(light, lighting.defocus());
         }
+    }
+    for (light, requested) in defocus.into_iter().enumerate() {
+        planner.defocus(light, requested);
     }
     planner.fields(draw);
     for bubble in &draw.bubbles {
@@ -306,14 +310,18 @@ impl Planner {
     }
 
     fn defocus(&mut self, light: usize, requested: Option<DefocusKey>) {
-        let current = &mut self.after.lights[light].defocused;
-        let Some(requested) = requested else {
-            *current = None;
-            return;
-        };
-        if let Some(reason) = changed(current.as_ref(), &requested, |_, _| "environment or lens") {
-            *current = Some(requested.clone());
-            self.push(Pass::DefocusBackdrop { light, key: requested }, reason);
+        let present = self.after.lights[light].defocused.take();
+        let Some(requested) = requested else { return };
+        let reason =
+            present.as_ref().map_or(Reason::Missing, |_| Reason::Changed("environment, lens or what is in sight"));
+        let had = present.filter(|present| present.is_same_map(&requested)).map_or([false; 6], |present| present.faces);
+        let faces =
+            |wanted: fn(bool, bool) -> bool| std::array::from_fn(|face| wanted(requested.faces[face], had[face]));
+        let missing = DefocusKey { faces: faces(|requested, had| requested && !had), ..requested.clone() };
+        self.after.lights[light].defocused =
+            Some(DefocusKey { faces: faces(|requested, had| requested || had), ..requested.clone() });
+        if missing.faces.contains(&true) {
+            self.push(Pass::DefocusBackdrop { light, key: missing, adds: had.contains(&true) }, reason);
         }
     }
 

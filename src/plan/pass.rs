@@ -14,12 +14,14 @@ pub enum Pass {
         /// The environment.
         key: EnvironmentKey,
     },
-    /// Blurs a light's environment as it is seen behind the bubbles, and sends it.
+    /// Blurs some faces of a light's environment as it is seen behind the bubbles, and sends them.
     DefocusBackdrop {
         /// Index of the light.
         light: usize,
-        /// The environment and how far it is out of focus.
+        /// The environment, how far it is out of focus, and the faces.
         key: DefocusKey,
+        /// Whether there are other faces of it already, which stay.
+        adds: bool,
     },
     /// Bakes some rows of a lookup table.
     BakeTable {

@@ -179,7 +179,8 @@ impl DrawPass {
             return Err(GpuError::TooManyBubbles { count, most });
         }
         let view = gpu.uniform("view", &view_uniform(key));
-        let light = gpu.uniform("light", &light_uniform(lighting, key.exposed_ev, [inputs.environment, inputs.backdrop]));
+        let light =
+            gpu.uniform("light", &light_uniform(lighting, key.exposed_ev, [inputs.environment, inputs.backdrop]));
         let backdrop = BackdropDraw::new(gpu, key, lighting, (&view, &light, inputs.backdrop))?;
         let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0] };
         let table_sampler = table_sampler(gpu);
@@ -279,7 +280,20 @@ fn copy_part(encoder: &mut wgpu::CommandEncoder, from: &Target, to: &Target, par
 impl Shared<'_> {
     /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
-        let Self { key, lighting, view, light, environment, backdrop, table_sampler, behind, so_far, others, films, .. } = self;
+        let Self {
+            key,
+            lighting,
+            view,
+            light,
+            environment,
+            backdrop,
+            table_sampler,
+            behind,
+            so_far,
+            others,
+            films,
+            ..
+        } = self;
         let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
         let bubble = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
         let part = &gpu.storage("part of the lists", &[list_part(drawn)]);

@@ -200,9 +200,11 @@ impl Renderer {
                 self.light(*light).environment = Some(Environment::upload(&self.gpu, &key.0));
                 Ok(())
             }
-            Pass::DefocusBackdrop { light, key } => {
-                let map = key.environment.0.defocused(key.half_angle_rad);
-                self.light(*light).defocused = Some(Environment::upload(&self.gpu, &map));
+            Pass::DefocusBackdrop { light, key, adds } => {
+                let (map, present) = (key.map(), self.light(*light).defocused.take().filter(|_| *adds));
+                let defocused = present.unwrap_or_else(|| Environment::new(&self.gpu, &map));
+                defocused.write(&self.gpu, &map, key.faces);
+                self.light(*light).defocused = Some(defocused);
                 Ok(())
             }
             Pass::BakeTable { light, material, key, rows } => self.bake([*light, *material], key, rows.clone()),

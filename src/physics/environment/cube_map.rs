@@ -103,7 +103,6 @@ impl CubeMap {
         let (radiance, weight) = rows.into_iter().fold((DVec3::ZERO, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
         radiance / weight
     }
-
 }
 
 impl CubeLevel {

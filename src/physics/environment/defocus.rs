@@ -14,21 +14,22 @@ use rayon::prelude::*;
 use super::{CubeFace, CubeMap};
 
 /// Texels of the source across half a disc, at least: rows that the disc's outline is made of.
-const SOURCE_TEXELS: f64 = 6.0;
-/// Texels of the result across half a disc: its edge is a tenth of its radius wide.
-const RESULT_TEXELS: f64 = 10.0;
+const SOURCE_TEXELS: f64 = 4.0;
+/// Texels of the result across half a disc: its edge is an eighth of its radius wide.
+const RESULT_TEXELS: f64 = 8.0;
 /// Texels along an edge of the result, at most.
 const MAX_SIZE: f64 = 1024.0;
 
 impl CubeMap {
-    /// The map averaged over cones of a half angle in radians, 0 to 0.5: what stands behind a scene, out of focus. As large as shows no texels.
+    /// The map averaged over cones of a half angle in radians, 0 to 0.5: what stands behind a scene, out of focus. Only some faces are made, in
+    /// the order of [`CubeFace::ALL`]; the others are black. As large as shows no texels.
     #[must_use]
-    pub fn defocused(&self, half_angle_rad: f64) -> Self {
+    pub fn defocused(&self, half_angle_rad: f64, faces: [bool; 6]) -> Self {
         let size = (2.0 * RESULT_TEXELS / half_angle_rad).clamp(16.0, MAX_SIZE);
         // Discs of less than a texel leave the map nearly as it is.
         let size = if half_angle_rad * (self.size() as f64) < 2.0 { self.size() as f64 } else { size };
-        let cones = Cones::new(self, half_angle_rad);
-        Self::from_fn((size as usize).next_multiple_of(16), 1, |direction| cones.mean(direction.normalize()))
+        let cones = Cones::new(self, half_angle_rad, faces);
+        Self::from_fn((size as usize).next_multiple_of(16), 1, |direction| cones.mean(direction))
     }
 }
 
@@ -36,7 +37,8 @@ impl CubeMap {
 struct Cones {
     cos: f64,
     sin: f64,
-    faces: Vec<Sums>,
+    /// The faces that are made.
+    faces: [Option<Sums>; 6],
 }
 
 /// Sums along the rows of one face, which go on beyond its edges as far as cones do.
@@ -51,19 +53,21 @@ struct Sums {
 }
 
 impl Cones {
-    fn new(map: &CubeMap, half_angle_rad: f64) -> Self {
+    fn new(map: &CubeMap, half_angle_rad: f64, made: [bool; 6]) -> Self {
         let (sin, cos) = half_angle_rad.sin_cos();
         let level = (map.size() as f64 * half_angle_rad / (2.0 * SOURCE_TEXELS)).log2().max(0.0) as usize;
         let level = level.min(map.mips().len() - 1);
         // From the corner of a face cones reach farthest.
         let [_, reach] = ends(DVec3::ONE.normalize(), sin);
-        let faces = CubeFace::ALL.into_iter().map(|face| Sums::new(map, level, face, reach)).collect();
+        let faces = CubeFace::ALL.map(|face| made[face.layer()].then(|| Sums::new(map, level, face, reach)));
         Self { cos, sin, faces }
     }
 
+    /// About a direction of any length; black on faces that are not made.
     fn mean(&self, direction: DVec3) -> DVec3 {
         let (face, _) = CubeFace::of_direction(direction);
-        let sum = self.faces[face.layer()].within(face.local(direction), self.cos, self.sin);
+        let Some(sums) = &self.faces[face.layer()] else { return DVec3::ZERO };
+        let sum = sums.within(face.local(direction.normalize()), self.cos, self.sin);
         sum.truncate() / sum.w
     }
 }
@@ -163,7 +167,7 @@ mod tests {
     fn cones_are_those_of_brute_force() {
         let map = CubeMap::from_fn(256, 1, lamps);
         for half_angle in [0.02, 0.07, 0.3, 0.5] {
-            let cones = Cones::new(&map, half_angle);
+            let cones = Cones::new(&map, half_angle, [true; 6]);
             let (mut worst, mut brightest) = (0.0f64, 0.0f64);
             for k in 0..400 {
                 let z = 1.0 - (f64::from(k) + 0.5) / 200.0;
@@ -183,14 +187,15 @@ mod tests {
         let lamp = |direction: DVec3| DVec3::splat(f64::from(direction.normalize().dot(DVec3::X) > 0.999_95) * 1000.0);
         let map = CubeMap::from_fn(512, 2, lamp);
         let half_angle = 0.08;
-        let blurred = map.defocused(half_angle);
+        let blurred = map.defocused(half_angle, [true; 6]);
         let (before, after) = (map.mean_radiance().y, blurred.mean_radiance().y);
         assert!((after / before - 1.0).abs() < 0.005, "{before} becomes {after}");
         // Evenly bright within, dark beyond, whatever the direction.
         let part = before * 2.0 / (1.0 - half_angle.cos());
         for k in 0..24 {
             let around = DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 24.0);
-            let at = |angle: f64| blurred.sample(DVec3::new(angle.cos(), angle.sin() * around.x, angle.sin() * around.y)).y;
+            let at =
+                |angle: f64| blurred.sample(DVec3::new(angle.cos(), angle.sin() * around.x, angle.sin() * around.y)).y;
             assert!((at(0.0) / part - 1.0).abs() < 0.03 && (at(0.8 * half_angle) / part - 1.0).abs() < 0.05, "{k}");
             assert!(at(1.25 * half_angle) < 1e-3 * part, "{k}");
         }
@@ -199,7 +204,7 @@ mod tests {
     #[test]
     fn an_even_sky_stays_as_it_is() {
         for half_angle in [1e-4, 0.01, 0.5] {
-            let blurred = CubeMap::from_fn(64, 1, |_| DVec3::new(0.5, 0.25, 2.0)).defocused(half_angle);
+            let blurred = CubeMap::from_fn(64, 1, |_| DVec3::new(0.5, 0.25, 2.0)).defocused(half_angle, [true; 6]);
             for direction in [DVec3::X, DVec3::ONE, DVec3::new(-1.0, 0.99, 0.2)] {
                 assert!((blurred.sample(direction) - DVec3::new(0.5, 0.25, 2.0)).abs().max_element() < 1e-3);
             }

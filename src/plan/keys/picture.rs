@@ -5,7 +5,11 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{FilmKey, OpenHoleKey, Opening, QuadratureKey, TableKey};
-use crate::physics::{colour::Gamut, environment::CubeMap, film::Cap};
+use crate::physics::{
+    colour::Gamut,
+    environment::{CubeFace, CubeMap},
+    film::Cap,
+};
 
 /// The light around the bubbles.
 #[derive(Clone, Debug)]
@@ -32,6 +36,22 @@ pub struct DefocusKey {
     pub environment: EnvironmentKey,
     /// Half angle of the cones that it is averaged over, in radians; above 0.
     pub half_angle_rad: f64,
+    /// The faces of its cube that are in sight, in their order on the GPU.
+    pub faces: [bool; 6],
+}
+
+impl DefocusKey {
+    /// The map.
+    #[must_use]
+    pub fn map(&self) -> CubeMap {
+        self.environment.0.defocused(self.half_angle_rad, self.faces)
+    }
+
+    /// Whether another key is of the same map, of whatever faces.
+    #[must_use]
+    pub fn is_same_map(&self, other: &Self) -> bool {
+        self.environment == other.environment && self.half_angle_rad == other.half_angle_rad
+    }
 }
 
 /// One bubble as the picture sees it.
@@ -266,6 +286,24 @@ pub fn exposed_ev(exposure_ev: f64) -> i32 {
 }
 
 impl DrawKey {
+    /// What is seen of one of the lights behind the bubbles, where that is an environment out of focus.
+    #[must_use]
+    pub fn defocus(&self, Lighting { light, environment, .. }: &Lighting) -> Option<DefocusKey> {
+        if light.backdrop != BackdropKey::Environment || light.defocus_rad == 0.0 {
+            return None;
+        }
+        let [width, height] = self.size.map(f64::from);
+        // To the corners of the picture and a little farther: faces are interpolated across their edges.
+        let half_angle = (0.5 * self.camera.pixel_height_m * width.hypot(height)).atan() + light.defocus_rad;
+        let forward = DMat3::from_rotation_z(-light.rotation_rad) * self.camera.forward;
+        let meets = |face: CubeFace| {
+            face.meets_cone(forward, half_angle)
+                || self.on_bath && face.meets_cone(forward.with_z(-forward.z), half_angle)
+        };
+        let faces = CubeFace::ALL.map(meets);
+        Some(DefocusKey { environment: environment.clone(), half_angle_rad: light.defocus_rad, faces })
+    }
+
     /// All lights, the scene's own first.
     pub fn lights(&self) -> impl Iterator<Item = &Lighting> {
         std::iter::once(&self.lighting).chain(&self.spectral_lights)
@@ -325,13 +363,6 @@ impl DrawKey {
 }
 
 impl Lighting {
-    /// What is seen behind the bubbles where it is an environment that is out of focus.
-    #[must_use]
-    pub fn defocus(&self) -> Option<DefocusKey> {
-        let is_blurred = self.light.backdrop == BackdropKey::Environment && self.light.defocus_rad > 0.0;
-        is_blurred.then(|| DefocusKey { environment: self.environment.clone(), half_angle_rad: self.light.defocus_rad })
-    }
-
     fn difference(&self, other: &Self) -> &'static str {
         if self.light != other.light || self.environment != other.environment {
             "the light"
