@@ -1,5 +1,7 @@
 // The light around the bubble, and what stands straight behind it.
 
+import package::light::lamps::lamps_radiance;
+
 // Mirrors `LightUniform` in src/gpu/passes/backdrop.rs. All colours are linear BT.2020. Light is RGB that stands for a spectrum relative to the
 // illuminant's (src/physics/colour/uplift.rs); the eye's response to it is a colour.
 struct Light {
@@ -22,6 +24,8 @@ struct Light {
     seen: mat3x3f,
     // The inverse: light that has a colour.
     unseen: mat3x3f,
+    // Tangent of the half angle of the cones that the backdrop is spread over.
+    defocus: f32,
 }
 
 // 1: the environment is seen behind the bubbles. 0: one colour.
@@ -35,26 +39,20 @@ fn environment_radiance(
     direction: vec3f,
     footprint: f32,
 ) -> vec3f {
-    return map_radiance(environment, environment_sampler, light, direction, footprint, light.texel_angle);
+    let turned = in_environment(light, direction);
+    // A texel of a level, blurred by its own box and by interpolation, has the variance of a box sqrt(3) times as wide.
+    let level = log2(max(0.577 * footprint / light.texel_angle, 1.0));
+    let far = textureSampleLevel(environment, environment_sampler, turned, level).rgb;
+    return light.gain * (far + lamps_radiance(turned, 0.0, footprint));
 }
 
-// The same from a map with some angle between texels.
-fn map_radiance(
-    environment: texture_cube<f32>,
-    environment_sampler: sampler,
-    light: Light,
-    direction: vec3f,
-    footprint: f32,
-    texel_angle: f32,
-) -> vec3f {
-    let turned = vec3f(
+// A direction in the environment's own axes.
+fn in_environment(light: Light, direction: vec3f) -> vec3f {
+    return vec3f(
         light.turn_cos * direction.x + light.turn_sin * direction.y,
         light.turn_cos * direction.y - light.turn_sin * direction.x,
         direction.z,
     );
-    // A texel of a level, blurred by its own box and by interpolation, has the variance of a box sqrt(3) times as wide.
-    let level = log2(max(0.577 * footprint / texel_angle, 1.0));
-    return light.gain * textureSampleLevel(environment, environment_sampler, turned, level).rgb;
 }
 
 // What is seen straight behind the bubbles: of the environment a map of its own, which may be out of focus.
@@ -68,5 +66,8 @@ fn backdrop_radiance(
     if (BACKDROP_IS_ENVIRONMENT == 0u) {
         return light.backdrop;
     }
-    return map_radiance(backdrop_map, backdrop_sampler, light, direction, footprint, light.backdrop_texel_angle);
+    let turned = in_environment(light, direction);
+    let level = log2(max(0.577 * footprint / light.backdrop_texel_angle, 1.0));
+    let far = textureSampleLevel(backdrop_map, backdrop_sampler, turned, level).rgb;
+    return light.gain * (far + lamps_radiance(turned, light.defocus, footprint));
 }

@@ -2,6 +2,7 @@
 
 import package::camera::view::{View, view_ray, pixel_angle};
 import package::light::environment::{Light, backdrop_radiance};
+import package::light::lamps::Lamp;
 import package::light::stored::storable;
 import package::light::water::{crossing, upward};
 
@@ -9,6 +10,7 @@ import package::light::water::{crossing, upward};
 @group(0) @binding(1) var<uniform> light: Light;
 @group(0) @binding(2) var backdrop_map: texture_cube<f32>;
 @group(0) @binding(3) var backdrop_sampler: sampler;
+@group(0) @binding(4) var<uniform> lamps: array<Lamp, 12>;
 
 @vertex
 fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {

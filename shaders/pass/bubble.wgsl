@@ -6,6 +6,7 @@ import package::film::control::Balance;
 import package::film::hole::{Rim, TAU};
 import package::film::wall::optical_nm;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
+import package::light::lamps::Lamp;
 import package::light::others::{AMONG_OTHERS, mirrored_light, passed_others};
 import package::light::stored::storable;
 import package::light::water::{crossing, past_meniscus, upward};
@@ -99,6 +100,7 @@ struct ListPart {
 @group(0) @binding(20) var<storage, read> part: ListPart;
 // The environment as it is seen behind the bubbles.
 @group(0) @binding(21) var backdrop_map: texture_cube<f32>;
+@group(0) @binding(22) var<uniform> lamps: array<Lamp, 12>;
 
 // Sides of the polygons that rings are made of.
 override SIDES: u32;

@@ -130,7 +130,8 @@ fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
 
 fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     // A constant environment is a white cube times this factor: exact, where half floats in the cube would round.
-    let constant = scene.light.constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
+    let constant = scene.light.constant.filter(|_| scene.light.lamps.is_empty());
+    let constant = constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
     let backdrop = match scene.view.backdrop {
         Backdrop::Environment => BackdropKey::Environment,
         Backdrop::Radiance(rgb) => BackdropKey::Colour(bt709_to_bt2020() * DVec3::from(rgb)),

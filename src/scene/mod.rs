@@ -38,7 +38,8 @@ pub use event::{Blow, BlowKeys, Change, Drag, DragKeys, Event, Prick, PrickKeys,
 pub use generator::{Generator, GeneratorKeys, Layout};
 pub use lens::{Lens, LensKeys, MAX_DEFOCUS_RAD};
 pub use light::{
-    Backdrop, Environment, Light, LightKeys, LightPatch, LightPatchKeys, MAX_PATCHES, Quality, View, ViewKeys,
+    Backdrop, Environment, LampShape, Light, LightKeys, LightLamp, LightLampKeys, LightPatch, LightPatchKeys,
+    MAX_LAMPS, MAX_PATCHES, Quality, View, ViewKeys,
 };
 pub use motion::{Motion, MotionChange, MotionKeys};
 pub use preset::{preset, preset_names, preset_sentence, preset_toml};

@@ -11,7 +11,7 @@ use super::{
     formats::radiance_format,
     kernel::Drawable,
     passes::{
-        backdrop::{Backdrop, LightUniform, ViewUniform},
+        backdrop::{Backdrop, LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
         bake_table::{Table, TableOverrides, table_sampler},
         bubble::{OtherBubble, Shade, ShadeMirror},
         open_hole::OpenHole,
@@ -26,8 +26,8 @@ use super::{
 use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting};
 use small::SmallDraw;
 use values::{
-    backdrop_colour, bubble_uniform, light_uniform, list_part, other_bubble, ring_overrides, small_bubbles,
-    view_uniform,
+    backdrop_colour, bubble_uniform, lamp_uniforms, light_uniform, list_part, other_bubble, ring_overrides,
+    small_bubbles, view_uniform,
 };
 
 /// What a draw reads that other passes left.
@@ -93,21 +93,42 @@ impl BackdropDraw {
         gpu: &Gpu,
         key: &DrawKey,
         lighting: &Lighting,
-        (view, light, map): (&UniformBuffer<ViewUniform>, &UniformBuffer<LightUniform>, &Environment),
+        light: &LightBuffers,
+        (view, map): (&UniformBuffer<ViewUniform>, &Environment),
     ) -> Result<Self, GpuError> {
         if let (BackdropKey::Colour(radiance), false) = (&lighting.light.backdrop, key.on_bath) {
             return Ok(Self::Colour(backdrop_colour(key, lighting, *radiance)));
         }
         let backdrop = Backdrop {
+            lit: light.lit,
             ON_BATH: key.on_bath,
             FULL_PRECISION: key.full_precision,
             BACKDROP_IS_ENVIRONMENT: lighting.light.backdrop == BackdropKey::Environment,
             view,
-            light,
+            light: &light.light,
             backdrop_map: &map.view,
             backdrop_sampler: &map.sampler,
+            lamps: &light.lamps,
         };
         Ok(Self::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?))
+    }
+}
+
+/// A light on the device.
+struct LightBuffers {
+    light: UniformBuffer<LightUniform>,
+    lamps: UniformBuffer<[LampUniform; MAX_LAMPS]>,
+    lit: LampOverrides,
+}
+
+impl LightBuffers {
+    fn new(gpu: &Gpu, key: &DrawKey, lighting: &Lighting, maps: [&Environment; 2]) -> Self {
+        let count = lighting.environment.0.lamps().len().min(MAX_LAMPS);
+        Self {
+            light: gpu.uniform("light", &light_uniform(lighting, key.exposed_ev, maps)),
+            lamps: gpu.uniform("lamps", &lamp_uniforms(lighting)),
+            lit: LampOverrides { LAMPS: count as u32 },
+        }
     }
 }
 
@@ -116,7 +137,7 @@ struct Shared<'a> {
     key: &'a DrawKey,
     lighting: &'a Lighting,
     view: UniformBuffer<ViewUniform>,
-    light: UniformBuffer<LightUniform>,
+    light: LightBuffers,
     environment: &'a Environment,
     backdrop: &'a Environment,
     table_sampler: wgpu::Sampler,
@@ -179,9 +200,8 @@ impl DrawPass {
             return Err(GpuError::TooManyBubbles { count, most });
         }
         let view = gpu.uniform("view", &view_uniform(key));
-        let light =
-            gpu.uniform("light", &light_uniform(lighting, key.exposed_ev, [inputs.environment, inputs.backdrop]));
-        let backdrop = BackdropDraw::new(gpu, key, lighting, (&view, &light, inputs.backdrop))?;
+        let light = LightBuffers::new(gpu, key, lighting, [inputs.environment, inputs.backdrop]);
+        let backdrop = BackdropDraw::new(gpu, key, lighting, &light, (&view, inputs.backdrop))?;
         let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0] };
         let table_sampler = table_sampler(gpu);
         let [behind, so_far] = inputs.drawn.map(|target| &target.view);
@@ -302,8 +322,9 @@ impl Shared<'_> {
             shape: ring_overrides(key, lighting, drawn),
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: lighting.light.polariser.is_some() },
             summed: quadrature.overrides(),
+            lit: light.lit,
             view,
-            light,
+            light: &light.light,
             environment: &environment.view,
             environment_sampler: &environment.sampler,
             bubble,
@@ -324,6 +345,7 @@ impl Shared<'_> {
             films,
             part,
             backdrop_map: &backdrop.view,
+            lamps: &light.lamps,
         };
         let format = radiance_format(key.full_precision);
         match (key.yardstick, ring.edges_rad) {

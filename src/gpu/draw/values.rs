@@ -1,5 +1,6 @@
 //! What the shaders of a picture are given, from its keys.
 
+use bytemuck::Zeroable;
 use glam::{DMat3, DVec3};
 
 use super::Drawn;
@@ -8,7 +9,7 @@ use crate::{
         environment::Environment,
         film_atlas::FilmAtlas,
         passes::{
-            backdrop::{LightUniform, ViewUniform},
+            backdrop::{LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
             bubble::{BubbleUniform, ListPart, OtherBubble, RingOverrides},
         },
         quadrature::Quadrature,
@@ -125,7 +126,29 @@ pub(super) fn light_uniform(
         turn_sin: light.rotation_rad.sin() as f32,
         seen: (exposure * light.seen).into(),
         unseen: unseen(&(exposure * light.seen)).into(),
+        defocus: light.defocus_rad.tan() as f32,
+        padding: [0.0; 3],
     }
+}
+
+/// The lamps before a light's environment; none where there are fewer.
+pub(super) fn lamp_uniforms(lighting: &Lighting) -> [LampUniform; MAX_LAMPS] {
+    let mut lamps = [LampUniform::zeroed(); MAX_LAMPS];
+    for (uniform, lamp) in lamps.iter_mut().zip(lighting.environment.0.lamps()) {
+        *uniform = LampUniform {
+            towards: floats(lamp.towards),
+            edge: lamp.edge as f32,
+            right: floats(lamp.right),
+            corner: lamp.corner as f32,
+            up: floats(lamp.towards.cross(lamp.right)),
+            area: lamp.area() as f32,
+            radiance: floats(lamp.radiance),
+            padding: 0.0,
+            half_size: lamp.half_size.as_vec2().to_array(),
+            padding_after: [0.0; 2],
+        };
+    }
+    lamps
 }
 
 /// A ring of a bubble.

@@ -1,7 +1,7 @@
 //! A bubble, ring by ring.
 
 use super::{
-    backdrop::{LightUniform, ViewUniform},
+    backdrop::{LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
     bake_table::{TableAxes, TableOverrides},
     open_hole::RimValue,
 };
@@ -155,6 +155,7 @@ kernels! {
         overrides shape: RingOverrides;
         overrides table_kind: TableOverrides;
         overrides summed: QuadratureOverrides;
+        overrides lit: LampOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
@@ -177,6 +178,7 @@ kernels! {
         @19 films: Texture2dArray;
         @20 part: Read<ListPart>;
         @21 backdrop_map: TextureCube;
+        @22 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
     }
     draw ring, everywhere as shade;
 
@@ -185,6 +187,7 @@ kernels! {
         overrides shape: RingOverrides;
         overrides table_kind: TableOverrides;
         overrides summed: QuadratureOverrides;
+        overrides lit: LampOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
@@ -193,6 +196,7 @@ kernels! {
         @15 picture_behind: Texture2d;
         @16 picture_so_far: Texture2d;
         @21 backdrop_map: TextureCube;
+        @22 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
     }
     draw ring, everywhere as shade_mirror;
 }
@@ -200,12 +204,14 @@ kernels! {
 impl<'a> ShadeMirror<'a> {
     /// The mirror that stands where a bubble would.
     pub fn in_place_of(shade: &Shade<'a>) -> Self {
-        let Shade { shape, table_kind, summed, view, light, environment, environment_sampler, bubble, .. } = *shade;
-        let Shade { picture_behind, picture_so_far, backdrop_map, .. } = *shade;
+        let Shade { shape, table_kind, summed, lit, view, light, environment, environment_sampler, bubble, .. } =
+            *shade;
+        let Shade { picture_behind, picture_so_far, backdrop_map, lamps, .. } = *shade;
         Self {
             shape,
             table_kind,
             summed,
+            lit,
             view,
             light,
             environment,
@@ -214,6 +220,7 @@ impl<'a> ShadeMirror<'a> {
             picture_behind,
             picture_so_far,
             backdrop_map,
+            lamps,
         }
     }
 }

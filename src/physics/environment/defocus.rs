@@ -29,7 +29,8 @@ impl CubeMap {
         // Discs of less than a texel leave the map nearly as it is.
         let size = if half_angle_rad * (self.size() as f64) < 2.0 { self.size() as f64 } else { size };
         let cones = Cones::new(self, half_angle_rad, faces);
-        Self::from_fn((size as usize).next_multiple_of(16), 1, |direction| cones.mean(direction))
+        let map = Self::from_fn((size as usize).next_multiple_of(16), 1, |direction| cones.mean(direction));
+        map.seen_through(half_angle_rad).with_lamps(self.lamps().iter().copied())
     }
 }
 

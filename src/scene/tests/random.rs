@@ -66,15 +66,16 @@ fn light() -> impl Strategy<Value = Light> {
         Just(Environment::Studio),
         file
     ];
-    let patches = prop::collection::vec(patch(), 0..3);
+    let patches = (prop::collection::vec(patch(), 0..3), prop::collection::vec(lamp(), 0..3));
     (environment, illuminant(), prop::option::of(radiance()), -1e9..1e9, 0.0..1e4, patches).prop_map(
-        |(environment, illuminant, constant, rotation_deg, intensity, patches)| Light {
+        |(environment, illuminant, constant, rotation_deg, intensity, (patches, lamps))| Light {
             environment,
             illuminant,
             constant,
             rotation_deg,
             intensity,
             patches,
+            lamps,
         },
     )
 }
@@ -93,6 +94,16 @@ fn patch() -> impl Strategy<Value = LightPatch> {
             edge_deg,
             illuminant,
             radiance,
+        },
+    )
+}
+
+fn lamp() -> impl Strategy<Value = LightLamp> {
+    let place = (-1e9..1e9, -90.0..90.0, -1e9..1e9);
+    let size = (0.05..120.0, 0.05..120.0, 0.0..30.0);
+    (any_of(), place, size, 0.0..1e6, prop::option::of(1e3..25e3)).prop_map(
+        |(shape, (azimuth_deg, elevation_deg, roll_deg), (width_deg, height_deg, edge_deg), radiance, kelvin)| {
+            LightLamp { shape, azimuth_deg, elevation_deg, roll_deg, width_deg, height_deg, edge_deg, radiance, kelvin }
         },
     )
 }
