@@ -85,7 +85,7 @@ pub struct Scene {
 }
 
 impl Default for Scene {
-    /// The scene of the file `version = 1`, which is the preset `default`.
+    /// The scene of the file `version = 1`, which is the preset `tent`.
     fn default() -> Self {
         Self {
             version: VERSION,

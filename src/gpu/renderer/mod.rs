@@ -15,7 +15,7 @@ use super::{
     film::{Company, MovingFilm},
     film_atlas::FilmAtlas,
     formats::{PICTURE_FORMAT, radiance_format},
-    passes::{add_light::add_light, bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
+    passes::{add_light::add_light, bake_table::Table, finish::Finished, open_hole::OpenHole, tonemap::tonemap},
     quadrature::Quadrature,
     readback::Readback,
     shown_film::Shown,
@@ -24,7 +24,7 @@ use super::{
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pass, Plan, TableKey, TonemapKey, plan},
+    plan::{DrawKey, FilmKey, Finish, FrameRequest, GpuState, Pass, Plan, TableKey, TonemapKey, plan},
 };
 
 /// Everything that is on the device.
@@ -43,6 +43,7 @@ struct Products {
     /// The picture in one spectral light, and its sum with the pictures before.
     added: Option<Target>,
     sum: Option<Target>,
+    finished: Finished,
     picture: Option<Target>,
 }
 
@@ -373,7 +374,11 @@ impl Renderer {
         let Some(radiance) = &self.products.radiance else { return Ok(()) };
         let picture = Target::fit(self.products.picture.take(), &self.gpu, "picture", key.draw.size, PICTURE_FORMAT);
         let mut recorder = Recorder::new(&self.gpu);
-        tonemap(&mut recorder, key, &radiance.view, &picture.view)?;
+        let linear = match key.finish == Finish::default() {
+            true => radiance,
+            false => self.products.finished.record(&mut recorder, key, radiance)?,
+        };
+        tonemap(&mut recorder, key, &linear.view, &picture.view)?;
         recorder.counts.pixels_shaded += key.draw.size.map(u64::from).iter().product::<u64>();
         Self::submit(&self.times, &mut self.counts, recorder);
         self.products.picture = Some(picture);

@@ -61,8 +61,10 @@ impl CubeMap {
     pub fn with_lamps(mut self, lamps: impl IntoIterator<Item = Lamp>) -> Self {
         for lamp in lamps {
             let numbers = [lamp.half_size.x, lamp.half_size.y, lamp.corner, lamp.edge].into_iter();
-            let numbers =
-                [lamp.towards, lamp.right, lamp.radiance].into_iter().flat_map(|vector| vector.to_array()).chain(numbers);
+            let numbers = [lamp.towards, lamp.right, lamp.radiance]
+                .into_iter()
+                .flat_map(|vector| vector.to_array())
+                .chain(numbers);
             self.id = numbers.map(f64::to_bits).fold(self.id, hashed);
             self.neutral &=
                 lamp.radiance.max_element() - lamp.radiance.min_element() <= 1e-3 * lamp.radiance.max_element();

@@ -372,6 +372,19 @@ impl Lighting {
     }
 }
 
+/// What a lens and a film do to the picture before it is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Finish {
+    /// Part of light that the lens scatters.
+    pub glare: f64,
+    /// Stops that the corners lose.
+    pub vignetting_ev: f64,
+    /// Relative grain of a radiance that is exposed as 1.
+    pub grain: f64,
+    /// Seed of the grain; 0 without grain.
+    pub grain_seed: u32,
+}
+
 /// The finished picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TonemapKey {
@@ -379,6 +392,8 @@ pub struct TonemapKey {
     pub draw: DrawKey,
     /// Exposure in stops.
     pub exposure_ev: f64,
+    /// What is done to the linear picture first.
+    pub finish: Finish,
     /// From the linear picture to what the display is given, linear BT.2020: white balance.
     pub balance: DMat3,
     /// Colours that the display has.
@@ -388,6 +403,12 @@ pub struct TonemapKey {
 }
 
 impl TonemapKey {
+    /// Factor that exposes the linear picture, which is exposed by whole stops already.
+    #[must_use]
+    pub fn exposure(&self) -> f64 {
+        (self.exposure_ev - f64::from(self.draw.exposed_ev)).exp2()
+    }
+
     /// The first thing in which two pictures differ.
     #[must_use]
     pub fn difference(&self, other: &Self) -> &'static str {
@@ -395,6 +416,8 @@ impl TonemapKey {
             "the linear picture"
         } else if self.exposure_ev != other.exposure_ev {
             "the exposure"
+        } else if self.finish != other.finish {
+            "glare, vignetting or grain"
         } else if self.balance != other.balance || self.gamut != other.gamut {
             "the white balance or the gamut"
         } else {

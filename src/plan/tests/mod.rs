@@ -205,7 +205,7 @@ fn films_that_end_nowhere_know_of_no_end() {
         FilmKey::Field(field) => field,
         FilmKey::Uniform(_) => panic!("a film that flows"),
     };
-    let free = preset("default").unwrap();
+    let free = preset("tent").unwrap();
     assert_eq!(field(&free).boundary, None);
     assert!(!frame_request(&free, 4, Pace::Whole).picture.draw.on_bath);
     let bath = preset("bath").unwrap();

@@ -234,8 +234,8 @@ fn scene_in_memory_is_refused_by_its_key() {
 }
 
 #[test]
-fn default_is_the_preset_of_that_name() {
-    assert_eq!(preset("default"), Some(Scene::default()));
+fn a_scene_without_keys_is_the_preset_tent() {
+    assert_eq!(preset("tent"), Some(Scene::default()));
     assert_eq!(preset_names().next(), Some("default"));
     assert_eq!(preset("no such scene"), None);
 }

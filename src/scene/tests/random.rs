@@ -50,7 +50,16 @@ fn camera() -> impl Strategy<Value = Camera> {
 }
 
 fn lens() -> impl Strategy<Value = Lens> {
-    (0.0..200.0, prop::option::of(0.01..1e3)).prop_map(|(aperture_mm, focus_m)| Lens { aperture_mm, focus_m })
+    let finish = (0.0..0.5, 0.0..4.0, 0.0..0.5);
+    (0.0..200.0, prop::option::of(0.01..1e3), finish).prop_map(
+        |(aperture_mm, focus_m, (glare, vignetting_ev, grain))| Lens {
+            aperture_mm,
+            focus_m,
+            glare,
+            vignetting_ev,
+            grain,
+        },
+    )
 }
 
 fn radiance() -> impl Strategy<Value = [f64; 3]> {

@@ -7,7 +7,7 @@
 //! | clear sky | 1 above, 3 at the horizon, 15 beside the sun | CIE standard clear sky (CIE S 011), sun 15° high |
 //! | clouds | 1.3 below, up to 7 where the sun meets them | albedo 0.8 in 40 klx, where the zenith has some 1.8 kcd/m² |
 //! | sun | 7 sr of the zenith in all | 40 klx, of which haze leaves a third |
-//! | foliage | 0.002 inside, 0.009 on average, 0.04 in the sun | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
+//! | foliage | 0.001 inside, 0.005 on average, 0.025 in the sun | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
 //! | meadow | 0.07 in shade, 0.12 in the sun | grass reflects 6 % (Bowker et al. 1985) |
 
 use std::sync::LazyLock;
@@ -150,18 +150,18 @@ impl Park {
 
         let crown = |top: f64, bottom: f64| cover((top - slope).min(slope - bottom) + 1.2 * ragged);
         let (middle, near) = (crown(top, bottom), crown(near_top, near_bottom));
-        let foliage = DVec3::new(0.017, 0.024, 0.0085) * leaf * (0.25 + 0.8 * high + 1.1 * front);
+        let foliage = DVec3::new(0.0105, 0.0144, 0.0052) * leaf * (0.25 + 0.8 * high + 1.1 * front);
         let seen = if near == 1.0 {
             0.55 * foliage
         } else if middle == 1.0 && near == 0.0 && near_trunk == 0.0 {
             foliage
         } else {
-            let bark = DVec3::new(0.0048, 0.0040, 0.0034) * (0.7 + 1.5 * front);
+            let bark = DVec3::new(0.0032, 0.0027, 0.0023) * (0.7 + 1.5 * front);
             let above_ground = smoothstep(-0.05 - soft, -0.05 + soft, slope);
             let trunk = |trunk: f64, bottom: f64| trunk * above_ground * smoothstep(0.08, 0.0, slope - bottom);
             let woods_cover = cover(far_top - slope + 0.4 * ragged) * smoothstep(-0.03 - soft, -0.03 + soft, slope);
             let stems = self.noise.at(place * DVec2::new(2.0, 0.3) + 0.6);
-            let woods = DVec3::new(0.0054, 0.0074, 0.0050) * (0.7 + 0.3 * stems + 0.5 * high + 0.5 * front).max(0.15);
+            let woods = DVec3::new(0.0028, 0.0037, 0.0026) * (0.7 + 0.3 * stems + 0.5 * high + 0.5 * front).max(0.15);
             let open = if woods_cover == 1.0 {
                 woods
             } else {
@@ -187,17 +187,19 @@ impl Park {
             let cell = (column as u64).wrapping_mul(4096).wrapping_add(row as u64);
             let center = DVec2::new(0.2 + 0.6 * random(cell, seed + 1), 0.2 + 0.6 * random(cell, seed + 2));
             let out = DVec2::new(x, y) - center;
-            let size = 0.07 + 0.06 * random(cell, seed + 4);
-            let cover = smoothstep(1.3 * size, 0.7 * size, out.length());
+            // Holes of no shape, smaller than a leaf is long.
+            let size = 0.045 + 0.05 * random(cell, seed + 4);
+            let ragged = size * (1.0 + 0.5 * self.noise.at(place * DVec2::new(6.0, 7.0)));
+            let cover = smoothstep(1.3 * ragged, 0.7 * ragged, out.length());
             if cover == 0.0 {
                 return seen;
             }
             // Each gap as a whole is as bright as the leaves in its middle are open.
             let middle = place - DVec2::new(turn.x, -turn.y).rotate(out) / (turn.length_squared() * level);
-            let open = smoothstep(0.0, 0.2, middle.y) * smoothstep(top, top - 0.06, middle.y);
+            let open = smoothstep(0.08, 0.24, middle.y) * smoothstep(top, top - 0.06, middle.y);
             let gaps = open * smoothstep(-0.9, 1.6, self.noise.at(middle * 0.6 + 0.5));
-            let bright = (1.0 - 1.7 * random(cell, seed) / gaps.max(1e-3)).max(0.0);
-            let light = DVec3::new(4.6, 4.6, 3.6).lerp(DVec3::new(1.6, 2.2, 0.8), random(cell, seed + 3));
+            let bright = (1.0 - 3.2 * random(cell, seed) / gaps.max(1e-3)).max(0.0);
+            let light = DVec3::new(6.6, 6.4, 5.2).lerp(DVec3::new(2.4, 3.2, 1.2), random(cell, seed + 3));
             seen + cover * bright * bright * light
         };
         let turns = [(16.0, 5.0, 24), (-11.0, 13.0, 34), (8.0, -15.0, 44)];
@@ -329,7 +331,7 @@ mod tests {
         assert!((0.8..1.4).contains(&sky(0.02)) && (3.5..7.0).contains(&sky(0.98)), "{} {}", sky(0.02), sky(0.98));
         let trees = greens(2..9);
         assert!(
-            (0.001..0.006).contains(&trees(0.1)) && (0.01..0.04).contains(&trees(0.8)),
+            (0.0006..0.003).contains(&trees(0.1)) && (0.005..0.02).contains(&trees(0.8)),
             "{} {}",
             trees(0.1),
             trees(0.8)
