@@ -22,8 +22,9 @@ struct Lamp {
     half_size: vec2f,
 }
 
-fn box_area(half_size: vec2f, corner: f32) -> f32 {
-    return 4.0 * half_size.x * half_size.y - 0.858407346 * corner * corner;
+// Area of such a rectangle with its soft edge.
+fn box_area(half_size: vec2f, corner: f32, edge: f32) -> f32 {
+    return 4.0 * half_size.x * half_size.y - 0.858407346 * corner * corner + 0.628318531 * edge * edge;
 }
 
 // Radiance of a lamp from a direction, spread over cones of a half angle (its tangent) and filtered over a footprint.
@@ -37,7 +38,7 @@ fn lamp_radiance(lamp: Lamp, direction: vec3f, defocus: f32, footprint: f32) -> 
     let outside = abs(place) - half_size + corner;
     let distance = length(max(outside, vec2f(0.0))) + min(max(outside.x, outside.y), 0.0) - corner;
     let cover = select(0.0, 1.0 - smoothstep(-edge, edge, distance), facing > 0.0);
-    return cover * lamp.area / (box_area(half_size, corner) + 0.628318531 * edge * edge) * lamp.radiance;
+    return cover * lamp.area / box_area(half_size, corner, edge) * lamp.radiance;
 }
 
 // Radiance of all lamps.

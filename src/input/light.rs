@@ -79,7 +79,7 @@ fn lamp_of(lamp: &LightLamp, illuminant: &Illuminant) -> Result<Lamp, LoadError>
     };
     let angles = [lamp.azimuth_deg, lamp.elevation_deg, lamp.roll_deg].map(f64::to_radians);
     let edge = 0.5 * lamp.edge_deg.to_radians();
-    Ok(Lamp { edge, ..Lamp::new(angles, half_size, corner, lamp.radiance * white) })
+    Ok(Lamp { edge: edge.min(corner), ..Lamp::new(angles, half_size, corner, lamp.radiance * white) })
 }
 
 /// An environment without the light of its patches, and these patches as spectral lights.
@@ -166,6 +166,20 @@ mod tests {
             covered += u32::from(rest.sample(direction).x < 0.5);
         }
         assert!((5..=7).contains(&covered), "{covered} of 36 directions");
+    }
+
+    #[test]
+    fn lamps_have_their_radiance_and_their_colour() {
+        let lamp =
+            |azimuth_deg: f64, kelvin| LightLamp { azimuth_deg, elevation_deg: 0.0, kelvin, ..LightLamp::default() };
+        let lamps = vec![lamp(0.0, None), lamp(180.0, Some(3000.0))];
+        let light = Light { constant: Some([0.0; 3]), lamps, ..Light::default() };
+        let (map, _) = load_environment(&light, Path::new(""), &mut Vec::new()).expect("all is built in");
+        assert_eq!(map.sample(DVec3::X), DVec3::splat(10.0));
+        assert_eq!(map.sample(DVec3::Y), DVec3::ZERO);
+        let warm = seen_light(&Illuminant::default()) * map.sample(DVec3::NEG_X);
+        assert!((warm.dot(BT2020.luminance_weights()) - 10.0).abs() < 1e-9, "{warm}");
+        assert!(warm.x > 1.5 * warm.y && warm.y > 2.0 * warm.z && warm.z > 0.0, "{warm}");
     }
 
     #[test]

@@ -29,9 +29,14 @@ impl CubeFace {
     pub const ALL: [Self; 6] =
         [Self::PositiveX, Self::NegativeX, Self::PositiveY, Self::NegativeY, Self::PositiveZ, Self::NegativeZ];
 
-    /// Whether a cone about a unit vector may meet this face, for a half angle in radians; near corners it may also not.
+    /// Whether a cone about a unit vector may meet this face, for a half angle in radians; near edges and corners it may also not.
     pub fn meets_cone(self, axis: DVec3, half_angle_rad: f64) -> bool {
         let DVec3 { x, y, z: depth } = self.local(axis);
+        // A face's corners are farthest from its middle.
+        let corner = (1.0 / 3.0f64.sqrt()).acos();
+        if depth.clamp(-1.0, 1.0).acos() > corner + half_angle_rad {
+            return false;
+        }
         // The planes through the cube's center and the face's edges.
         [x, -x, y, -y]
             .into_iter()

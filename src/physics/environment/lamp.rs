@@ -47,10 +47,10 @@ impl Lamp {
         Self { towards, right, half_size: DVec2::splat(radius), corner: radius, edge: 0.0, radiance }
     }
 
-    /// Its area.
+    /// Its area, with that of its edge.
     #[must_use]
     pub fn area(&self) -> f64 {
-        area(self.half_size, self.corner)
+        area(self.half_size, self.corner, self.edge)
     }
 
     /// Radiance from a unit `direction`, spread over cones of half angle `defocus` (its tangent) and filtered over `footprint`. The light that it
@@ -68,14 +68,13 @@ impl Lamp {
         let corner = self.corner.max(defocus).max(edge);
         let half_size = self.half_size.max(DVec2::splat(corner));
         let cover = smoothstep(edge, -edge, rounded_box_distance(place, half_size, corner));
-        // A soft edge adds a fifth of its half width squared, around a convex shape.
-        cover * self.area() / (area(half_size, corner) + PI * edge * edge / 5.0) * self.radiance
+        cover * self.area() / area(half_size, corner, edge) * self.radiance
     }
 }
 
-/// Area of a rectangle with round corners.
-fn area(half_size: DVec2, corner: f64) -> f64 {
-    4.0 * half_size.x * half_size.y - (4.0 - PI) * corner * corner
+/// Area of a rectangle with round corners and a soft edge, which adds a fifth of its half width squared around a convex shape.
+fn area(half_size: DVec2, corner: f64, edge: f64) -> f64 {
+    4.0 * half_size.x * half_size.y - (4.0 - PI) * corner * corner + PI * edge * edge / 5.0
 }
 
 #[cfg(test)]

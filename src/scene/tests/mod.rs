@@ -112,7 +112,7 @@ fn defaults() -> toml::Table {
     ];
     let scene = Scene {
         generators: vec![Generator::default()],
-        light: Light { patches: vec![LightPatch::default()], ..Light::default() },
+        light: Light { lamps: vec![LightLamp::default()], patches: vec![LightPatch::default()], ..Light::default() },
         events: changes.map(|change| Event { tick: 0, change }).into(),
         ..Scene::default()
     };
