@@ -4,7 +4,6 @@
 // is halved again and again, and the halves are added up from the smallest on, each with its share. Both filters keep the light's sum.
 
 import package::colour::display::{hash, uniform_of};
-import package::light::stored::storable;
 
 // Mirrors `FinishUniform` in src/gpu/passes/finish.rs.
 struct Finish {
@@ -20,6 +19,9 @@ struct Finish {
     exposure: f32,
     grain_seed: u32,
 }
+
+// The largest half float.
+const MAX_HALF: f32 = 65504.0;
 
 @group(0) @binding(0) var<uniform> finish: Finish;
 @group(0) @binding(1) var picture: texture_2d<f32>;
@@ -86,5 +88,5 @@ fn finished(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // Of the luminance of BT.2020: the eye forgives grey grain most.
     let exposed = max(finish.exposure * dot(passed, vec3f(0.2627, 0.678, 0.0593)), 1e-3);
     let grained = max(1.0 + finish.grain * normal_noise(vec2u(position.xy)) / sqrt(exposed), 0.0);
-    return vec4f(storable(grained * passed), sharp.a);
+    return vec4f(min(grained * passed, vec3f(MAX_HALF)), sharp.a);
 }

@@ -81,7 +81,7 @@ fn glare_spreads_light_and_keeps_its_sum() {
     assert!((sum(&spread) / sum(&sharp) - 1.0).abs() < 0.03, "{} becomes {}", sum(&sharp), sum(&spread));
     let at = |pixels: &[f64], right: usize| pixels[96 * 256 + 128 + right];
     assert!((at(&sharp, 0) - 0.5).abs() < 0.01 && at(&sharp, 20) == 0.0);
-    assert!(at(&spread, 0) < 0.47 && at(&spread, 20) > at(&spread, 40) && at(&spread, 40) > 0.0);
+    assert!(at(&spread, 0) < 0.49 && at(&spread, 20) > at(&spread, 40) && at(&spread, 40) > 0.0);
     // No darker in the middle.
     assert!((at(&dark, 0) - at(&sharp, 0)).abs() < 0.01 && sum(&dark) < sum(&sharp));
 }

@@ -52,7 +52,6 @@ kernels! {
 
     /// The linear picture as it is shown.
     struct FinishPicture {
-        const FULL_PRECISION: bool = false;
         @0 finish: Uniform<FinishUniform>;
         @1 picture: Texture2d;
         @2 halves: Texture2d;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::procedural::shape::{rounded_box_distance, smoothstep};
+use super::shape::{rounded_box_distance, smoothstep};
 
 /// A flat lamp that faces the scene: a disc, a softbox or a strip, as a rectangle with round corners. Lengths are as of a lamp one away, so they
 /// are tangents of angles.

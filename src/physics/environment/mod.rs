@@ -13,6 +13,7 @@ mod mip;
 mod patch;
 mod procedural;
 mod repair;
+mod shape;
 
 pub use cube_face::CubeFace;
 pub use cube_map::{CubeLevel, CubeMap};

@@ -3,7 +3,6 @@
 mod noise;
 mod park;
 mod photographer;
-pub(super) mod shape;
 mod softbox;
 mod studio;
 mod tent;
@@ -13,7 +12,7 @@ use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 
-use super::{CubeMap, Lamp};
+use super::{CubeMap, Lamp, shape};
 use crate::words::words;
 
 words! {

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 /// Hermite step from 0 at `start` to 1 at `end`.
-pub(in crate::physics::environment) fn smoothstep(start: f64, end: f64, value: f64) -> f64 {
+pub(super) fn smoothstep(start: f64, end: f64, value: f64) -> f64 {
     let t = ((value - start) / (end - start)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
@@ -15,7 +15,7 @@ pub(super) fn bell(distance: f64, sigma: f64) -> f64 {
 }
 
 /// Signed distance from `point` to a rectangle about the origin with rounded corners; negative inside.
-pub(in crate::physics::environment) fn rounded_box_distance(point: DVec2, half_size: DVec2, corner: f64) -> f64 {
+pub(super) fn rounded_box_distance(point: DVec2, half_size: DVec2, corner: f64) -> f64 {
     let outside = point.abs() - half_size + corner;
     outside.max(DVec2::ZERO).length() + outside.max_element().min(0.0) - corner
 }
