@@ -79,7 +79,7 @@ fn lamp_of(lamp: &LightLamp, illuminant: &Illuminant) -> Result<Lamp, LoadError>
     };
     let angles = [lamp.azimuth_deg, lamp.elevation_deg, lamp.roll_deg].map(f64::to_radians);
     let edge = 0.5 * lamp.edge_deg.to_radians();
-    Ok(Lamp { edge: edge.min(corner), ..Lamp::new(angles, half_size, corner, lamp.radiance * white) })
+    Ok(Lamp { edge: edge.min(corner), ..Lamp::new(angles, half_size, corner, lamp.luminance * white) })
 }
 
 /// An environment without the light of its patches, and these patches as spectral lights.

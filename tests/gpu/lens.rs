@@ -56,7 +56,7 @@ fn a_far_background_is_that_of_rays_through_a_lens() {
 fn lamp(lens: &str) -> LoadedScene {
     let text = format!(
         "version = 1\nbubble = []\n[lens]\n{lens}\n[light]\nconstant = [0, 0, 0]\n[[light.lamp]]\nshape = \"disc\"\n\
-         azimuth_deg = 200\nelevation_deg = -8\nwidth_deg = 5\nradiance = 0.5\n[view]\nexposure_ev = 0\nbackdrop = \"environment\"\ndither = false\n"
+         azimuth_deg = 200\nelevation_deg = -8\nwidth_deg = 5\nluminance = 0.5\n[view]\nexposure_ev = 0\nbackdrop = \"environment\"\ndither = false\n"
     );
     LoadedScene::from_toml(&text, "lamp", Path::new("")).unwrap()
 }

@@ -111,8 +111,18 @@ fn lamp() -> impl Strategy<Value = LightLamp> {
     let place = (-1e9..1e9, -90.0..90.0, -1e9..1e9);
     let size = (0.05..120.0, 0.05..120.0, 0.0..30.0);
     (any_of(), place, size, 0.0..1e6, prop::option::of(1e3..25e3)).prop_map(
-        |(shape, (azimuth_deg, elevation_deg, roll_deg), (width_deg, height_deg, edge_deg), radiance, kelvin)| {
-            LightLamp { shape, azimuth_deg, elevation_deg, roll_deg, width_deg, height_deg, edge_deg, radiance, kelvin }
+        |(shape, (azimuth_deg, elevation_deg, roll_deg), (width_deg, height_deg, edge_deg), luminance, kelvin)| {
+            LightLamp {
+                shape,
+                azimuth_deg,
+                elevation_deg,
+                roll_deg,
+                width_deg,
+                height_deg,
+                edge_deg,
+                luminance,
+                kelvin,
+            }
         },
     )
 }
