@@ -174,7 +174,7 @@ fn median(mut times: Vec<f64>) -> f64 {
 
 /// Ratio of the process CPU time of a frame to the time of a frame with a plain mirror sphere: medians over frames that alternate.
 fn frame_over_mirror(renderer: &mut Renderer, quality: Quality, frames: usize) -> anyhow::Result<f64> {
-    let mut loaded = load_scene("default")?;
+    let mut loaded = load_scene("tent")?;
     loaded.scene.view.quality = quality;
     let shot = Shot {
         size: if frames > 1 { [1280, 720] } else { [64, 36] },

@@ -49,7 +49,7 @@ pub fn run(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
 
 /// A frame of the default scene's film at a tick, moved by a flow.
 fn frame_request(flow: Flow, cells: u32, tick: u64) -> anyhow::Result<FrameRequest> {
-    let mut loaded = load_scene("default")?;
+    let mut loaded = load_scene("tent")?;
     loaded.scene.bubbles[0].film.cells = cells;
     loaded.scene.motion.flow = flow;
     let moment = Moment { tick, fraction: 0.0 };

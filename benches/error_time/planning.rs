@@ -29,7 +29,7 @@ pub fn run(smoke: bool) -> anyhow::Result<()> {
         "\nscenes: 0 = quiet, 1 = {EVENTS} stirs in an hour, 2 = the same, in dry air, where bubbles live for seconds, 3 = the preset swarm, 10000 bubbles"
     );
     let mut report = Report::new("planning", &["scene", "first_us", "hour_us", "ratio", "arrive_cpu_ms"]);
-    let [loaded, swarm] = [load_scene("default")?, load_scene("swarm")?];
+    let [loaded, swarm] = [load_scene("tent")?, load_scene("swarm")?];
     for (row, scene) in scenes(&loaded.scene).into_iter().chain([swarm.scene]).enumerate() {
         let frames = if smoke { SMOKE_FRAMES } else { FRAMES };
         let planned = |tick| planned(&Story::new(scene.clone()), &loaded.resources, tick, frames);

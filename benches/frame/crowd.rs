@@ -59,7 +59,7 @@ fn load(name: &str) -> LoadedScene {
 
 /// Bubbles on a lattice that faces the eye.
 fn with_bubbles(count: u32, quality: Quality) -> LoadedScene {
-    let mut loaded = load("default");
+    let mut loaded = load("tent");
     let scene: &mut Scene = &mut loaded.scene;
     scene.bubbles.clear();
     (scene.view.quality, scene.camera.distance_m) = (quality, DISTANCE_M);

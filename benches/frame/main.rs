@@ -58,7 +58,7 @@ fn frame_request(size: [u32; 2], yardstick: bool) -> FrameRequest {
 
 /// The default scene with a change, at a moment.
 fn frame_request_of(size: [u32; 2], yardstick: bool, moment: Moment, change: impl FnOnce(&mut Scene)) -> FrameRequest {
-    let mut loaded = load_scene("default").expect("the preset");
+    let mut loaded = load_scene("tent").expect("the preset");
     change(&mut loaded.scene);
     let shot = Shot { size, moment, full_precision: false, gamut: Gamut::Srgb, yardstick, pace: Pace::Whole };
     request(&loaded.scene, &loaded.resources, &shot).expect("a scene that can be drawn")

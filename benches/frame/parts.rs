@@ -35,7 +35,7 @@ const CURVE: Edit = edit("pass/tonemap.wgsl", "encode_srgb(display)", "sqrt(disp
 const DITHER: Edit = edit("colour/display.wgsl", "    let first = hash(", "    return encoded;\n    let first = hash(");
 const ENVIRONMENT: Edit = edit(
     "light/environment.wgsl",
-    "textureSampleLevel(environment, environment_sampler, turned, level).rgb",
+    "textureSampleLevel(environment, environment_sampler, turned, level).rgb;",
     "(turned * turned + level)",
 );
 const FILM: Edit = edit(

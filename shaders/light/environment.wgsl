@@ -1,5 +1,7 @@
 // The light around the bubble, and what stands straight behind it.
 
+import package::light::lamps::lamps_radiance;
+
 // Mirrors `LightUniform` in src/gpu/passes/backdrop.rs. All colours are linear BT.2020. Light is RGB that stands for a spectrum relative to the
 // illuminant's (src/physics/colour/uplift.rs); the eye's response to it is a colour.
 struct Light {
@@ -9,6 +11,8 @@ struct Light {
     texel_angle: f32,
     // Radiance of the backdrop where it is a colour.
     backdrop: vec3f,
+    // The same angle as texel_angle, of the map that is seen behind the bubbles.
+    backdrop_texel_angle: f32,
     // Factor that makes daylight's white (1, 1, 1), exposed as the linear picture is.
     scale: vec3f,
     // cos and sin of the environment's turn about the vertical are turn_cos here and turn_sin below.
@@ -20,6 +24,8 @@ struct Light {
     seen: mat3x3f,
     // The inverse: light that has a colour.
     unseen: mat3x3f,
+    // Tangent of the half angle of the cones that the backdrop is spread over.
+    defocus: f32,
 }
 
 // 1: the environment is seen behind the bubbles. 0: one colour.
@@ -33,19 +39,26 @@ fn environment_radiance(
     direction: vec3f,
     footprint: f32,
 ) -> vec3f {
-    let turned = vec3f(
+    let turned = in_environment(light, direction);
+    // A texel of a level, blurred by its own box and by interpolation, has the variance of a box sqrt(3) times as wide.
+    let level = log2(max(0.577 * footprint / light.texel_angle, 1.0));
+    let far = textureSampleLevel(environment, environment_sampler, turned, level).rgb;
+    return light.gain * (far + lamps_radiance(turned, 0.0, footprint));
+}
+
+// A direction in the environment's own axes.
+fn in_environment(light: Light, direction: vec3f) -> vec3f {
+    return vec3f(
         light.turn_cos * direction.x + light.turn_sin * direction.y,
         light.turn_cos * direction.y - light.turn_sin * direction.x,
         direction.z,
     );
-    // A texel of a level, blurred by its own box and by interpolation, has the variance of a box sqrt(3) times as wide.
-    let level = log2(max(0.577 * footprint / light.texel_angle, 1.0));
-    return light.gain * textureSampleLevel(environment, environment_sampler, turned, level).rgb;
 }
 
+// What is seen straight behind the bubbles: of the environment a map of its own, which may be out of focus.
 fn backdrop_radiance(
-    environment: texture_cube<f32>,
-    environment_sampler: sampler,
+    backdrop_map: texture_cube<f32>,
+    backdrop_sampler: sampler,
     light: Light,
     direction: vec3f,
     footprint: f32,
@@ -53,5 +66,8 @@ fn backdrop_radiance(
     if (BACKDROP_IS_ENVIRONMENT == 0u) {
         return light.backdrop;
     }
-    return environment_radiance(environment, environment_sampler, light, direction, footprint);
+    let turned = in_environment(light, direction);
+    let level = log2(max(0.577 * footprint / light.backdrop_texel_angle, 1.0));
+    let far = textureSampleLevel(backdrop_map, backdrop_sampler, turned, level).rgb;
+    return light.gain * (far + lamps_radiance(turned, light.defocus, footprint));
 }

@@ -6,6 +6,7 @@ import package::film::control::Balance;
 import package::film::hole::{Rim, TAU};
 import package::film::wall::optical_nm;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
+import package::light::lamps::Lamp;
 import package::light::others::{AMONG_OTHERS, mirrored_light, passed_others};
 import package::light::stored::storable;
 import package::light::water::{crossing, past_meniscus, upward};
@@ -97,6 +98,9 @@ struct ListPart {
 @group(0) @binding(18) var<storage, read> lists: array<u32>;
 @group(0) @binding(19) var films: texture_2d_array<f32>;
 @group(0) @binding(20) var<storage, read> part: ListPart;
+// The environment as it is seen behind the bubbles.
+@group(0) @binding(21) var backdrop_map: texture_cube<f32>;
+@group(0) @binding(22) var<uniform> lamps: array<Lamp, 12>;
 
 // The most cones along the longer side of a reflection's footprint.
 const MAX_CONES: f32 = 4.0;
@@ -139,7 +143,7 @@ fn everywhere(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 }
 
 fn backdrop(direction: vec3f, footprint: f32) -> vec3f {
-    return backdrop_radiance(environment, environment_sampler, light, upward(direction), footprint);
+    return backdrop_radiance(backdrop_map, environment_sampler, light, upward(direction), footprint);
 }
 
 // Light from what is drawn behind the bubble, at a position in the picture.

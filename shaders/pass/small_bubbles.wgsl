@@ -4,6 +4,7 @@
 
 import package::camera::view::{View, pixel_angle, view_plane};
 import package::light::environment::{Light, environment_radiance};
+import package::light::lamps::Lamp;
 import package::light::stored::storable;
 import package::optics::airy::{max_reflectance, surface_reflectance};
 import package::optics::film_colour::{COLOURED, POLARISED};
@@ -40,6 +41,7 @@ struct Tile {
 @group(0) @binding(9) var<storage, read> lists: array<u32>;
 @group(0) @binding(10) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(11) var picture_behind: texture_2d<f32>;
+@group(0) @binding(12) var<uniform> lamps: array<Lamp, 12>;
 
 // The whole picture; the pass cuts it to the tiles that have bubbles.
 @vertex

@@ -5,13 +5,17 @@
 //! Everything else holds for the whole history: editing it changes the past too, and a film that would have begun differently is blown again.
 
 use super::history;
-use crate::scene::{Bubble, Camera, Change, Event, FilmIndexName, Generator, Light, Motion, MotionChange, Scene, View};
+use crate::scene::{
+    Bubble, Camera, Change, Event, FilmIndexName, Generator, Lens, Light, Motion, MotionChange, Scene, View,
+};
 
 /// A change of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
     /// Another camera.
     Camera(Camera),
+    /// Another lens.
+    Lens(Lens),
     /// Another view.
     View(View),
     /// Another light.
@@ -39,6 +43,7 @@ impl Edit {
     pub fn apply(self, scene: &mut Scene, tick: u64) -> Self {
         match self {
             Self::Camera(camera) => Self::Camera(std::mem::replace(&mut scene.camera, camera)),
+            Self::Lens(lens) => Self::Lens(std::mem::replace(&mut scene.lens, lens)),
             Self::View(view) => Self::View(std::mem::replace(&mut scene.view, view)),
             Self::Light(light) => Self::Light(std::mem::replace(&mut scene.light, light)),
             Self::Bubble(index, bubble) => change_films(scene, |scene| put(&mut scene.bubbles, index, *bubble)),
@@ -134,6 +139,7 @@ mod tests {
         let scene = Scene { events, generators: vec![Generator::default()], ..Scene::default() };
         let edits = [
             Edit::Camera(Camera { azimuth_deg: 77.0, ..Camera::default() }),
+            Edit::Lens(Lens { aperture_mm: 20.0, ..Lens::default() }),
             Edit::View(View { quality: Quality::Fast, ..View::default() }),
             Edit::Light(Light { intensity: 3.0, ..Light::default() }),
             Edit::Bubble(0, Bubble { radius_mm: 10.0, ..Bubble::default() }.into()),

@@ -71,8 +71,8 @@ impl Files {
         self.begin_load(model, "the light");
         let folder = model.folder.clone();
         let known = &model.scene.light;
-        let same = (&known.environment, known.constant, &known.patches)
-            == (&light.environment, light.constant, &light.patches);
+        let same = (&known.environment, known.constant, &known.patches, &known.lamps)
+            == (&light.environment, light.constant, &light.patches, &light.lamps);
         let resources = model.resources.clone();
         self.run(move || match load_light(&light, &folder, same, resources) {
             Ok((resources, notes)) => Outcome::Light(Box::new(light), resources, notes),

@@ -314,10 +314,10 @@ pub(super) mod tests {
 
     #[test]
     fn a_film_stays_as_fine_as_it_was_while_the_camera_moves() {
-        let mut far = load_scene("default").unwrap();
+        let mut far = load_scene("tent").unwrap();
         far.scene.camera.distance_m = 20.0;
         let grids = |model: &Model| film_grids(&model.scene, 0);
-        let mut model = Model::new(load_scene("default").unwrap());
+        let mut model = Model::new(load_scene("tent").unwrap());
         assert_eq!(grids(&model), [256, 64]);
         model.scene.change(|scene| scene.camera.distance_m = 20.0);
         assert_eq!(grids(&model), [256, 64], "gone away from");

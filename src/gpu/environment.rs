@@ -5,8 +5,11 @@ use crate::physics::environment::CubeMap;
 
 /// An environment and how it is sampled.
 pub struct Environment {
+    texture: wgpu::Texture,
     /// The cube.
     pub view: wgpu::TextureView,
+    /// Angle between neighbouring texels at the center of a face of the finest level, in radians.
+    pub texel_angle: f32,
     /// Linear within and between levels; cube maps have no seams.
     pub sampler: wgpu::Sampler,
 }
@@ -15,6 +18,14 @@ impl Environment {
     /// Sends a cube map to the device.
     #[must_use]
     pub fn upload(gpu: &Gpu, map: &CubeMap) -> Self {
+        let environment = Self::new(gpu, map);
+        environment.write(gpu, map, [true; 6]);
+        environment
+    }
+
+    /// A black cube as large as a map.
+    #[must_use]
+    pub fn new(gpu: &Gpu, map: &CubeMap) -> Self {
         let width = map.size() as u32;
         let size = wgpu::Extent3d { width, height: width, depth_or_array_layers: 6 };
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -27,11 +38,6 @@ impl Environment {
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         });
-        for (number, level) in map.mips().iter().enumerate() {
-            for (face, texels) in level.faces.iter().enumerate() {
-                write_face(gpu, &texture, number as u32, face as u32, bytemuck::cast_slice(texels));
-            }
-        }
         let view = texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::Cube),
             ..Default::default()
@@ -43,7 +49,16 @@ impl Environment {
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
-        Self { view, sampler }
+        Self { texture, view, texel_angle: 2.0 / width as f32, sampler }
+    }
+
+    /// Sends some faces of a map that is as large.
+    pub fn write(&self, gpu: &Gpu, map: &CubeMap, faces: [bool; 6]) {
+        for (number, level) in map.mips().iter().enumerate() {
+            for (face, texels) in level.faces.iter().enumerate().filter(|(face, _)| faces[*face]) {
+                write_face(gpu, &self.texture, number as u32, face as u32, bytemuck::cast_slice(texels));
+            }
+        }
     }
 }
 
@@ -60,10 +75,4 @@ fn write_face(gpu: &Gpu, texture: &wgpu::Texture, level: u32, face: u32, texels:
         wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * width), rows_per_image: None },
         wgpu::Extent3d { width, height: width, depth_or_array_layers: 1 },
     );
-}
-
-/// Angle between neighbouring texels at the center of a face, in radians.
-#[must_use]
-pub fn texel_angle(size: u32) -> f32 {
-    2.0 / size as f32
 }

@@ -2,16 +2,16 @@
 
 use std::{path::Path, sync::Arc};
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::{LoadError, read_environment, read_table_text};
 use crate::{
     physics::{
-        colour::{Illuminant, bt709_to_bt2020},
-        environment::{CubeMap, Patch, Procedural},
+        colour::{BT2020, Illuminant, bt709_to_bt2020, seen_light, unseen},
+        environment::{CubeMap, Lamp, Patch, Procedural},
     },
     plan::SpectralLight,
-    scene::{Environment, Fault, Light, LightPatch, is_table},
+    scene::{Environment, Fault, LampShape, Light, LightLamp, LightPatch, is_table},
 };
 
 /// Minimum texels along an edge of a cube map with patches: their edges are then sharp to a third of a degree.
@@ -25,7 +25,11 @@ pub fn load_environment(
     notes: &mut Vec<String>,
 ) -> Result<(Arc<CubeMap>, Vec<SpectralLight>), LoadError> {
     let map = match &light.environment {
-        _ if light.constant.is_some() => Arc::new(CubeMap::constant(DVec3::ONE)),
+        // Without lamps its colour is a factor on white, which half floats do not round.
+        _ if let Some(constant) = light.constant => {
+            let is_factor = light.lamps.is_empty();
+            Arc::new(CubeMap::constant(if is_factor { DVec3::ONE } else { linear(constant) }))
+        }
         Environment::Tent => Procedural::Tent.map(),
         Environment::Windows => Procedural::Windows.map(),
         Environment::Park => Procedural::Park.map(),
@@ -36,7 +40,46 @@ pub fn load_environment(
             Arc::new(CubeMap::from_equirect(&picture))
         }
     };
-    without_patches(light, map, folder, notes)
+    without_patches(light, with_lamps(light, map, folder, notes)?, folder, notes)
+}
+
+/// An environment with the lamps of a light before it.
+fn with_lamps(
+    light: &Light,
+    map: Arc<CubeMap>,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<Arc<CubeMap>, LoadError> {
+    if light.lamps.is_empty() {
+        return Ok(map);
+    }
+    let illuminant = load_illuminant(&light.illuminant, folder, notes)
+        .map_err(|error| Fault::unusable("illuminant", error).inside("light"))?;
+    let lamps = light.lamps.iter().map(|lamp| lamp_of(lamp, &illuminant)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Arc::new(CubeMap::clone(&map).with_lamps(lamps)))
+}
+
+/// A lamp whose light has its colour under an illuminant.
+fn lamp_of(lamp: &LightLamp, illuminant: &Illuminant) -> Result<Lamp, LoadError> {
+    let half = |degrees: f64| (0.5 * degrees).to_radians().tan();
+    let (width, height) = match lamp.shape {
+        LampShape::Disc => (lamp.width_deg, lamp.width_deg),
+        LampShape::Softbox => (lamp.width_deg, lamp.height_deg),
+        LampShape::Strip => (0.2 * lamp.width_deg, lamp.height_deg),
+    };
+    let half_size = DVec2::new(half(width), half(height));
+    let corner = if lamp.shape == LampShape::Disc { 1.0 } else { 0.15 } * half_size.min_element();
+    let white = match lamp.kelvin {
+        None => DVec3::ONE,
+        Some(kelvin) => {
+            let colour = seen_light(&format!("{kelvin} K").parse()?) * DVec3::ONE;
+            let relative = unseen(&seen_light(illuminant)) * colour;
+            (relative / colour.dot(BT2020.luminance_weights())).max(DVec3::ZERO)
+        }
+    };
+    let angles = [lamp.azimuth_deg, lamp.elevation_deg, lamp.roll_deg].map(f64::to_radians);
+    let edge = 0.5 * lamp.edge_deg.to_radians();
+    Ok(Lamp { edge: edge.min(corner), ..Lamp::new(angles, half_size, corner, lamp.luminance * white) })
 }
 
 /// An environment without the light of its patches, and these patches as spectral lights.
@@ -51,8 +94,9 @@ pub(super) fn without_patches(
     }
     let patches: Vec<Patch> = light.patches.iter().map(patch).collect();
     let size = map.size().max(MIN_PATCHED_SIZE);
-    let rest = |direction| Patch::shares(&patches, direction)[patches.len()] * map.sample(direction);
-    let rest = CubeMap::from_fn(size, 1, rest);
+    let share = |direction| Patch::shares(&patches, direction)[patches.len()];
+    let lamps = map.lamps().iter().map(|lamp| Lamp { radiance: share(lamp.towards) * lamp.radiance, ..*lamp });
+    let rest = CubeMap::from_fn(size, 1, |direction| share(direction) * map.far(direction)).with_lamps(lamps);
     let mut names: Vec<&str> = light.patches.iter().map(|patch| patch.illuminant.as_str()).collect();
     names.sort_unstable();
     names.dedup();
@@ -78,10 +122,14 @@ fn patch(patch: &LightPatch) -> Patch {
     }
 }
 
+fn linear(rgb: [f64; 3]) -> DVec3 {
+    bt709_to_bt2020() * DVec3::from(rgb)
+}
+
 /// Radiance from a direction, in the light of all patches with one illuminant.
 fn radiance_of(light: &Light, patches: &[Patch], illuminant: &str, map: &CubeMap, direction: DVec3) -> DVec3 {
-    let linear = |rgb: [f64; 3]| bt709_to_bt2020() * DVec3::from(rgb);
-    let there = light.constant.map_or(DVec3::ONE, linear) * map.sample(direction);
+    let constant = light.constant.filter(|_| light.lamps.is_empty());
+    let there = constant.map_or(DVec3::ONE, linear) * map.far(direction);
     let shares = Patch::shares(patches, direction);
     let own = light.patches.iter().zip(shares).filter(|(patch, _)| patch.illuminant == illuminant);
     own.map(|(patch, share)| share * patch.radiance.map_or(there, linear)).sum()
@@ -118,6 +166,20 @@ mod tests {
             covered += u32::from(rest.sample(direction).x < 0.5);
         }
         assert!((5..=7).contains(&covered), "{covered} of 36 directions");
+    }
+
+    #[test]
+    fn lamps_have_their_radiance_and_their_colour() {
+        let lamp =
+            |azimuth_deg: f64, kelvin| LightLamp { azimuth_deg, elevation_deg: 0.0, kelvin, ..LightLamp::default() };
+        let lamps = vec![lamp(0.0, None), lamp(180.0, Some(3000.0))];
+        let light = Light { constant: Some([0.0; 3]), lamps, ..Light::default() };
+        let (map, _) = load_environment(&light, Path::new(""), &mut Vec::new()).expect("all is built in");
+        assert_eq!(map.sample(DVec3::X), DVec3::splat(10.0));
+        assert_eq!(map.sample(DVec3::Y), DVec3::ZERO);
+        let warm = seen_light(&Illuminant::default()) * map.sample(DVec3::NEG_X);
+        assert!((warm.dot(BT2020.luminance_weights()) - 10.0).abs() < 1e-9, "{warm}");
+        assert!(warm.x > 1.5 * warm.y && warm.y > 2.0 * warm.z && warm.z > 0.0, "{warm}");
     }
 
     #[test]

@@ -26,9 +26,10 @@ pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary, FilmColours,
-    FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey,
-    QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
+    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary,
+    FilmColours, FilmKey, Finish, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment,
+    OpenHoleKey, Opening, OpticsKey, QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev,
+    range_nm, remaining_nm,
 };
 pub use lender::film_owners;
 pub use pass::{Pass, Reason};
@@ -79,6 +80,8 @@ pub struct LightState {
     pub films: Vec<FilmColoursState>,
     /// The environment.
     pub environment: Option<EnvironmentKey>,
+    /// The environment as it is seen behind the bubbles, where that is out of focus.
+    pub defocused: Option<DefocusKey>,
 }
 
 /// What there is on the GPU of the colours of films of one material in a light.
@@ -162,6 +165,9 @@ impl fmt::Display for Plan {
                 Pass::FitQuadrature { key, .. } => {
                     format!("{} wavelengths, {}, films to {} nm", key.count(), key.quality.name(), key.range_nm)
                 }
+                Pass::DefocusBackdrop { key, .. } => {
+                    format!("each point a disc of {:.2}°", 2.0 * key.half_angle_rad.to_degrees())
+                }
                 Pass::UploadEnvironment { key, .. } => format!("6x{0}x{0} texels", key.size()),
             };
             writeln!(f, "{:<18} {detail}: {reason}", pass.name())?;
@@ -190,6 +196,7 @@ pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
     let mut picture = request.picture.clone();
     let draw = &mut picture.draw;
     let needs_environment = draw.needs_environment();
+    let defocus: Vec<Option<DefocusKey>> = draw.lights().map(|lighting| draw.defocus(lighting)).collect();
     let shown: Vec<bool> = (0..draw.lighting.films.len()).map(|material| draw.shows(material)).collect();
     planner.after.lights.resize_with(1 + draw.spectral_lights.len(), LightState::default);
     for (light, lighting) in std::iter::once(&mut draw.lighting).chain(&mut draw.spectral_lights).enumerate() {
@@ -201,6 +208,9 @@ pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
         if needs_environment {
             planner.environment(light, &lighting.environment);
         }
+    }
+    for (light, requested) in defocus.into_iter().enumerate() {
+        planner.defocus(light, requested);
     }
     planner.fields(draw);
     for bubble in &draw.bubbles {
@@ -296,6 +306,22 @@ impl Planner {
         if let Some(reason) = changed(current.as_ref(), requested, |_, _| "environment") {
             *current = Some(requested.clone());
             self.push(Pass::UploadEnvironment { light, key: requested.clone() }, reason);
+        }
+    }
+
+    fn defocus(&mut self, light: usize, requested: Option<DefocusKey>) {
+        let present = self.after.lights[light].defocused.take();
+        let Some(requested) = requested else { return };
+        let reason =
+            present.as_ref().map_or(Reason::Missing, |_| Reason::Changed("environment, lens or what is in sight"));
+        let had = present.filter(|present| present.is_same_map(&requested)).map_or([false; 6], |present| present.faces);
+        let faces =
+            |wanted: fn(bool, bool) -> bool| std::array::from_fn(|face| wanted(requested.faces[face], had[face]));
+        let missing = DefocusKey { faces: faces(|requested, had| requested && !had), ..requested.clone() };
+        self.after.lights[light].defocused =
+            Some(DefocusKey { faces: faces(|requested, had| requested || had), ..requested.clone() });
+        if missing.faces.contains(&true) {
+            self.push(Pass::DefocusBackdrop { light, key: missing, adds: had.contains(&true) }, reason);
         }
     }
 

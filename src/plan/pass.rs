@@ -2,7 +2,7 @@
 
 use std::{fmt, ops::Range};
 
-use super::keys::{DrawKey, EnvironmentKey, FieldKey, OpenHoleKey, QuadratureKey, TableKey, TonemapKey};
+use super::keys::{DefocusKey, DrawKey, EnvironmentKey, FieldKey, OpenHoleKey, QuadratureKey, TableKey, TonemapKey};
 
 /// One pass, with all that it reads.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +13,15 @@ pub enum Pass {
         light: usize,
         /// The environment.
         key: EnvironmentKey,
+    },
+    /// Blurs some faces of a light's environment as it is seen behind the bubbles, and sends them.
+    DefocusBackdrop {
+        /// Index of the light.
+        light: usize,
+        /// The environment, how far it is out of focus, and the faces.
+        key: DefocusKey,
+        /// Whether there are other faces of it already, which stay.
+        adds: bool,
     },
     /// Bakes some rows of a lookup table.
     BakeTable {
@@ -104,6 +113,7 @@ impl Pass {
     pub fn name(&self) -> &'static str {
         match self {
             Self::UploadEnvironment { .. } => "upload_environment",
+            Self::DefocusBackdrop { .. } => "defocus_backdrop",
             Self::BakeTable { .. } => "bake_table",
             Self::FitQuadrature { .. } => "fit_quadrature",
             Self::SeedField { .. } => "seed_field",

@@ -5,8 +5,8 @@ use std::{collections::BTreeMap, sync::Arc};
 use glam::{DMat3, DVec3};
 
 use super::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LentFilm, LightKey,
-    Lighting, OpticsKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, Finish, FrameRequest, LentFilm,
+    LightKey, Lighting, OpticsKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
@@ -22,7 +22,7 @@ use crate::{
         film::fold_seed,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
     },
-    scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Quality, Scene},
+    scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Lens, Quality, Scene},
 };
 
 /// What a scene names and somebody has loaded.
@@ -112,9 +112,17 @@ impl Story {
         let balances = scene.view.white_balance && !resources.illuminant.is_monochromatic();
         let balance = if balances { white_balance(&resources.illuminant) } else { DMat3::IDENTITY };
         let exposure_ev = scene.view.exposure_ev;
-        let picture = TonemapKey { draw, exposure_ev, balance, gamut: shot.gamut, dither };
+        let finish = finish(scene, shot);
+        let picture = TonemapKey { draw, exposure_ev, finish, balance, gamut: shot.gamut, dither };
         Ok(FrameRequest { picture, has_field: self.owners().iter().map(has_field).collect(), pace: shot.pace })
     }
+}
+
+/// What lens and film do to a picture. Each moment has a grain of its own.
+fn finish(scene: &Scene, shot: &Shot) -> Finish {
+    let Lens { glare, vignetting_ev, grain, .. } = scene.lens;
+    let grain_seed = if grain > 0.0 { fold_seed(scene.view.dither_seed ^ (shot.moment.tick << 20)) } else { 0 };
+    Finish { glare, vignetting_ev, grain, grain_seed }
 }
 
 fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
@@ -130,7 +138,8 @@ fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
 
 fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     // A constant environment is a white cube times this factor: exact, where half floats in the cube would round.
-    let constant = scene.light.constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
+    let constant = scene.light.constant.filter(|_| scene.light.lamps.is_empty());
+    let constant = constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
     let backdrop = match scene.view.backdrop {
         Backdrop::Environment => BackdropKey::Environment,
         Backdrop::Radiance(rgb) => BackdropKey::Colour(bt709_to_bt2020() * DVec3::from(rgb)),
@@ -146,6 +155,7 @@ fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
         polariser,
         rotation_rad: scene.light.rotation_deg.to_radians(),
         backdrop,
+        defocus_rad: scene.lens.defocus_rad(&scene.camera),
     }
 }
 

@@ -14,6 +14,8 @@ section! {
     pub struct Light, LightKeys: [
         #[serde(rename = "patch", skip_serializing_if = "Vec::is_empty")]
         patches: Vec<LightPatch> = Vec::new(), "Parts of the environment with another illuminant, at most [`MAX_PATCHES`]; where two overlap the later one counts";
+        #[serde(rename = "lamp", skip_serializing_if = "Vec::is_empty")]
+        lamps: Vec<LightLamp> = Vec::new(), "Lamps before the environment, at most [`MAX_LAMPS`]; their light adds up";
     ]
     environment: Environment = Environment::Tent, ["`\"tent\"`, `\"windows\"`, `\"park\"`, `\"studio\"`, a path"], "Environment", "", "the environment map: built in, or an equirectangular `.exr` or `.hdr` file";
     illuminant: String = "D65".to_owned(), ["a name"], "Illuminant", "", "the illuminant whose spectrum white light has: `\"D65\"`, `\"D50\"`, `\"A\"`, `\"E\"`, `\"FL2\"`, `\"FL11\"`, `\"LED\"`, `\"LED-B1\"`, `\"sodium\"`, a black body like `\"3000 K\"`, or the path of a `.csv` [table](#files-that-a-scene-names) of wavelengths and powers";
@@ -24,6 +26,34 @@ section! {
 
 /// The largest number of patches in one light: each spectrum is drawn for itself.
 pub const MAX_PATCHES: usize = 8;
+
+/// The largest number of lamps in one light.
+pub const MAX_LAMPS: usize = 8;
+
+section! {
+    /// A lamp before the environment, as photographers put up: `[[light.lamp]]`.
+    pub struct LightLamp, LightLampKeys:
+    shape: LampShape = LampShape::Softbox, [word], "Shape", "", "its shape";
+    azimuth_deg: f64 = 0.0, [finite], "Azimuth", "°", "azimuth of its center, from +x towards +y";
+    elevation_deg: f64 = 30.0, [-90.0 ..= 90.0], "Elevation", "°", "elevation of its center above the horizon";
+    roll_deg: f64 = 0.0, [finite], "Roll", "°", "angle by which it is turned about its center, counter-clockwise as it is seen";
+    width_deg: f64 = 30.0, [0.05 ..= 120.0], "Width", "°", "angle that its width spans; of a disc, its diameter";
+    height_deg: f64 = 40.0, [0.05 ..= 120.0], "Height", "°", "angle that its height spans; of no matter for a disc";
+    edge_deg: f64 = 1.0, [0.0 ..= 30.0], "Edge", "°", "width of its soft edge";
+    luminance: f64 = 10.0, [0.0 ..= 1000000.0], "Luminance", "", "its luminance; a white surface in full light has 1";
+    kelvin: Option<f64> = None, [1000.0 ..= 25000.0], "Temperature", " K", "its colour, as that of a black body, K; without it, that of the illuminant";
+}
+
+words! {
+    /// Shapes of lamps.
+    #[derive(Default)]
+    pub enum LampShape: "shape" {
+        Disc = "disc", "A round lamp, as a bare flash or the sun";
+        #[default]
+        Softbox = "softbox", "A rectangle with rounded corners";
+        Strip = "strip", "A softbox of a fifth of the width";
+    }
+}
 
 section! {
     /// A round part of the environment that another illuminant lights, as a lamp in a room with a window: `[[light.patch]]`.
@@ -55,7 +85,9 @@ impl Light {
         self.check_ranges()?;
         check_illuminant(&self.illuminant)?;
         check::at_most("patch", self.patches.len(), MAX_PATCHES)?;
-        check::each("patch", &self.patches, LightPatch::check)
+        check::each("patch", &self.patches, LightPatch::check)?;
+        check::at_most("lamp", self.lamps.len(), MAX_LAMPS)?;
+        check::each("lamp", &self.lamps, LightLamp::check_ranges)
     }
 }
 

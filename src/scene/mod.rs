@@ -13,6 +13,7 @@ mod document;
 mod error;
 mod event;
 mod generator;
+mod lens;
 mod light;
 mod memory;
 mod motion;
@@ -35,8 +36,10 @@ pub use check::Fault;
 pub use error::{Problem, SceneError};
 pub use event::{Blow, BlowKeys, Change, Drag, DragKeys, Event, Prick, PrickKeys, Stir, StirKeys};
 pub use generator::{Generator, GeneratorKeys, Layout};
+pub use lens::{Lens, LensKeys, MAX_DEFOCUS_RAD};
 pub use light::{
-    Backdrop, Environment, Light, LightKeys, LightPatch, LightPatchKeys, MAX_PATCHES, Quality, View, ViewKeys,
+    Backdrop, Environment, LampShape, Light, LightKeys, LightLamp, LightLampKeys, LightPatch, LightPatchKeys,
+    MAX_LAMPS, MAX_PATCHES, Quality, View, ViewKeys,
 };
 pub use motion::{Motion, MotionChange, MotionKeys};
 pub use preset::{preset, preset_names, preset_sentence, preset_toml};
@@ -68,6 +71,8 @@ pub struct Scene {
     pub generators: Vec<Generator>,
     /// From where it is seen.
     pub camera: Camera,
+    /// Through which lens.
+    pub lens: Lens,
     /// What lights it.
     pub light: Light,
     /// How the radiance becomes a picture.
@@ -80,13 +85,14 @@ pub struct Scene {
 }
 
 impl Default for Scene {
-    /// The scene of the file `version = 1`, which is the preset `default`.
+    /// The scene of the file `version = 1`, which is the preset `tent`.
     fn default() -> Self {
         Self {
             version: VERSION,
             bubbles: vec![Bubble::default()],
             generators: Vec::new(),
             camera: Camera::default(),
+            lens: Lens::default(),
             light: Light::default(),
             view: View::default(),
             motion: Motion::default(),
@@ -187,6 +193,7 @@ impl Scene {
         self.check_memory()?;
         check::each("generator", &self.generators, Generator::check)?;
         self.camera.check_ranges().map_err(|fault| fault.inside("camera"))?;
+        self.lens.check_ranges().map_err(|fault| fault.inside("lens"))?;
         self.light.check().map_err(|fault| fault.inside("light"))?;
         self.view.check_ranges().map_err(|fault| fault.inside("view"))?;
         self.motion.check().map_err(|fault| fault.inside("motion"))?;

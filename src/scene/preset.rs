@@ -8,8 +8,9 @@ macro_rules! presets {
     };
 }
 
-const PRESETS: [(&str, &str); 31] = presets![
+const PRESETS: [(&str, &str); 32] = presets![
     "default",
+    "tent",
     "fresh",
     "bands",
     "draining",

@@ -3,7 +3,7 @@
 use super::check::BACKSLASHES;
 use super::error::{Located, Problem};
 use super::words::shorten;
-use super::{Bubble, Change, Event, Generator, Light, LightPatch, Scene, View};
+use super::{Bubble, Change, Event, Generator, Lens, Light, LightLamp, LightPatch, Scene, View};
 use toml::Table;
 use toml::de::Error;
 
@@ -17,9 +17,11 @@ pub(super) fn every_key() -> Table {
         generators: vec![Generator::default()],
         light: Light {
             constant: Some([0.0; 3]),
+            lamps: vec![LightLamp { kelvin: Some(5000.0), ..LightLamp::default() }],
             patches: vec![LightPatch { radiance: Some([0.0; 3]), ..LightPatch::default() }],
             ..Light::default()
         },
+        lens: Lens { focus_m: Some(1.0), ..Lens::default() },
         view: View { polariser_deg: Some(0.0), ..View::default() },
         events: Change::every_key().map(|change| Event { tick: 0, change }).into(),
         ..Scene::default()

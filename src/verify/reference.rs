@@ -99,6 +99,12 @@ fn in_light(
         |key: &QuadratureKey| FilmOptics::sampled(key.optics.film.clone(), &key.optics.illuminant, samples_per_nm);
     let optics: Vec<FilmOptics> = keys().map(sampled).collect();
     let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
+    let out_of_focus = key.defocus(lighting).map(|key| key.map());
+    let behind = |direction: DVec3| match (light.backdrop, &out_of_focus) {
+        (BackdropKey::Colour(radiance), _) => radiance,
+        (_, Some(map)) => light.gain * map.sample(turned(light, direction)),
+        _ => surroundings(direction),
+    };
     let sphere = |bubble: &BubbleKey| {
         let (center_m, radius_m, stretch) = (bubble.center_m, bubble.radius_m, bubble.stretch);
         film_thickness(bubble, key.on_bath, films).map(|thickness_nm| FilmSphere {
@@ -116,10 +122,7 @@ fn in_light(
         light: optics[0].weights(),
         spheres: bubbles.iter().map(sphere).collect::<Result<_, _>>()?,
         surroundings: &surroundings,
-        backdrop: match light.backdrop {
-            BackdropKey::Environment => None,
-            BackdropKey::Colour(radiance) => Some(radiance),
-        },
+        backdrop: Some(&behind),
         polariser: light.polariser,
         on_bath: key.on_bath,
         negligible: if bubbles.len() > 1 { NEGLIGIBLE_OF_MANY } else { NEGLIGIBLE_OF_ONE },

@@ -18,7 +18,7 @@ const CELLS: u32 = 64;
 
 /// A film that is sorted and thin above.
 fn thin(mean_nm: f64) -> LoadedScene {
-    let mut loaded = load("default");
+    let mut loaded = load("tent");
     let film = &mut loaded.scene.bubbles[0].film;
     (film.state, film.thickness_nm, film.cells) = (FilmStateName::Rest, mean_nm, CELLS);
     loaded.scene.motion.black_film_life_s = 1e6;

@@ -56,7 +56,7 @@ fn bits(gpu: &Gpu, film: &mut MovingFilm) -> Vec<u64> {
 
 /// Free bubbles of different sizes and thicknesses, one of which hangs from a wand, so that it flows alone.
 fn scene() -> Scene {
-    let mut scene = preset("default").unwrap();
+    let mut scene = preset("tent").unwrap();
     scene.bubbles[0].film.cells = 16;
     let bubble = |k: usize| {
         let mut bubble = scene.bubbles[0].clone();

@@ -20,7 +20,7 @@ const SIZE: [u32; 2] = [160, 90];
 
 /// The default scene at rest, in the light of a preset, which also stands behind it.
 fn at_rest(environment: &str) -> LoadedScene {
-    let mut loaded = load("default");
+    let mut loaded = load("tent");
     loaded.resources = load(environment).resources;
     loaded.scene.bubbles[0].film.cells = 32;
     loaded.scene.motion.flow = Flow::Rest;
@@ -143,7 +143,7 @@ fn the_brightest_light_is_shown_without_holes() {
 fn an_eye_at_the_center_or_on_the_axis_sees_as_one_beside_it() {
     let Some(mut renderer) = renderer() else { return };
     for distance_m in [0.0, 0.24] {
-        let mut loaded = at_rest("default");
+        let mut loaded = at_rest("tent");
         let mut view = |renderer: &mut _, distance_m: f64, target_m: [f64; 3]| {
             loaded.scene.camera = Camera { distance_m, target_m, ..Camera::default() };
             // An odd size has a pixel whose ray is the axis.

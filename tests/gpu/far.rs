@@ -73,7 +73,7 @@ fn step_back(scene: &mut Scene, diameter: f64) -> f64 {
 
 /// A film sorted from 300 to 3000 nm.
 fn sorted() -> LoadedScene {
-    let mut loaded = load("default");
+    let mut loaded = load("tent");
     loaded.scene.motion.flow = Flow::Rest;
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
     let film = &mut loaded.scene.bubbles[0].film;
@@ -156,7 +156,7 @@ fn change(from: &Lab, to: &Lab) -> DVec3 {
 #[test]
 fn far_blown_bubbles_change_little_more_than_the_truth() {
     let Some(mut renderer) = renderer() else { return };
-    let mut loaded = load("default");
+    let mut loaded = load("tent");
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
     for time_s in [0.0, 1.0].into_iter().take(short_or_long(1, 2)) {
         for diameter in diameters().iter().copied() {
@@ -170,7 +170,7 @@ fn far_blown_bubbles_change_little_more_than_the_truth() {
 
 /// A blown film with all of its cells, or with half, seen from where the bubble is `diameter` pixels across.
 fn blown(detail: Detail, diameter: f64, time_s: f64) -> FrameRequest {
-    let mut loaded = load("default");
+    let mut loaded = load("tent");
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
     loaded.scene.bubbles[0].film.detail = detail;
     step_back(&mut loaded.scene, diameter);

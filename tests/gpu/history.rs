@@ -14,7 +14,7 @@ const CELLS: u32 = 32;
 
 /// The default bubble with a film of few cells.
 fn small() -> LoadedScene {
-    let mut loaded = load("default");
+    let mut loaded = load("tent");
     loaded.scene.bubbles[0].film.cells = CELLS;
     loaded
 }

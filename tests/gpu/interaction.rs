@@ -116,7 +116,7 @@ fn dragged(preset: &str, to_m: [f64; 3]) -> LoadedScene {
 fn a_pushed_bubble_matches_the_f64_picture() {
     let Some(mut renderer) = renderer() else { return };
     for (to_m, largest_stretch, limit) in [([0.0, 0.05, 0.02], 0.02, 5e-4), ([0.0, 0.3, 0.1], 0.2, 3e-3)] {
-        let mut loaded = dragged("default", to_m);
+        let mut loaded = dragged("tent", to_m);
         loaded.scene.camera.target_m = [0.0, to_m[1], to_m[2]];
         let (seen, truth, stretch) = pushed_picture(&mut renderer, &loaded, [64, 40]);
         let size = (0..3).map(|k| (stretch.col(k) - DMat3::IDENTITY.col(k)).abs().max_element()).fold(0.0, f64::max);
@@ -147,9 +147,9 @@ fn an_ellipsoid_vanishes_in_even_light() {
 #[test]
 fn a_still_bubble_is_round_to_the_bit() {
     let Some(mut renderer) = renderer() else { return };
-    let mut never = dragged("default", [0.0; 3]);
+    let mut never = dragged("tent", [0.0; 3]);
     never.scene.events.clear();
-    let mut back = dragged("default", [1e-3, 0.0, 0.0]);
+    let mut back = dragged("tent", [1e-3, 0.0, 0.0]);
     back.scene.events.push(Event { tick: 8, change: Change::Drag(Drag::default()) });
     let at = |loaded: &LoadedScene| still(loaded, [64, 40], 60.0);
     assert_eq!(at(&back).picture.draw.bubbles[0].stretch, DMat3::IDENTITY, "it has come to rest");

@@ -20,7 +20,7 @@ const SIZE: [u32; 2] = [96, 54];
 #[test]
 fn a_lamp_of_the_same_illuminant_changes_nothing() {
     let Some(mut renderer) = renderer() else { return };
-    let mut loaded = load("default");
+    let mut loaded = load("tent");
     loaded.scene.motion.flow = Flow::Rest;
     let whole = |direction: DVec3| DVec3::new(0.6, 0.5, 0.4) * (1.0 + 0.9 * direction.normalize().y);
     let share = |direction: DVec3| 0.5 + 0.5 * direction.normalize().z;

@@ -18,6 +18,7 @@ mod interaction;
 mod lamps;
 mod layers;
 mod layouts;
+mod lens;
 mod optics;
 mod passes;
 mod pictures;

@@ -21,7 +21,7 @@ const SIZE: [u32; 2] = [320, 180];
 
 /// The default scene with one uniform film, at rest, in some light that also stands behind it.
 fn uniform(thickness_nm: f64, light: CubeMap) -> LoadedScene {
-    let mut loaded = load("default");
+    let mut loaded = load("tent");
     let film = &mut loaded.scene.bubbles[0].film;
     (film.state, film.thickness_nm) = (FilmStateName::Uniform, thickness_nm);
     loaded.scene.motion.flow = Flow::Rest;
@@ -234,7 +234,7 @@ fn environments_have_no_seam() {
 fn small_bubbles_do_not_twinkle() {
     let Some(mut renderer) = renderer() else { return };
     let size = [64, 64];
-    let mut loaded = load("default");
+    let mut loaded = load("tent");
     loaded.scene.view.backdrop = Backdrop::Radiance([0.0; 3]);
     loaded.scene.camera =
         Camera { azimuth_deg: 0.0, elevation_deg: 0.0, distance_m: 4.0, fov_y_deg: 9.0, ..Camera::default() };
@@ -321,7 +321,7 @@ fn the_picture_in_even_light_matches_the_f64_picture() {
 #[test]
 fn the_pictures_of_presets_match_the_f64_pictures() {
     let Some(mut renderer) = renderer() else { return };
-    let tent = load("default").resources.environment;
+    let tent = load("tent").resources.environment;
     for name in ["lamplight", "inside", "bands"].into_iter().take(short_or_long(1, 3)) {
         let mut loaded = load(name);
         loaded.resources.environment = tent.clone();

@@ -22,8 +22,9 @@ use soapfilm::{
 use compare::Comparison;
 
 /// Presets, and moments in seconds at which each shows what it is for.
-const GOLDENS: [(&str, f64); 11] = [
-    ("default", 0.4),
+const GOLDENS: [(&str, f64); 12] = [
+    ("default", 0.0),
+    ("tent", 0.4),
     ("windows", 0.0),
     ("fresh", 0.9),
     ("black", 0.0),

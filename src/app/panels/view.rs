@@ -1,11 +1,11 @@
-//! The view panel: exposure, backdrop and lens.
+//! The view panel: exposure, backdrop, camera and lens.
 
 use egui::Ui;
 
 use super::widgets::{choice, flag, number, options_of, row, slider, tooltip};
 use crate::{
     app::{edit::Edit, model::Model},
-    scene::{Backdrop, Camera, View},
+    scene::{Backdrop, Camera, Lens, View},
 };
 
 /// Shows and edits the view.
@@ -21,6 +21,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     if view != model.scene.view {
         model.edit(Edit::View(view));
     }
+    lens(ui, model);
     let mut camera = model.scene.camera.clone();
     number(ui, &Camera::KEYS.fov_y_deg, &mut camera.fov_y_deg, |slider| slider.max_decimals(1));
     number(ui, &Camera::KEYS.follow_deg, &mut camera.follow_deg, |slider| slider.max_decimals(0));
@@ -30,6 +31,32 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     .on_hover_text("F frames the bubbles.");
     if camera != model.scene.camera {
         model.edit(Edit::Camera(camera));
+    }
+}
+
+fn lens(ui: &mut Ui, model: &mut Model) {
+    let mut lens = model.scene.lens.clone();
+    let keys = Lens::KEYS;
+    number(ui, &keys.aperture_mm, &mut lens.aperture_mm, |slider| slider.max_decimals(1));
+    if lens.aperture_mm > 0.0 {
+        focus(ui, &mut lens, model.scene.camera.distance_m);
+    }
+    number(ui, &keys.glare, &mut lens.glare, |slider| slider.max_decimals(3));
+    number(ui, &keys.vignetting_ev, &mut lens.vignetting_ev, |slider| slider.max_decimals(2));
+    number(ui, &keys.grain, &mut lens.grain, |slider| slider.max_decimals(3));
+    if lens != model.scene.lens {
+        model.edit(Edit::Lens(lens));
+    }
+}
+
+fn focus(ui: &mut Ui, lens: &mut Lens, distance_m: f64) {
+    let mut is_held = lens.focus_m.is_some();
+    row(ui, "Hold focus", "Focus at a distance of its own; without it, at the camera's target", |ui| {
+        ui.checkbox(&mut is_held, "")
+    });
+    lens.focus_m = is_held.then(|| lens.focus_m.unwrap_or(distance_m).clamp(0.01, 1000.0));
+    if let Some(focus_m) = &mut lens.focus_m {
+        number(ui, &Lens::KEYS.focus_m, focus_m, |slider| slider.logarithmic(true).max_decimals(3));
     }
 }
 

@@ -11,7 +11,7 @@ use super::{
     formats::radiance_format,
     kernel::Drawable,
     passes::{
-        backdrop::{Backdrop, LightUniform, ViewUniform},
+        backdrop::{Backdrop, LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
         bake_table::{Table, TableOverrides, table_sampler},
         bubble::{OtherBubble, Shade, ShadeMirror},
         open_hole::OpenHole,
@@ -26,14 +26,16 @@ use super::{
 use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting};
 use small::SmallDraw;
 use values::{
-    backdrop_colour, bubble_uniform, light_uniform, list_part, other_bubble, ring_overrides, small_bubbles,
-    view_uniform,
+    backdrop_colour, bubble_uniform, lamp_uniforms, light_uniform, list_part, other_bubble, ring_overrides,
+    small_bubbles, view_uniform,
 };
 
 /// What a draw reads that other passes left.
 pub struct DrawInputs<'a> {
     /// The environment.
     pub environment: &'a Environment,
+    /// The environment as it is seen behind the bubbles.
+    pub backdrop: &'a Environment,
     /// The table, where the quality has one, and the quadrature of each material, by its index, that a bubble in sight has.
     pub colours: &'a dyn Fn(usize) -> Option<(Option<&'a Table>, &'a Quadrature)>,
     /// What a film shows, by its index.
@@ -91,21 +93,42 @@ impl BackdropDraw {
         gpu: &Gpu,
         key: &DrawKey,
         lighting: &Lighting,
-        (view, light, environment): (&UniformBuffer<ViewUniform>, &UniformBuffer<LightUniform>, &Environment),
+        light: &LightBuffers,
+        (view, map): (&UniformBuffer<ViewUniform>, &Environment),
     ) -> Result<Self, GpuError> {
         if let (BackdropKey::Colour(radiance), false) = (&lighting.light.backdrop, key.on_bath) {
             return Ok(Self::Colour(backdrop_colour(key, lighting, *radiance)));
         }
         let backdrop = Backdrop {
+            lit: light.lit,
             ON_BATH: key.on_bath,
             FULL_PRECISION: key.full_precision,
             BACKDROP_IS_ENVIRONMENT: lighting.light.backdrop == BackdropKey::Environment,
             view,
-            light,
-            environment: &environment.view,
-            environment_sampler: &environment.sampler,
+            light: &light.light,
+            backdrop_map: &map.view,
+            backdrop_sampler: &map.sampler,
+            lamps: &light.lamps,
         };
         Ok(Self::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?))
+    }
+}
+
+/// A light on the device.
+struct LightBuffers {
+    light: UniformBuffer<LightUniform>,
+    lamps: UniformBuffer<[LampUniform; MAX_LAMPS]>,
+    lit: LampOverrides,
+}
+
+impl LightBuffers {
+    fn new(gpu: &Gpu, key: &DrawKey, lighting: &Lighting, maps: [&Environment; 2]) -> Self {
+        let count = lighting.environment.0.lamps().len().min(MAX_LAMPS);
+        Self {
+            light: gpu.uniform("light", &light_uniform(lighting, key.exposed_ev, maps)),
+            lamps: gpu.uniform("lamps", &lamp_uniforms(lighting)),
+            lit: LampOverrides { LAMPS: count as u32 },
+        }
     }
 }
 
@@ -114,8 +137,9 @@ struct Shared<'a> {
     key: &'a DrawKey,
     lighting: &'a Lighting,
     view: UniformBuffer<ViewUniform>,
-    light: UniformBuffer<LightUniform>,
+    light: LightBuffers,
     environment: &'a Environment,
+    backdrop: &'a Environment,
     table_sampler: wgpu::Sampler,
     behind: &'a wgpu::TextureView,
     so_far: &'a wgpu::TextureView,
@@ -176,8 +200,8 @@ impl DrawPass {
             return Err(GpuError::TooManyBubbles { count, most });
         }
         let view = gpu.uniform("view", &view_uniform(key));
-        let light = gpu.uniform("light", &light_uniform(lighting, key.exposed_ev));
-        let backdrop = BackdropDraw::new(gpu, key, lighting, (&view, &light, inputs.environment))?;
+        let light = LightBuffers::new(gpu, key, lighting, [inputs.environment, inputs.backdrop]);
+        let backdrop = BackdropDraw::new(gpu, key, lighting, &light, (&view, inputs.backdrop))?;
         let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0] };
         let table_sampler = table_sampler(gpu);
         let [behind, so_far] = inputs.drawn.map(|target| &target.view);
@@ -188,6 +212,7 @@ impl DrawPass {
             view,
             light,
             environment: inputs.environment,
+            backdrop: inputs.backdrop,
             table_sampler,
             behind,
             so_far,
@@ -275,7 +300,20 @@ fn copy_part(encoder: &mut wgpu::CommandEncoder, from: &Target, to: &Target, par
 impl Shared<'_> {
     /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
-        let Self { key, lighting, view, light, environment, table_sampler, behind, so_far, others, films, .. } = self;
+        let Self {
+            key,
+            lighting,
+            view,
+            light,
+            environment,
+            backdrop,
+            table_sampler,
+            behind,
+            so_far,
+            others,
+            films,
+            ..
+        } = self;
         let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
         let bubble = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
         let part = &gpu.storage("part of the lists", &[list_part(drawn)]);
@@ -284,8 +322,9 @@ impl Shared<'_> {
             shape: ring_overrides(key, lighting, drawn),
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: lighting.light.polariser.is_some() },
             summed: quadrature.overrides(),
+            lit: light.lit,
             view,
-            light,
+            light: &light.light,
             environment: &environment.view,
             environment_sampler: &environment.sampler,
             bubble,
@@ -305,6 +344,8 @@ impl Shared<'_> {
             lists: &others.lists,
             films,
             part,
+            backdrop_map: &backdrop.view,
+            lamps: &light.lamps,
         };
         let format = radiance_format(key.full_precision);
         match (key.yardstick, ring.edges_rad) {

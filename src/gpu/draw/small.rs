@@ -96,8 +96,9 @@ impl Shared<'_> {
             FULL_PRECISION: key.full_precision,
             YARDSTICK: key.yardstick,
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: self.lighting.light.polariser.is_some() },
+            lit: self.light.lit,
             view: &self.view,
-            light: &self.light,
+            light: &self.light.light,
             environment: &self.environment.view,
             environment_sampler: &self.environment.sampler,
             axes: &table.axes,
@@ -108,6 +109,7 @@ impl Shared<'_> {
             lists: &gpu.storage("lists of small bubbles", &lists.lists),
             tiles: &gpu.storage("tiles", &lists.tiles),
             picture_behind: self.behind,
+            lamps: &self.light.lamps,
         };
         let draw = small.cover(gpu, radiance_format(key.full_precision))?;
         Ok(SmallDraw { draw, rects: lists.rects })

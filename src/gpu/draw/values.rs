@@ -1,14 +1,15 @@
 //! What the shaders of a picture are given, from its keys.
 
+use bytemuck::Zeroable;
 use glam::{DMat3, DVec3};
 
 use super::Drawn;
 use crate::{
     gpu::{
-        environment::texel_angle,
+        environment::Environment,
         film_atlas::FilmAtlas,
         passes::{
-            backdrop::{LightUniform, ViewUniform},
+            backdrop::{LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
             bubble::{BubbleUniform, ListPart, OtherBubble, RingOverrides},
         },
         quadrature::Quadrature,
@@ -103,7 +104,11 @@ pub(super) fn view_uniform(key: &DrawKey) -> ViewUniform {
 }
 
 /// A light, as a picture exposed by some stops needs it.
-pub(super) fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUniform {
+pub(super) fn light_uniform(
+    lighting: &Lighting,
+    exposed_ev: i32,
+    [environment, behind]: [&Environment; 2],
+) -> LightUniform {
     let light = &lighting.light;
     let exposure = f64::from(exposed_ev).exp2();
     let backdrop = match light.backdrop {
@@ -112,16 +117,38 @@ pub(super) fn light_uniform(lighting: &Lighting, exposed_ev: i32) -> LightUnifor
     };
     LightUniform {
         gain: floats(light.gain),
-        texel_angle: texel_angle(lighting.environment.size()),
+        texel_angle: environment.texel_angle,
         backdrop: floats(backdrop),
-        padding: 0.0,
+        backdrop_texel_angle: behind.texel_angle,
         scale: floats(exposure * light.scale),
         turn_cos: light.rotation_rad.cos() as f32,
         polariser: floats(light.polariser.unwrap_or(DVec3::ZERO)),
         turn_sin: light.rotation_rad.sin() as f32,
         seen: (exposure * light.seen).into(),
         unseen: unseen(&(exposure * light.seen)).into(),
+        defocus: light.defocus_rad.tan() as f32,
+        padding: [0.0; 3],
     }
+}
+
+/// The lamps before a light's environment; none where there are fewer.
+pub(super) fn lamp_uniforms(lighting: &Lighting) -> [LampUniform; MAX_LAMPS] {
+    let mut lamps = [LampUniform::zeroed(); MAX_LAMPS];
+    for (uniform, lamp) in lamps.iter_mut().zip(lighting.environment.0.lamps()) {
+        *uniform = LampUniform {
+            towards: floats(lamp.towards),
+            edge: lamp.edge as f32,
+            right: floats(lamp.right),
+            corner: lamp.corner as f32,
+            up: floats(lamp.towards.cross(lamp.right)),
+            area: lamp.area() as f32,
+            radiance: floats(lamp.radiance),
+            padding: 0.0,
+            half_size: lamp.half_size.as_vec2().to_array(),
+            padding_after: [0.0; 2],
+        };
+    }
+    lamps
 }
 
 /// A ring of a bubble.

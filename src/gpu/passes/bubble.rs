@@ -1,7 +1,7 @@
 //! A bubble, ring by ring.
 
 use super::{
-    backdrop::{LightUniform, ViewUniform},
+    backdrop::{LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
     bake_table::{TableAxes, TableOverrides},
     open_hole::RimValue,
 };
@@ -155,6 +155,7 @@ kernels! {
         overrides shape: RingOverrides;
         overrides table_kind: TableOverrides;
         overrides summed: QuadratureOverrides;
+        overrides lit: LampOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
@@ -176,6 +177,8 @@ kernels! {
         @18 lists: Read<[u32]>;
         @19 films: Texture2dArray;
         @20 part: Read<ListPart>;
+        @21 backdrop_map: TextureCube;
+        @22 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
     }
     draw ring, everywhere as shade;
 
@@ -184,6 +187,7 @@ kernels! {
         overrides shape: RingOverrides;
         overrides table_kind: TableOverrides;
         overrides summed: QuadratureOverrides;
+        overrides lit: LampOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
@@ -191,6 +195,8 @@ kernels! {
         @4 bubble: Uniform<BubbleUniform>;
         @15 picture_behind: Texture2d;
         @16 picture_so_far: Texture2d;
+        @21 backdrop_map: TextureCube;
+        @22 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
     }
     draw ring, everywhere as shade_mirror;
 }
@@ -198,12 +204,14 @@ kernels! {
 impl<'a> ShadeMirror<'a> {
     /// The mirror that stands where a bubble would.
     pub fn in_place_of(shade: &Shade<'a>) -> Self {
-        let Shade { shape, table_kind, summed, view, light, environment, environment_sampler, bubble, .. } = *shade;
-        let Shade { picture_behind, picture_so_far, .. } = *shade;
+        let Shade { shape, table_kind, summed, lit, view, light, environment, environment_sampler, bubble, .. } =
+            *shade;
+        let Shade { picture_behind, picture_so_far, backdrop_map, lamps, .. } = *shade;
         Self {
             shape,
             table_kind,
             summed,
+            lit,
             view,
             light,
             environment,
@@ -211,6 +219,8 @@ impl<'a> ShadeMirror<'a> {
             bubble,
             picture_behind,
             picture_so_far,
+            backdrop_map,
+            lamps,
         }
     }
 }

@@ -13,6 +13,7 @@ pub mod correct_error;
 pub mod decide_remap;
 pub mod diffuse;
 pub mod drain;
+pub mod finish;
 pub mod flow_coarse;
 pub mod flow_combine;
 pub mod flow_correct;
@@ -58,6 +59,7 @@ pub fn kernels() -> Vec<Kernel> {
         decide_remap::kernels(),
         diffuse::kernels(),
         drain::kernels(),
+        finish::kernels(),
         flow_coarse::kernels(),
         flow_combine::kernels(),
         flow_correct::kernels(),

@@ -1,7 +1,7 @@
 //! Small bubbles, all of one layer at once.
 
 use super::{
-    backdrop::{LightUniform, ViewUniform},
+    backdrop::{LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
     bake_table::{TableAxes, TableOverrides},
     bubble::OtherBubble,
 };
@@ -33,6 +33,7 @@ kernels! {
         override FULL_PRECISION: bool;
         override YARDSTICK: bool;
         overrides table_kind: TableOverrides;
+        overrides lit: LampOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
@@ -45,6 +46,7 @@ kernels! {
         @9 lists: Read<[u32]>;
         @10 tiles: Read<[SmallTile]>;
         @11 picture_behind: Texture2d;
+        @12 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
     }
     draw cover as small_bubbles;
 }

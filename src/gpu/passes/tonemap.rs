@@ -50,7 +50,7 @@ impl TonemapUniform {
             to_display: key.gamut.from_bt2020().into(),
             to_xyz: to_xyz.into(),
             from_xyz: to_xyz.inverse().into(),
-            exposure: (key.exposure_ev - f64::from(key.draw.exposed_ev)).exp2() as f32,
+            exposure: key.exposure() as f32,
             dither_seed: key.dither.unwrap_or(0),
             dither_steps: if key.dither.is_some() { 1.0 } else { 0.0 },
             pad: 0.0,

@@ -15,7 +15,7 @@ use super::{
     film::{Company, MovingFilm},
     film_atlas::FilmAtlas,
     formats::{PICTURE_FORMAT, radiance_format},
-    passes::{add_light::add_light, bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
+    passes::{add_light::add_light, bake_table::Table, finish::Finished, open_hole::OpenHole, tonemap::tonemap},
     quadrature::Quadrature,
     readback::Readback,
     shown_film::Shown,
@@ -24,7 +24,7 @@ use super::{
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pass, Plan, TableKey, TonemapKey, plan},
+    plan::{DrawKey, FilmKey, Finish, FrameRequest, GpuState, Pass, Plan, TableKey, TonemapKey, plan},
 };
 
 /// Everything that is on the device.
@@ -43,6 +43,7 @@ struct Products {
     /// The picture in one spectral light, and its sum with the pictures before.
     added: Option<Target>,
     sum: Option<Target>,
+    finished: Finished,
     picture: Option<Target>,
 }
 
@@ -51,6 +52,8 @@ struct Products {
 struct LightProducts {
     films: Vec<FilmColours>,
     environment: Option<Environment>,
+    /// The environment as it is seen behind the bubbles, where that is out of focus.
+    defocused: Option<Environment>,
 }
 
 /// The colours of films of one material in a light.
@@ -66,7 +69,10 @@ impl Products {
     fn keep(&mut self, state: &GpuState) {
         self.lights.truncate(state.lights.len());
         let lights = self.lights.iter_mut().zip(&state.lights);
-        lights.for_each(|(light, state)| light.films.truncate(state.films.len()));
+        lights.for_each(|(light, state)| {
+            light.films.truncate(state.films.len());
+            light.defocused.take_if(|_| state.defocused.is_none());
+        });
         if state.lights.len() <= 1 {
             (self.added, self.sum) = (None, None);
         }
@@ -195,6 +201,13 @@ impl Renderer {
                 self.light(*light).environment = Some(Environment::upload(&self.gpu, &key.0));
                 Ok(())
             }
+            Pass::DefocusBackdrop { light, key, adds } => {
+                let (map, present) = (key.map(), self.light(*light).defocused.take().filter(|_| *adds));
+                let defocused = present.unwrap_or_else(|| Environment::new(&self.gpu, &map));
+                defocused.write(&self.gpu, &map, key.faces);
+                self.light(*light).defocused = Some(defocused);
+                Ok(())
+            }
             Pass::BakeTable { light, material, key, rows } => self.bake([*light, *material], key, rows.clone()),
             Pass::FitQuadrature { light, material, key } => {
                 self.colours([*light, *material]).quadrature = Some(Quadrature::fit(&self.gpu, key));
@@ -317,6 +330,7 @@ impl Renderer {
         // Without an environment key nothing of it is read; a black one fills the binding.
         let environment =
             products.environment.get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant(DVec3::ZERO)));
+        let backdrop = products.defocused.as_ref().unwrap_or(environment);
         let (films, holes) = (&self.products.films, &self.products.holes);
         let hole = |film: usize| holes.get(film).and_then(Option::as_ref);
         let film = |film: usize| films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());
@@ -334,7 +348,16 @@ impl Renderer {
             &self.gpu,
             key,
             lighting,
-            &DrawInputs { environment, colours: &colours, film: &film, hole: &hole, composition, drawn, atlas },
+            &DrawInputs {
+                environment,
+                backdrop,
+                colours: &colours,
+                film: &film,
+                hole: &hole,
+                composition,
+                drawn,
+                atlas,
+            },
         )?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);
@@ -351,7 +374,11 @@ impl Renderer {
         let Some(radiance) = &self.products.radiance else { return Ok(()) };
         let picture = Target::fit(self.products.picture.take(), &self.gpu, "picture", key.draw.size, PICTURE_FORMAT);
         let mut recorder = Recorder::new(&self.gpu);
-        tonemap(&mut recorder, key, &radiance.view, &picture.view)?;
+        let linear = match key.finish == Finish::default() {
+            true => radiance,
+            false => self.products.finished.record(&mut recorder, key, radiance)?,
+        };
+        tonemap(&mut recorder, key, &linear.view, &picture.view)?;
         recorder.counts.pixels_shaded += key.draw.size.map(u64::from).iter().product::<u64>();
         Self::submit(&self.times, &mut self.counts, recorder);
         self.products.picture = Some(picture);

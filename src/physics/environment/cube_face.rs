@@ -29,6 +29,20 @@ impl CubeFace {
     pub const ALL: [Self; 6] =
         [Self::PositiveX, Self::NegativeX, Self::PositiveY, Self::NegativeY, Self::PositiveZ, Self::NegativeZ];
 
+    /// Whether a cone about a unit vector may meet this face, for a half angle in radians; near edges and corners it may also not.
+    pub fn meets_cone(self, axis: DVec3, half_angle_rad: f64) -> bool {
+        let DVec3 { x, y, z: depth } = self.local(axis);
+        // A face's corners are farthest from its middle.
+        let corner = (1.0 / 3.0f64.sqrt()).acos();
+        if depth.clamp(-1.0, 1.0).acos() > corner + half_angle_rad {
+            return false;
+        }
+        // The planes through the cube's center and the face's edges.
+        [x, -x, y, -y]
+            .into_iter()
+            .all(|beside| ((beside - depth) / std::f64::consts::SQRT_2).clamp(-1.0, 1.0).asin() <= half_angle_rad)
+    }
+
     /// The face's array layer on the GPU, 0 to 5.
     pub fn layer(self) -> usize {
         self as usize
@@ -45,6 +59,19 @@ impl CubeFace {
             Self::NegativeY => DVec3::new(s, -1.0, -t),
             Self::PositiveZ => DVec3::new(s, -t, 1.0),
             Self::NegativeZ => DVec3::new(-s, -t, -1.0),
+        }
+    }
+
+    /// A direction in the face's own axes: s, t and the depth of its plane, with which [`Self::direction`] of (s, t) has depth 1.
+    pub fn local(self, direction: DVec3) -> DVec3 {
+        let DVec3 { x, y, z } = direction;
+        match self {
+            Self::PositiveX => DVec3::new(-z, -y, x),
+            Self::NegativeX => DVec3::new(z, -y, -x),
+            Self::PositiveY => DVec3::new(x, z, y),
+            Self::NegativeY => DVec3::new(x, -z, -y),
+            Self::PositiveZ => DVec3::new(x, -y, z),
+            Self::NegativeZ => DVec3::new(-x, -y, -z),
         }
     }
 
@@ -96,12 +123,31 @@ mod tests {
     }
 
     #[test]
+    fn cones_meet_the_faces_of_their_directions() {
+        for axis in [DVec3::X, DVec3::new(0.6, 0.8, 0.0), DVec3::ONE.normalize(), DVec3::new(-0.48, 0.6, -0.64)] {
+            let (right, up) = axis.any_orthonormal_pair();
+            for half_angle in [0.01_f64, 0.2, 0.7] {
+                for k in 0..1000 {
+                    let (turn, share) = (f64::from(k) * 2.4, (f64::from(k) / 1000.0).sqrt());
+                    let (sin, cos) = (share * half_angle).sin_cos();
+                    let ray = cos * axis + sin * (turn.cos() * right + turn.sin() * up);
+                    assert!(CubeFace::of_direction(ray).0.meets_cone(axis, half_angle), "{axis}, {half_angle}");
+                }
+            }
+        }
+        let met =
+            |axis: DVec3, angle: f64| CubeFace::ALL.into_iter().filter(|face| face.meets_cone(axis, angle)).count();
+        assert_eq!((met(DVec3::X, 0.7), met(DVec3::X, 0.9), met(DVec3::ONE.normalize(), 0.1)), (1, 5, 3));
+    }
+
+    #[test]
     fn direction_and_face_are_inverse() {
         for face in CubeFace::ALL {
             for (s, t) in [(0.0, 0.0), (0.9, -0.3), (-0.7, 0.8), (-0.1, -0.95)] {
                 let (found, st) = CubeFace::of_direction(5.0 * face.direction(DVec2::new(s, t)));
                 assert_eq!(found, face);
                 assert!(st.distance(DVec2::new(s, t)) < 1e-15);
+                assert_eq!(face.local(face.direction(DVec2::new(s, t))), DVec3::new(s, t, 1.0));
             }
         }
     }

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use half::{f16, slice::HalfFloatSliceExt};
 use rayon::prelude::*;
 
-use super::{CubeFace, Equirect, Repairs, mip};
+use super::{CubeFace, Equirect, Lamp, Repairs, mip};
 
 /// One mip level of a [`CubeMap`].
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +20,9 @@ pub struct CubeLevel {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CubeMap {
     mips: Vec<CubeLevel>,
+    lamps: Vec<Lamp>,
+    /// Tangent of the half angle of the cones that it is averaged over.
+    defocus: f64,
     id: u64,
     neutral: bool,
     repairs: Repairs,
@@ -39,7 +42,7 @@ impl CubeMap {
             store_mips(&mut mips, face, texels);
         }
         let (id, neutral) = (content_id(&mips[0]), mips[0].is_neutral());
-        Self { mips, id, neutral, repairs }
+        Self { mips, lamps: Vec::new(), defocus: 0.0, id, neutral, repairs }
     }
 
     /// The same radiance from every direction.
@@ -51,6 +54,33 @@ impl CubeMap {
     pub fn from_equirect(panorama: &Equirect) -> Self {
         let map = Self::from_fn(size_for_panorama(panorama.width()), 2, |direction| panorama.radiance(direction));
         Self { repairs: panorama.repairs(), ..map }
+    }
+
+    /// The map with more lamps before it, which are no part of its texels.
+    #[must_use]
+    pub fn with_lamps(mut self, lamps: impl IntoIterator<Item = Lamp>) -> Self {
+        for lamp in lamps {
+            let numbers = [lamp.half_size.x, lamp.half_size.y, lamp.corner, lamp.edge].into_iter();
+            let numbers = [lamp.towards, lamp.right, lamp.radiance]
+                .into_iter()
+                .flat_map(|vector| vector.to_array())
+                .chain(numbers);
+            self.id = numbers.map(f64::to_bits).fold(self.id, hashed);
+            self.neutral &=
+                lamp.radiance.max_element() - lamp.radiance.min_element() <= 1e-3 * lamp.radiance.max_element();
+            self.lamps.push(lamp);
+        }
+        self
+    }
+
+    /// The map as one that is averaged over cones of a half angle, in radians, already; lamps still are to be.
+    pub(super) fn seen_through(self, half_angle_rad: f64) -> Self {
+        Self { defocus: half_angle_rad.tan(), ..self }
+    }
+
+    /// The lamps before the map.
+    pub fn lamps(&self) -> &[Lamp] {
+        &self.lamps
     }
 
     /// Texels along the edge of a face of the largest level.
@@ -78,39 +108,52 @@ impl CubeMap {
         self.repairs
     }
 
-    /// Radiance from `direction` (of any length but zero), interpolated in the largest level, across the faces' edges too.
+    /// Radiance from `direction` (of any length but zero): the lamps', and the largest level's, interpolated across the faces' edges too.
     pub fn sample(&self, direction: DVec3) -> DVec3 {
+        let unit = direction.normalize();
+        let lamps: DVec3 = self.lamps.iter().map(|lamp| lamp.radiance_from(unit, self.defocus, 0.0)).sum();
+        lamps + self.far(direction)
+    }
+
+    /// The same without the lamps'.
+    pub fn far(&self, direction: DVec3) -> DVec3 {
+        self.sample_level(0, direction)
+    }
+
+    /// Radiance from `direction` (of any length but zero) without the lamps', interpolated in one level.
+    pub(super) fn sample_level(&self, level: usize, direction: DVec3) -> DVec3 {
+        let level = &self.mips[level];
         let (face, st) = CubeFace::of_direction(direction);
-        let position = (st + 1.0) * (self.size() as f64 / 2.0) - 0.5;
+        let position = (st + 1.0) * (level.size as f64 / 2.0) - 0.5;
         let corner = position.floor();
         let weight = position - corner;
-        let tap = |x: f64, y: f64| self.texel(face, corner + DVec2::new(x, y));
+        let tap = |x: f64, y: f64| level.texel(face, corner + DVec2::new(x, y));
         let across = |y| tap(0.0, y).lerp(tap(1.0, y), weight.x);
         across(0.0).lerp(across(1.0), weight.y)
     }
 
-    /// The mean of the radiance over all directions: what a small diffuse sphere, lit on average, would show.
+    /// The mean of the radiance over all directions, for lamps that are small: what a small diffuse sphere, lit on average, would show.
     pub fn mean_radiance(&self) -> DVec3 {
         let level = &self.mips[0];
         let rows: Vec<_> = (0..6 * level.size).into_par_iter().map(|row| weighted_row(level, row)).collect();
         // Summed in order, so that equal maps have equal means to the last bit.
         let (radiance, weight) = rows.into_iter().fold((DVec3::ZERO, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
-        radiance / weight
-    }
-
-    /// The texel of the largest level at column and row `index` of `face`, or the neighbouring face's nearest if that lies
-    /// outside.
-    fn texel(&self, face: CubeFace, index: DVec2) -> DVec3 {
-        let last = self.size() as f64 - 1.0;
-        let center = (index + 0.5) * (2.0 / self.size() as f64) - 1.0;
-        let inside = center.abs().max_element() < 1.0;
-        let (face, st) = if inside { (face, center) } else { CubeFace::of_direction(face.direction(center)) };
-        let nearest = ((st + 1.0) * (self.size() as f64 / 2.0)).floor().clamp(DVec2::ZERO, DVec2::splat(last));
-        self.mips[0].radiance(face.layer(), nearest.y as usize * self.size() + nearest.x as usize)
+        let lamps: DVec3 = self.lamps.iter().map(|lamp| lamp.area() * lamp.radiance).sum();
+        radiance / weight + lamps / (4.0 * std::f64::consts::PI)
     }
 }
 
 impl CubeLevel {
+    /// The texel at column and row `index` of `face`, or the neighbouring face's nearest if that lies outside.
+    fn texel(&self, face: CubeFace, index: DVec2) -> DVec3 {
+        let last = self.size as f64 - 1.0;
+        let center = (index + 0.5) * (2.0 / self.size as f64) - 1.0;
+        let inside = center.abs().max_element() < 1.0;
+        let (face, st) = if inside { (face, center) } else { CubeFace::of_direction(face.direction(center)) };
+        let nearest = ((st + 1.0) * (self.size as f64 / 2.0)).floor().clamp(DVec2::ZERO, DVec2::splat(last));
+        self.radiance(face.layer(), nearest.y as usize * self.size + nearest.x as usize)
+    }
+
     fn radiance(&self, layer: usize, index: usize) -> DVec3 {
         let [r, g, b, _] = self.faces[layer][index].map(f64::from);
         DVec3::new(r, g, b)
@@ -209,11 +252,15 @@ fn content_id(level: &CubeLevel) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325 ^ level.size as u64;
     for texel in level.faces.iter().flatten() {
         let bits = texel.iter().fold(0, |bits, component| bits << 16 | u64::from(component.to_bits()));
-        hash = (hash ^ bits).wrapping_mul(0x0000_0100_0000_01b3);
-        // Multiplication carries bits only upwards.
-        hash ^= hash >> 32;
+        hash = hashed(hash, bits);
     }
     hash
+}
+
+fn hashed(hash: u64, bits: u64) -> u64 {
+    let hash = (hash ^ bits).wrapping_mul(0x0000_0100_0000_01b3);
+    // Multiplication carries bits only upwards.
+    hash ^ hash >> 32
 }
 
 #[cfg(test)]

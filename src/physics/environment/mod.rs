@@ -6,15 +6,19 @@
 
 mod cube_face;
 mod cube_map;
+mod defocus;
 mod equirect;
+mod lamp;
 mod mip;
 mod patch;
 mod procedural;
 mod repair;
+mod shape;
 
 pub use cube_face::CubeFace;
 pub use cube_map::{CubeLevel, CubeMap};
 pub use equirect::{Equirect, WrongPixelCount, direction_of_uv, uv_of_direction};
+pub use lamp::Lamp;
 pub use patch::Patch;
 pub use procedural::Procedural;
 pub use repair::{MAX_RADIANCE, Repairs};

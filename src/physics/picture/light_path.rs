@@ -164,7 +164,7 @@ impl<'a> LightPath<'a> {
         let (direction, left) =
             if meets_bath { (direction.with_z(-direction.z), mirrored_part(direction.z)) } else { (direction, 1.0) };
         let behind = self.scene.backdrop.filter(|_| reflections == 0);
-        left * behind.unwrap_or_else(|| (self.scene.surroundings)(direction))
+        left * behind.unwrap_or(self.scene.surroundings)(direction)
     }
 
     fn meets_film(&self, line: &Line) -> bool {

@@ -64,8 +64,8 @@ pub struct PictureScene<'a> {
     pub spheres: Vec<FilmSphere<'a>>,
     /// Light that arrives from a direction.
     pub surroundings: &'a (dyn Fn(DVec3) -> DVec3 + Sync),
-    /// Radiance behind the bubbles; `None` where the environment is seen.
-    pub backdrop: Option<DVec3>,
+    /// Light that arrives from a direction behind the bubbles; `None` where the surroundings are seen.
+    pub backdrop: Option<&'a (dyn Fn(DVec3) -> DVec3 + Sync)>,
     /// Direction along which the electric field passes a polariser before the camera. The light that it takes from unpolarised light is
     /// given back.
     pub polariser: Option<DVec3>,

@@ -57,6 +57,8 @@ fn radiance(
 ) -> Vec<DVec3> {
     let optics = FilmOptics::new(FilmIndex::Water, illuminant);
     let bubble = sphere(&optics, DVec3::ZERO, thickness_nm);
+    let card = |_: DVec3| backdrop.unwrap_or_default();
+    let backdrop = backdrop.is_some().then_some(&card as _);
     PictureScene { camera, surroundings, backdrop, ..scene(&optics, vec![bubble]) }.radiance(&|| ())
 }
 
@@ -153,7 +155,7 @@ fn a_card_is_seen_through_bubbles_in_a_row() {
         let film = |k: u32| (&liquids[k as usize % 2], 170.0 + 130.0 * f64::from(k));
         let center = |k: u32| -3.0 * f64::from(k);
         let row = (0..count).map(|k| sphere(film(k).0, center(k) * DVec3::X, film(k).1)).collect();
-        let row = PictureScene { backdrop: Some(DVec3::ONE), ..scene(&liquids[0], row) };
+        let row = PictureScene { backdrop: Some(&|_| DVec3::ONE), ..scene(&liquids[0], row) };
         // The last bubble is met at a sine of this times its distance from the eye.
         for sine in [0.0, 0.9 / (4.0 - center(count - 1))] {
             let left = |i: usize| {

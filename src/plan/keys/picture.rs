@@ -5,7 +5,11 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{FilmKey, OpenHoleKey, Opening, QuadratureKey, TableKey};
-use crate::physics::{colour::Gamut, environment::CubeMap, film::Cap};
+use crate::physics::{
+    colour::Gamut,
+    environment::{CubeFace, CubeMap},
+    film::Cap,
+};
 
 /// The light around the bubbles.
 #[derive(Clone, Debug)]
@@ -22,6 +26,31 @@ impl EnvironmentKey {
 impl PartialEq for EnvironmentKey {
     fn eq(&self, other: &Self) -> bool {
         self.0.id() == other.0.id()
+    }
+}
+
+/// The environment as it is seen behind the bubbles, out of focus.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DefocusKey {
+    /// The environment.
+    pub environment: EnvironmentKey,
+    /// Half angle of the cones that it is averaged over, in radians; above 0.
+    pub half_angle_rad: f64,
+    /// The faces of its cube that are in sight, in their order on the GPU.
+    pub faces: [bool; 6],
+}
+
+impl DefocusKey {
+    /// The map.
+    #[must_use]
+    pub fn map(&self) -> CubeMap {
+        self.environment.0.defocused(self.half_angle_rad, self.faces)
+    }
+
+    /// Whether another key is of the same map, of whatever faces.
+    #[must_use]
+    pub fn is_same_map(&self, other: &Self) -> bool {
+        self.environment == other.environment && self.half_angle_rad == other.half_angle_rad
     }
 }
 
@@ -195,6 +224,8 @@ pub struct LightKey {
     pub rotation_rad: f64,
     /// The backdrop.
     pub backdrop: BackdropKey,
+    /// Half angle of the cone that each point of the backdrop is spread over, out of the lens's focus, in radians; 0: it is sharp.
+    pub defocus_rad: f64,
 }
 
 /// The linear picture.
@@ -255,6 +286,24 @@ pub fn exposed_ev(exposure_ev: f64) -> i32 {
 }
 
 impl DrawKey {
+    /// What is seen of one of the lights behind the bubbles, where that is an environment out of focus.
+    #[must_use]
+    pub fn defocus(&self, Lighting { light, environment, .. }: &Lighting) -> Option<DefocusKey> {
+        if light.backdrop != BackdropKey::Environment || light.defocus_rad == 0.0 {
+            return None;
+        }
+        let [width, height] = self.size.map(f64::from);
+        // To the corners of the picture and a little farther: faces are interpolated across their edges.
+        let half_angle = (0.5 * self.camera.pixel_height_m * width.hypot(height)).atan() + light.defocus_rad;
+        let forward = DMat3::from_rotation_z(-light.rotation_rad) * self.camera.forward;
+        let meets = |face: CubeFace| {
+            face.meets_cone(forward, half_angle)
+                || self.on_bath && face.meets_cone(forward.with_z(-forward.z), half_angle)
+        };
+        let faces = CubeFace::ALL.map(meets);
+        Some(DefocusKey { environment: environment.clone(), half_angle_rad: light.defocus_rad, faces })
+    }
+
     /// All lights, the scene's own first.
     pub fn lights(&self) -> impl Iterator<Item = &Lighting> {
         std::iter::once(&self.lighting).chain(&self.spectral_lights)
@@ -323,6 +372,19 @@ impl Lighting {
     }
 }
 
+/// What a lens and a film do to the picture before it is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Finish {
+    /// Part of light that the lens scatters.
+    pub glare: f64,
+    /// Stops that the corners lose.
+    pub vignetting_ev: f64,
+    /// Relative grain of a radiance that is exposed as 1.
+    pub grain: f64,
+    /// Seed of the grain; 0 without grain.
+    pub grain_seed: u32,
+}
+
 /// The finished picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TonemapKey {
@@ -330,6 +392,8 @@ pub struct TonemapKey {
     pub draw: DrawKey,
     /// Exposure in stops.
     pub exposure_ev: f64,
+    /// What is done to the linear picture first.
+    pub finish: Finish,
     /// From the linear picture to what the display is given, linear BT.2020: white balance.
     pub balance: DMat3,
     /// Colours that the display has.
@@ -339,6 +403,12 @@ pub struct TonemapKey {
 }
 
 impl TonemapKey {
+    /// Factor that exposes the linear picture, which is exposed by whole stops already.
+    #[must_use]
+    pub fn exposure(&self) -> f64 {
+        (self.exposure_ev - f64::from(self.draw.exposed_ev)).exp2()
+    }
+
     /// The first thing in which two pictures differ.
     #[must_use]
     pub fn difference(&self, other: &Self) -> &'static str {
@@ -346,6 +416,8 @@ impl TonemapKey {
             "the linear picture"
         } else if self.exposure_ev != other.exposure_ev {
             "the exposure"
+        } else if self.finish != other.finish {
+            "glare, vignetting or grain"
         } else if self.balance != other.balance || self.gamut != other.gamut {
             "the white balance or the gamut"
         } else {

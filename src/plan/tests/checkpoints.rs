@@ -30,7 +30,7 @@ fn go(scene: &Scene, tick: u64, state: &mut GpuState) -> (u64, Vec<&'static str>
 
 /// A film of few cells that takes a step a tick.
 pub fn free_scene() -> Scene {
-    let mut scene = preset("default").unwrap();
+    let mut scene = preset("tent").unwrap();
     scene.bubbles[0].film.cells = 16;
     scene
 }

@@ -68,7 +68,7 @@ fn steps(scene: &Scene, tick: u64) -> Vec<Range<u64>> {
 
 #[test]
 fn a_stir_strains_a_film_until_drag_and_viscosity_calm_it() {
-    let mut scene = preset("default").unwrap();
+    let mut scene = preset("tent").unwrap();
     let strain = |scene: &Scene, tick| match &frame_request(scene, tick, Pace::Whole).picture.draw.bubbles[0].film {
         FilmKey::Field(film) => film.strain_until(tick as f64),
         FilmKey::Uniform(_) => panic!("the film has a field"),
@@ -97,7 +97,7 @@ fn a_step_lasts_as_long_as_it_stays_accurate_and_ends_where_a_law_does() {
 
 #[test]
 fn a_free_film_is_stepped_as_its_waves_need() {
-    let mut scene = preset("default").unwrap();
+    let mut scene = preset("tent").unwrap();
     assert_eq!(steps(&scene, 3), [0..1, 1..2, 2..3], "waves of 5 cm turn by a quarter of a radian in 18 ms");
     scene.motion.gravity_m_s2 = [0.0; 3];
     assert_eq!(steps(&scene, 5), [0..2, 2..4], "without gravity steps of a thirtieth of a second do");
@@ -116,7 +116,7 @@ fn a_free_film_is_stepped_as_its_waves_need() {
 
 #[test]
 fn a_film_that_was_found_at_rest_plans_nothing_until_something_acts_on_it() {
-    let mut scene = preset("default").unwrap();
+    let mut scene = preset("tent").unwrap();
     scene.motion.strength = 0.0;
     let FilmKey::Field(film) = &frame_request(&scene, 240, Pace::Whole).picture.draw.bubbles[0].film else {
         unreachable!()
@@ -287,7 +287,7 @@ fn frame_request_at(scene: &Scene, size: [u32; 2]) -> FrameRequest {
 #[test]
 fn a_bubble_that_is_never_large_in_the_picture_takes_half_of_its_cells() {
     let scene_at = |distance_m: f64| {
-        let mut scene = preset("default").unwrap();
+        let mut scene = preset("tent").unwrap();
         scene.camera.distance_m = distance_m;
         scene
     };
@@ -327,7 +327,7 @@ fn a_bubble_that_is_never_large_in_the_picture_takes_half_of_its_cells() {
 
 #[test]
 fn settled_films_do_not_heed_the_camera() {
-    let mut scene = preset("default").unwrap();
+    let mut scene = preset("tent").unwrap();
     settle_detail(&mut scene);
     let near = frame_request_at(&scene, [160, 90]);
     scene.camera.distance_m = 6.0;

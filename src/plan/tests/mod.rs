@@ -100,6 +100,36 @@ fn each_light_has_what_it_needs_and_loses_nothing_to_another() {
 }
 
 #[test]
+fn a_lens_blurs_the_faces_in_sight_once() {
+    let mut scene = uniform_scene();
+    scene.view.backdrop = Backdrop::Environment;
+    (scene.camera.azimuth_deg, scene.camera.elevation_deg) = (0.0, 0.0);
+    let sharp = scene.clone();
+    scene.lens.aperture_mm = 10.0;
+    let made = |from: &GpuState, scene: &Scene| -> (Vec<(usize, bool)>, GpuState) {
+        let plan = plan(&frame_request(scene, 0, Pace::Whole), from);
+        let blurred = plan.steps.iter().filter_map(|(pass, _)| match pass {
+            Pass::DefocusBackdrop { key, adds, .. } => Some((key.faces.iter().filter(|face| **face).count(), *adds)),
+            _ => None,
+        });
+        (blurred.collect(), plan.after)
+    };
+    let (none, start) = made(&GpuState::default(), &sharp);
+    let (first, seen) = made(&start, &scene);
+    assert_eq!((none, first), (vec![], vec![(1, false)]));
+    // Another face comes into sight, and none goes.
+    scene.camera.azimuth_deg = 30.0;
+    let (second, seen) = made(&seen, &scene);
+    scene.camera.azimuth_deg = 0.0;
+    let (third, seen) = made(&seen, &scene);
+    assert_eq!((second, third), (vec![(1, true)], vec![]));
+    scene.lens.aperture_mm = 5.0;
+    let (other, seen) = made(&seen, &scene);
+    assert_eq!((other, made(&seen, &sharp).0), (vec![(1, false)], vec![]));
+    assert!(made(&seen, &sharp).1.lights[0].defocused.is_none());
+}
+
+#[test]
 fn each_material_in_sight_has_a_table() {
     let film = |index: f64| Film { index: FilmIndexName::Constant(index), ..Film::default() };
     let bubble = |index: f64, y: f64| Bubble { film: film(index), center_m: [0.0, y, 0.0], ..Bubble::default() };
@@ -205,7 +235,7 @@ fn films_that_end_nowhere_know_of_no_end() {
         FilmKey::Field(field) => field,
         FilmKey::Uniform(_) => panic!("a film that flows"),
     };
-    let free = preset("default").unwrap();
+    let free = preset("tent").unwrap();
     assert_eq!(field(&free).boundary, None);
     assert!(!frame_request(&free, 4, Pace::Whole).picture.draw.on_bath);
     let bath = preset("bath").unwrap();

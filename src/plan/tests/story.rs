@@ -10,7 +10,7 @@ fn eventful(seconds: u64) -> Scene {
         _ => Change::Blow(Blow::default()),
     };
     let event = |second| Event { tick: 60 * second, change: happens(second) };
-    Scene { events: (0..seconds).map(event).collect(), ..preset("default").unwrap() }
+    Scene { events: (0..seconds).map(event).collect(), ..preset("tent").unwrap() }
 }
 
 fn field(story: &Story, tick: u64) -> FieldKey {

@@ -41,6 +41,7 @@ fn setting(section: &str, key: &str, value: &str) -> String {
         "bubble" => with_version(&format!("[[bubble]]\n{key} = {value}\n")),
         "generator" => with_version(&format!("[[generator]]\n{key} = {value}\n")),
         "bubble.film" => with_version(&format!("[[bubble]]\n[bubble.film]\n{key} = {value}\n")),
+        "light.lamp" => with_version(&format!("[[light.lamp]]\n{key} = {value}\n")),
         "light.patch" => with_version(&format!("[[light.patch]]\n{key} = {value}\n")),
         "event" => with_version(&format!("[[event]]\nkind = \"motion\"\nseed = 2\n{key} = {value}\n")),
         _ => with_version(&format!("[{section}]\n{key} = {value}\n")),
@@ -65,8 +66,10 @@ fn tables() -> Vec<(&'static str, Vec<Key>)> {
         ("bubble.film", Film::ALL_KEYS.to_vec()),
         ("generator", Generator::ALL_KEYS.to_vec()),
         ("camera", Camera::ALL_KEYS.to_vec()),
+        ("lens", Lens::ALL_KEYS.to_vec()),
         ("light", Light::ALL_KEYS.to_vec()),
         ("light.patch", LightPatch::ALL_KEYS.to_vec()),
+        ("light.lamp", LightLamp::ALL_KEYS.to_vec()),
         ("view", View::ALL_KEYS.to_vec()),
         ("motion", Motion::ALL_KEYS.to_vec()),
         ("event", vec![kind, tick]),
@@ -109,7 +112,7 @@ fn defaults() -> toml::Table {
     ];
     let scene = Scene {
         generators: vec![Generator::default()],
-        light: Light { patches: vec![LightPatch::default()], ..Light::default() },
+        light: Light { lamps: vec![LightLamp::default()], patches: vec![LightPatch::default()], ..Light::default() },
         events: changes.map(|change| Event { tick: 0, change }).into(),
         ..Scene::default()
     };
@@ -231,8 +234,8 @@ fn scene_in_memory_is_refused_by_its_key() {
 }
 
 #[test]
-fn default_is_the_preset_of_that_name() {
-    assert_eq!(preset("default"), Some(Scene::default()));
+fn a_scene_without_keys_is_the_preset_tent() {
+    assert_eq!(preset("tent"), Some(Scene::default()));
     assert_eq!(preset_names().next(), Some("default"));
     assert_eq!(preset("no such scene"), None);
 }

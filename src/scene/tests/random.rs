@@ -49,6 +49,19 @@ fn camera() -> impl Strategy<Value = Camera> {
     )
 }
 
+fn lens() -> impl Strategy<Value = Lens> {
+    let finish = (0.0..0.5, 0.0..4.0, 0.0..0.5);
+    (0.0..200.0, prop::option::of(0.01..1e3), finish).prop_map(
+        |(aperture_mm, focus_m, (glare, vignetting_ev, grain))| Lens {
+            aperture_mm,
+            focus_m,
+            glare,
+            vignetting_ev,
+            grain,
+        },
+    )
+}
+
 fn radiance() -> impl Strategy<Value = [f64; 3]> {
     prop::array::uniform3(0.0..65504.0)
 }
@@ -62,15 +75,16 @@ fn light() -> impl Strategy<Value = Light> {
         Just(Environment::Studio),
         file
     ];
-    let patches = prop::collection::vec(patch(), 0..3);
+    let patches = (prop::collection::vec(patch(), 0..3), prop::collection::vec(lamp(), 0..3));
     (environment, illuminant(), prop::option::of(radiance()), -1e9..1e9, 0.0..1e4, patches).prop_map(
-        |(environment, illuminant, constant, rotation_deg, intensity, patches)| Light {
+        |(environment, illuminant, constant, rotation_deg, intensity, (patches, lamps))| Light {
             environment,
             illuminant,
             constant,
             rotation_deg,
             intensity,
             patches,
+            lamps,
         },
     )
 }
@@ -89,6 +103,26 @@ fn patch() -> impl Strategy<Value = LightPatch> {
             edge_deg,
             illuminant,
             radiance,
+        },
+    )
+}
+
+fn lamp() -> impl Strategy<Value = LightLamp> {
+    let place = (-1e9..1e9, -90.0..90.0, -1e9..1e9);
+    let size = (0.05..120.0, 0.05..120.0, 0.0..30.0);
+    (any_of(), place, size, 0.0..1e6, prop::option::of(1e3..25e3)).prop_map(
+        |(shape, (azimuth_deg, elevation_deg, roll_deg), (width_deg, height_deg, edge_deg), luminance, kelvin)| {
+            LightLamp {
+                shape,
+                azimuth_deg,
+                elevation_deg,
+                roll_deg,
+                width_deg,
+                height_deg,
+                edge_deg,
+                luminance,
+                kelvin,
+            }
         },
     )
 }
@@ -233,13 +267,13 @@ fn scene() -> impl Strategy<Value = Scene> {
         prop::collection::vec(generator(), 0..3),
         prop::collection::vec(event(), 0..4),
     );
-    (lists, camera(), light(), view(), motion()).prop_map(
-        |((bubbles, generators, mut events), camera, light, view, motion)| {
+    (lists, (camera(), lens()), light(), view(), motion()).prop_map(
+        |((bubbles, generators, mut events), (camera, lens), light, view, motion)| {
             events.sort_by_key(|event| event.tick);
             if bubbles.is_empty() {
                 events.retain(|event| event.change.bubble().is_none());
             }
-            Scene { version: VERSION, bubbles, generators, camera, light, view, motion, events }
+            Scene { version: VERSION, bubbles, generators, camera, lens, light, view, motion, events }
         },
     )
 }

@@ -73,11 +73,11 @@ fn unknown_keys_name_the_nearest_known_one() {
         ("[[event]]\nkind = \"motion\"\nspeed = 2", "4: unknown key `speed` in [[event]]; did you mean `seed`?"),
         (
             "[light]\nx.y = 1\n[camera]\nfov = 3",
-            "3: unknown key `x` in [light]; known here: `constant`, `environment`, `illuminant`, `intensity`, `patch`, `rotation_deg`",
+            "3: unknown key `x` in [light]; known here: `constant`, `environment`, `illuminant`, `intensity`, `lamp`, `patch`, `rotation_deg`",
         ),
         (
             "\"a\\nb\" = 1",
-            "2: unknown key `a\\nb`; known here: `bubble`, `camera`, `event`, `generator`, `light`, `motion`, `version`, `view`",
+            "2: unknown key `a\\nb`; known here: `bubble`, `camera`, `event`, `generator`, `lens`, `light`, `motion`, `version`, `view`",
         ),
     ]);
 }

@@ -100,7 +100,7 @@ impl Frame {
             let own = settings.iter().filter(|((of, at, _), _)| (*of, *at) == (section, item));
             own.map(|((.., key), value)| ((*key).to_owned(), value.clone())).collect()
         };
-        let mut scene: Table = ["camera", "light", "view", "motion"]
+        let mut scene: Table = ["camera", "lens", "light", "view", "motion"]
             .map(|name| (name.to_owned(), Value::Table(table(name, 0))))
             .into_iter()
             .collect();

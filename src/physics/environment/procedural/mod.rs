@@ -3,7 +3,6 @@
 mod noise;
 mod park;
 mod photographer;
-mod shape;
 mod softbox;
 mod studio;
 mod tent;
@@ -13,7 +12,7 @@ use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 
-use super::CubeMap;
+use super::{CubeMap, Lamp, shape};
 use crate::words::words;
 
 words! {
@@ -42,7 +41,18 @@ impl Procedural {
     }
 
     fn made(self) -> Arc<CubeMap> {
-        Arc::new(CubeMap::from_fn(self.cube_size(), self.supersampling(), |direction| self.radiance(direction)))
+        Arc::new(
+            CubeMap::from_fn(self.cube_size(), self.supersampling(), |direction| self.radiance(direction))
+                .with_lamps(self.lamps()),
+        )
+    }
+
+    /// What is too small and too bright for texels.
+    pub fn lamps(self) -> Vec<Lamp> {
+        match self {
+            Self::Park => vec![park::sun()],
+            Self::Tent | Self::Windows | Self::Studio => Vec::new(),
+        }
     }
 
     /// Texels along the edge of a cube map's face that show its finest detail.
@@ -61,7 +71,7 @@ impl Procedural {
         }
     }
 
-    /// Radiance from `direction` (of any length but zero): linear BT.2020 relative to the illuminant, smooth over about 0.4° but for leaves.
+    /// Radiance from `direction` (of any length but zero) without the lamps': linear BT.2020 relative to the illuminant, smooth over about 0.4° but for leaves.
     pub fn radiance(self, direction: DVec3) -> DVec3 {
         let direction = direction.normalize();
         match self {

@@ -7,7 +7,7 @@
 //! | clear sky | 1 above, 3 at the horizon, 15 beside the sun | CIE standard clear sky (CIE S 011), sun 15° high |
 //! | clouds | 1.3 below, up to 7 where the sun meets them | albedo 0.8 in 40 klx, where the zenith has some 1.8 kcd/m² |
 //! | sun | 7 sr of the zenith in all | 40 klx, of which haze leaves a third |
-//! | foliage | 0.002 inside, 0.009 on average, 0.04 in the sun | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
+//! | foliage | 0.001 inside, 0.005 on average, 0.025 in the sun | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
 //! | meadow | 0.07 in shade, 0.12 in the sun | grass reflects 6 % (Bowker et al. 1985) |
 
 use std::sync::LazyLock;
@@ -16,9 +16,10 @@ use glam::{DVec2, DVec3};
 
 use super::{
     noise::{Curve, Tile, mix, random, split, turns},
-    photographer::{PHOTOGRAPHER_DEG, Photographer},
+    photographer::Photographer,
     shape::smoothstep,
 };
+use crate::physics::environment::Lamp;
 
 /// Azimuth and elevation of the sun in degrees: it is to the left of what the photographer sees, in a gap of the trees.
 const SUN_DEG: [f64; 2] = [296.0, 15.0];
@@ -26,16 +27,24 @@ const SUN_DEG: [f64; 2] = [296.0, 15.0];
 /// Irradiance from the sun across its rays.
 const SUN_IRRADIANCE: f64 = 7.0;
 
-/// Radius of the sun's disc: twice the real one, so that its radiance stays below what a half float holds.
-const SUN_RADIUS: f64 = 2.0 * 0.004_65;
+/// Radius of the sun's disc, in radians.
+const SUN_RADIUS: f64 = 0.004_65;
 
-/// Half the width of the disc's soft edge.
-const SUN_EDGE: f64 = 0.004;
-
-/// Slopes (the tangents of elevations) between which trees may stand before sky or meadow.
-const TREES: [f64; 2] = [-0.07, 1.06];
+/// Heights (see [`height`]) between which trees may stand before sky or meadow.
+const TREES: [f64; 2] = [-0.07, 1.5];
 
 static PARK: LazyLock<Park> = LazyLock::new(Park::new);
+
+/// The sun's disc, which is no part of [`radiance`].
+pub(super) fn sun() -> Lamp {
+    let radiance = SUN_IRRADIANCE / (std::f64::consts::PI * SUN_RADIUS.powi(2));
+    Lamp::disc(PARK.sun, SUN_RADIUS, radiance * DVec3::new(1.1, 1.0, 0.75))
+}
+
+/// How high a direction looks: about the tangent of its elevation near the horizon, and 2 at the zenith.
+fn height(direction: DVec3) -> f64 {
+    2.0 * direction.z / (1.0 + direction.truncate().length())
+}
 
 /// Radiance from a unit `direction`.
 pub(super) fn radiance(direction: DVec3) -> DVec3 {
@@ -45,14 +54,12 @@ pub(super) fn radiance(direction: DVec3) -> DVec3 {
 struct Park {
     sun: DVec3,
     sun_level: DVec2,
-    /// Radiance of the sun's disc.
-    disc: f64,
     /// Clear sky around the sun by half the chord to it: the CIE's indicatrix, and the glow of haze.
     around_sun: Curve<2>,
     /// Clear sky by the sine of the elevation: the CIE's gradation.
     gradation: Curve<1>,
     /// By azimuth: the ring's outlines.
-    ring: Curve<8>,
+    ring: Curve<7>,
     noise: Tile,
     photographer: Photographer,
 }
@@ -72,8 +79,6 @@ impl Park {
         Self {
             sun,
             sun_level,
-            // The soft edge adds a fifth of its half width squared.
-            disc: SUN_IRRADIANCE / (std::f64::consts::PI * (SUN_RADIUS.powi(2) + SUN_EDGE.powi(2) / 5.0)),
             around_sun: Curve::new(1024, around_sun),
             gradation: Curve::new(256, |sine| [gradation(sine)]),
             ring: Curve::new(2048, ring()),
@@ -83,8 +88,7 @@ impl Park {
     }
 
     fn radiance(&self, direction: DVec3) -> DVec3 {
-        let level = direction.truncate();
-        let slope = direction.z / level.length().max(1e-9);
+        let slope = height(direction);
         if slope > TREES[1] {
             return self.sky(direction);
         }
@@ -92,12 +96,10 @@ impl Park {
         self.photographer.over(seen, direction)
     }
 
-    /// Clear sky, clouds before it, and the sun before both.
+    /// Clear sky, and clouds before it.
     fn sky(&self, direction: DVec3) -> DVec3 {
         let half_chord = 0.5 * direction.distance(self.sun);
-        let clouded = self.clouds(self.clear_sky(direction, half_chord), direction, half_chord);
-        let disc = smoothstep(SUN_RADIUS + SUN_EDGE, SUN_RADIUS - SUN_EDGE, 2.0 * half_chord);
-        clouded + self.disc * disc * DVec3::new(1.1, 1.0, 0.75)
+        self.clouds(self.clear_sky(direction, half_chord), direction, half_chord)
     }
 
     /// Air and haze: blue above, white at the horizon, bright around the sun.
@@ -130,17 +132,16 @@ impl Park {
     /// The trees, and what is seen between them.
     fn trees(&self, direction: DVec3, slope: f64) -> DVec3 {
         let azimuth = turns(direction.truncate());
-        let [far_top, top, bottom, trunk_cover, near_top, near_bottom, near_trunk, blur] = self.ring.at(azimuth);
+        let [far_top, top, bottom, trunk_cover, near_top, near_bottom, near_trunk] = self.ring.at(azimuth);
         if slope > top.max(near_top).max(far_top) + 0.11 {
             return self.sky(direction);
         }
         // The noise repeats seven times, so that it closes around.
         let place = DVec2::new(azimuth * 7.0, slope);
-        let crisp = self.noise.at(place * DVec2::new(1.0, 1.4));
-        let coarse = if blur > 0.0 { mix(crisp, self.noise.at(place * DVec2::new(0.5, 0.7)), blur) } else { crisp };
-        let fine = if blur < 1.0 { (1.0 - blur) * self.noise.at(place * DVec2::new(4.0, 4.9)) } else { 0.0 };
-        let ragged = mix(0.030, 0.036, blur) * coarse + 0.014 * fine;
-        let soft = mix(0.006, 0.020, blur);
+        let coarse = self.noise.at(place * DVec2::new(1.0, 1.4));
+        let fine = self.noise.at(place * DVec2::new(4.0, 4.9));
+        let ragged = 0.030 * coarse + 0.014 * fine;
+        let soft = 0.006;
         let cover = |inside: f64| smoothstep(-soft, soft, inside);
         // How much the sun shines on what is seen of the trees: all opposite of it, nothing before it.
         let front = 0.5 - 0.5 * direction.truncate().dot(self.sun_level);
@@ -149,18 +150,18 @@ impl Park {
 
         let crown = |top: f64, bottom: f64| cover((top - slope).min(slope - bottom) + 1.2 * ragged);
         let (middle, near) = (crown(top, bottom), crown(near_top, near_bottom));
-        let foliage = DVec3::new(0.017, 0.024, 0.0085) * leaf * (0.25 + 0.8 * high + 1.1 * front);
+        let foliage = DVec3::new(0.0105, 0.0144, 0.0052) * leaf * (0.25 + 0.8 * high + 1.1 * front);
         let seen = if near == 1.0 {
             0.55 * foliage
         } else if middle == 1.0 && near == 0.0 && near_trunk == 0.0 {
             foliage
         } else {
-            let bark = DVec3::new(0.0048, 0.0040, 0.0034) * (0.7 + 1.5 * front);
+            let bark = DVec3::new(0.0032, 0.0027, 0.0023) * (0.7 + 1.5 * front);
             let above_ground = smoothstep(-0.05 - soft, -0.05 + soft, slope);
             let trunk = |trunk: f64, bottom: f64| trunk * above_ground * smoothstep(0.08, 0.0, slope - bottom);
             let woods_cover = cover(far_top - slope + 0.4 * ragged) * smoothstep(-0.03 - soft, -0.03 + soft, slope);
             let stems = self.noise.at(place * DVec2::new(2.0, 0.3) + 0.6);
-            let woods = DVec3::new(0.0054, 0.0074, 0.0050) * (0.7 + 0.3 * stems + 0.5 * high + 0.5 * front).max(0.15);
+            let woods = DVec3::new(0.0028, 0.0037, 0.0026) * (0.7 + 0.3 * stems + 0.5 * high + 0.5 * front).max(0.15);
             let open = if woods_cover == 1.0 {
                 woods
             } else {
@@ -170,30 +171,36 @@ impl Park {
             let behind = open.lerp(bark, trunk(trunk_cover, bottom)).lerp(foliage, middle);
             behind.lerp(0.55 * bark, trunk(near_trunk, near_bottom)).lerp(0.55 * foliage, near)
         };
-        if blur > 0.02 { self.discs(seen, place, top.max(near_top), blur) } else { seen }
+        self.gaps(seen, place, top.max(near_top))
     }
 
-    /// Gaps between leaves that are out of the lens's focus: discs of the sky's light.
-    fn discs(&self, seen: DVec3, place: DVec2, top: f64, blur: f64) -> DVec3 {
-        // A turn is 2π of slope near the horizon.
+    /// Gaps between leaves: points of the sky's light.
+    fn gaps(&self, seen: DVec3, place: DVec2, top: f64) -> DVec3 {
+        if place.y < 0.0 || place.y > top {
+            return seen;
+        }
+        // A turn is 2π of height near the horizon.
         let level = DVec2::new(std::f64::consts::TAU / 7.0, 1.0);
         let layer = |seen: DVec3, turn: DVec2, seed: u64| {
             let turned = turn.rotate(place * level);
             let ((column, x), (row, y)) = (split(turned.x), split(turned.y));
             let cell = (column as u64).wrapping_mul(4096).wrapping_add(row as u64);
-            let center = DVec2::new(0.35 + 0.3 * random(cell, seed + 1), 0.35 + 0.3 * random(cell, seed + 2));
+            let center = DVec2::new(0.2 + 0.6 * random(cell, seed + 1), 0.2 + 0.6 * random(cell, seed + 2));
             let out = DVec2::new(x, y) - center;
-            let cover = smoothstep(0.35, 0.13, out.length());
+            // Holes of no shape, smaller than a leaf is long.
+            let size = 0.045 + 0.05 * random(cell, seed + 4);
+            let ragged = size * (1.0 + 0.5 * self.noise.at(place * DVec2::new(6.0, 7.0)));
+            let cover = smoothstep(1.3 * ragged, 0.7 * ragged, out.length());
             if cover == 0.0 {
                 return seen;
             }
-            // Each disc as a whole is as bright as the leaves in its middle are open.
+            // Each gap as a whole is as bright as the leaves in its middle are open.
             let middle = place - DVec2::new(turn.x, -turn.y).rotate(out) / (turn.length_squared() * level);
-            let open = smoothstep(0.0, 0.2, middle.y) * smoothstep(top, top - 0.06, middle.y);
+            let open = smoothstep(0.08, 0.24, middle.y) * smoothstep(top, top - 0.06, middle.y);
             let gaps = open * smoothstep(-0.9, 1.6, self.noise.at(middle * 0.6 + 0.5));
-            let bright = (1.0 - 1.7 * random(cell, seed) / gaps.max(1e-3)).max(0.0);
-            let light = DVec3::new(0.44, 0.45, 0.30).lerp(DVec3::new(0.2, 0.26, 0.1), random(cell, seed + 3));
-            seen + blur * cover * bright * bright * light
+            let bright = (1.0 - 3.2 * random(cell, seed) / gaps.max(1e-3)).max(0.0);
+            let light = DVec3::new(6.6, 6.4, 5.2).lerp(DVec3::new(2.4, 3.2, 1.2), random(cell, seed + 3));
+            seen + cover * bright * bright * light
         };
         let turns = [(16.0, 5.0, 24), (-11.0, 13.0, 34), (8.0, -15.0, 44)];
         turns.into_iter().fold(seen, |seen, (x, y, seed)| layer(seen, DVec2::new(x, y), seed))
@@ -240,11 +247,11 @@ impl Tree {
     }
 
     /// Slope of the crown's top and bottom, and how much of the trunk covers, at an azimuth; a top of −1 where there is nothing.
-    fn outline(&self, azimuth: f64, blur: f64) -> [f64; 3] {
+    fn outline(&self, azimuth: f64) -> [f64; 3] {
         let apart = (azimuth - self.azimuth + 0.5).rem_euclid(1.0) - 0.5;
         let across = apart * std::f64::consts::TAU;
         let out = across / (1.15 * self.half_width);
-        let edge = mix(0.003, 0.02, blur);
+        let edge = 0.003;
         let trunk = smoothstep(self.trunk + edge, self.trunk - edge, across.abs());
         if out.abs() >= 1.0 {
             return [-1.0, 1.0, trunk];
@@ -255,35 +262,30 @@ impl Tree {
     }
 }
 
-/// The ring by azimuth: top of the woods far away; top, bottom and trunks of the trees before them, and of single trees before these;
-/// and how much all is out of focus.
-fn ring() -> impl Fn(f64) -> [f64; 8] {
+/// The ring by azimuth: top of the woods far away; top, bottom and trunks of the trees before them, and of single trees before these.
+fn ring() -> impl Fn(f64) -> [f64; 7] {
     let woods = Tree::row(70, 100, 0.10, [0.16, 0.28], [0.0, 0.0]);
-    let middle = Tree::row(34, 200, 0.17, [0.30, 0.58], [0.03, 0.10]);
-    let near = Tree::row(9, 300, 0.30, [0.62, 0.92], [0.12, 0.22]);
-    let union = |trees: &[Tree], azimuth: f64, blur: f64| {
-        let outlines = trees.iter().map(|tree| tree.outline(azimuth, blur));
+    let middle = Tree::row(34, 200, 0.17, [0.40, 0.70], [0.03, 0.10]);
+    let near = Tree::row(11, 300, 0.32, [0.70, 1.25], [0.12, 0.22]);
+    let union = |trees: &[Tree], azimuth: f64| {
+        let outlines = trees.iter().map(|tree| tree.outline(azimuth));
         outlines
             .fold([-1.0f64, 1.0f64, 0.0f64], |all, one| [all[0].max(one[0]), all[1].min(one[1]), all[2].max(one[2])])
     };
     move |azimuth| {
         let apart = |degrees: f64| (azimuth - degrees / 360.0 + 0.5).rem_euclid(1.0) - 0.5;
-        let behind = apart(PHOTOGRAPHER_DEG + 180.0);
-        let blur = smoothstep(0.14, 0.09, behind.abs());
-        let [far_top, ..] = union(&woods, azimuth, blur);
-        let [top, bottom, trunk] = union(&middle, azimuth, blur);
-        let [near_top, near_bottom, near_trunk] = union(&near, azimuth, blur);
+        let [far_top, ..] = union(&woods, azimuth);
+        let [top, bottom, trunk] = union(&middle, azimuth);
+        let [near_top, near_bottom, near_trunk] = union(&near, azimuth);
         // The sun stands in a gap.
         let gap = 0.17 + 500.0 * apart(SUN_DEG[0]).powi(2);
-        let (top, near_top) = (top + 0.1 * blur, near_top + 0.1 * blur);
-        [far_top.max(0.08) + 0.15 * blur, top.min(gap), bottom, trunk, near_top.min(gap), near_bottom, near_trunk, blur]
+        [far_top.max(0.08).min(gap), top.min(gap), bottom, trunk, near_top.min(gap), near_bottom, near_trunk]
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::{CubeFace, CubeMap, MAX_RADIANCE};
-    use super::*;
+    use super::{super::photographer::PHOTOGRAPHER_DEG, *};
 
     fn toward(azimuth_deg: f64, elevation_deg: f64) -> DVec3 {
         let (sin, cos) = elevation_deg.to_radians().sin_cos();
@@ -305,28 +307,15 @@ mod tests {
     }
 
     #[test]
-    fn the_suns_energy_reaches_the_map_in_half_floats() {
-        let size = 512;
-        let dark = Park { disc: 0.0, ..Park::new() };
-        assert!(PARK.disc * 1.1 < f64::from(MAX_RADIANCE));
-        let [bright, dark] = [&*PARK, &dark].map(|park| CubeMap::from_fn(size, 1, |d| park.radiance(d.normalize())));
-        assert_eq!(bright.repairs().total(), 0);
-        // Of the texels' solid angles.
-        let irradiance = |level: usize| {
-            let (size, mut sum) = (size >> level, 0.0);
-            for (face, index) in CubeFace::ALL.into_iter().flat_map(|face| (0..size * size).map(move |i| (face, i))) {
-                let coordinate = |index: usize| (2 * index + 1) as f64 / size as f64 - 1.0;
-                let st = DVec2::new(coordinate(index % size), coordinate(index / size));
-                let solid_angle = 4.0 / (size * size) as f64 * (1.0 + st.length_squared()).powf(-1.5);
-                let green = |map: &CubeMap| map.mips()[level].faces[face.layer()][index][1].to_f64();
-                sum += solid_angle * (green(&bright) - green(&dark));
-            }
-            sum
-        };
-        // Some twenty texels, one sample each; a level of 16 texels is coarse in solid angles too.
-        for (level, allowed) in [(0, 0.03), (2, 0.04), (5, 0.1)] {
-            let found = irradiance(level) / SUN_IRRADIANCE;
-            assert!((found - 1.0).abs() < allowed, "level {level}: {found}");
+    fn the_sun_sends_what_it_should_and_nothing_stands_before_it() {
+        let (sun, beside) = (sun(), 0.03);
+        assert!((sun.area() * sun.radiance.y / SUN_IRRADIANCE - 1.0).abs() < 1e-12);
+        for k in 0..16 {
+            let around = DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 16.0);
+            let (right, up) = (sun.right, sun.towards.cross(sun.right));
+            let near = (sun.towards + beside * (around.x * right + around.y * up)).normalize();
+            // The bright haze around it, no leaf.
+            assert!(radiance(near).y > 10.0, "{k}");
         }
     }
 
@@ -338,11 +327,12 @@ mod tests {
             greens.sort_by(f64::total_cmp);
             move |share: f64| greens[(share * (greens.len() - 1) as f64) as usize]
         };
-        let sky = greens(50..90);
-        assert!((0.8..1.4).contains(&sky(0.02)) && (3.5..7.0).contains(&sky(0.98)), "{} {}", sky(0.02), sky(0.98));
+        let sky = greens(70..90);
+        // Above all trees, far from the sun, clouds are not at their brightest.
+        assert!((0.8..1.4).contains(&sky(0.02)) && (2.5..7.0).contains(&sky(0.98)), "{} {}", sky(0.02), sky(0.98));
         let trees = greens(2..9);
         assert!(
-            (0.001..0.006).contains(&trees(0.1)) && (0.01..0.04).contains(&trees(0.8)),
+            (0.0006..0.003).contains(&trees(0.1)) && (0.005..0.02).contains(&trees(0.8)),
             "{} {}",
             trees(0.1),
             trees(0.8)

@@ -1,0 +1,223 @@
+//! An environment as a lens shows it that is not focused on it: each point becomes a disc.
+//!
+//! A thin lens of radius r that is focused at the distance f sees a point at infinity, through each place of its aperture, in another direction.
+//! All of them together fill a cone of half angle θ = atan(r / f) about the direction of the pixel, so a far background is averaged over that
+//! cone. (The lens is flat; its discs are cut by the plane of focus and not by a sphere, so that away from the middle of the picture, by an angle
+//! α, they are shorter by cos α in one direction. This is left out.)
+//!
+//! On a face of a cube map a cone is bounded by a conic, here an ellipse, and meets each row of texels in one interval. With sums along the rows
+//! its integral takes two lookups a row, whatever is in it: sun and sky alike, without noise, with their energy.
+
+use glam::{DVec2, DVec3, DVec4};
+use rayon::prelude::*;
+
+use super::{CubeFace, CubeMap};
+
+/// Texels of the source across half a disc, at least: rows that the disc's outline is made of.
+const SOURCE_TEXELS: f64 = 6.0;
+/// Texels of the result across half a disc: its edge is an eighth of its radius wide.
+const RESULT_TEXELS: f64 = 8.0;
+/// Texels along an edge of the result, at most.
+const MAX_SIZE: f64 = 1024.0;
+
+impl CubeMap {
+    /// The map averaged over cones of a half angle in radians, 0 to 0.5: what stands behind a scene, out of focus. Only some faces are made, in
+    /// the order of [`CubeFace::ALL`]; the others are black. As large as shows no texels.
+    #[must_use]
+    pub fn defocused(&self, half_angle_rad: f64, faces: [bool; 6]) -> Self {
+        let size = (2.0 * RESULT_TEXELS / half_angle_rad).clamp(16.0, MAX_SIZE);
+        // Discs of less than a texel leave the map nearly as it is.
+        let size = if half_angle_rad * (self.size() as f64) < 2.0 { self.size() as f64 } else { size };
+        let cones = Cones::new(self, half_angle_rad, faces);
+        let map = Self::from_fn((size as usize).next_multiple_of(16), 1, |direction| cones.mean(direction));
+        map.seen_through(half_angle_rad).with_lamps(self.lamps().iter().copied())
+    }
+}
+
+/// The means over all cones of one half angle.
+struct Cones {
+    cos: f64,
+    sin: f64,
+    /// The faces that are made.
+    faces: [Option<Sums>; 6],
+}
+
+/// Sums along the rows of one face, which go on beyond its edges as far as cones do.
+struct Sums {
+    /// Texels for a unit of the face's plane, and texels from the first to the face's middle.
+    per_unit: f64,
+    middle: f64,
+    /// Texels in a row.
+    width: usize,
+    /// For each row, and before each of its texels and after the last: radiance times solid angle, and solid angle, from the row's start on.
+    sums: Vec<DVec4>,
+}
+
+impl Cones {
+    fn new(map: &CubeMap, half_angle_rad: f64, made: [bool; 6]) -> Self {
+        let (sin, cos) = half_angle_rad.sin_cos();
+        let level = (map.size() as f64 * half_angle_rad / (2.0 * SOURCE_TEXELS)).log2().max(0.0) as usize;
+        let level = level.min(map.mips().len() - 1);
+        // From the corner of a face cones reach farthest.
+        let [_, reach] = ends(DVec3::ONE.normalize(), sin);
+        let faces = CubeFace::ALL.map(|face| made[face.layer()].then(|| Sums::new(map, level, face, reach)));
+        Self { cos, sin, faces }
+    }
+
+    /// About a direction of any length; black on faces that are not made.
+    fn mean(&self, direction: DVec3) -> DVec3 {
+        let (face, _) = CubeFace::of_direction(direction);
+        let Some(sums) = &self.faces[face.layer()] else { return DVec3::ZERO };
+        let sum = sums.within(face.local(direction.normalize()), self.cos, self.sin);
+        sum.truncate() / sum.w
+    }
+}
+
+/// Between which rows t of a face's plane, whose points are (s, t, 1), a cone lies: where the plane of the row touches it.
+fn ends(axis: DVec3, sin: f64) -> [f64; 2] {
+    let square = axis.z * axis.z - sin * sin;
+    let half = axis.y * axis.z;
+    let root = (half * half - square * (axis.y * axis.y - sin * sin)).max(0.0).sqrt();
+    [(half - root) / square, (half + root) / square]
+}
+
+impl Sums {
+    fn new(map: &CubeMap, level: usize, face: CubeFace, reach: f64) -> Self {
+        let size = map.mips()[level].size;
+        let per_unit = 0.5 * size as f64;
+        // Whole texels beyond the face's edges.
+        let beyond = ((reach - 1.0) * per_unit).ceil() as usize + 1;
+        let (width, middle) = (size + 2 * beyond, beyond as f64 + per_unit);
+        let place = |texel: usize| (texel as f64 + 0.5 - middle) / per_unit;
+        let row = |row: usize| {
+            let mut sum = DVec4::ZERO;
+            let texels = (0..width).map(move |column| {
+                let st = DVec2::new(place(column), place(row));
+                let solid_angle = (1.0 + st.length_squared()).powf(-1.5);
+                let radiance = map.sample_level(level, face.direction(st));
+                solid_angle * radiance.extend(1.0)
+            });
+            let later = texels.map(|texel| {
+                sum += texel;
+                sum
+            });
+            std::iter::once(DVec4::ZERO).chain(later).collect::<Vec<_>>()
+        };
+        let sums: Vec<Vec<DVec4>> = (0..width).into_par_iter().map(row).collect();
+        Self { per_unit, middle, width, sums: sums.concat() }
+    }
+
+    /// Radiance times solid angle, and solid angle, within a cone about a unit vector (s, t and depth of the face's plane).
+    fn within(&self, axis: DVec3, cos: f64, sin: f64) -> DVec4 {
+        let [top, bottom] = ends(axis, sin).map(|t| t * self.per_unit + self.middle);
+        let last = self.width as f64;
+        let (top, bottom) = (top.clamp(0.0, last), bottom.clamp(0.0, last));
+        // The interval of a row, (s, t, 1) · axis = cos |(s, t, 1)|, solved for s.
+        let square = cos * cos - axis.x * axis.x;
+        let mut sum = DVec4::ZERO;
+        for row in top as usize..(bottom.ceil() as usize).min(self.width) {
+            let (start, end) = (top.max(row as f64), bottom.min((row + 1) as f64));
+            let t = (0.5 * (start + end) - self.middle) / self.per_unit;
+            let across = t * axis.y + axis.z;
+            let half = axis.x * across;
+            let root = (half * half - square * (cos * cos * (t * t + 1.0) - across * across)).max(0.0).sqrt();
+            let [left, right] = [half - root, half + root].map(|s| s / square * self.per_unit + self.middle);
+            sum += (end - start) * (self.until(row, right) - self.until(row, left));
+        }
+        sum
+    }
+
+    /// The sum of a row from its start to a place, in texels.
+    fn until(&self, row: usize, place: f64) -> DVec4 {
+        let place = place.clamp(0.0, self.width as f64);
+        let texel = (place as usize).min(self.width - 1);
+        let first = row * (self.width + 1) + texel;
+        self.sums[first].lerp(self.sums[first + 1], place - texel as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Green light from a few lamps of a few degrees over a slope.
+    fn lamps(direction: DVec3) -> DVec3 {
+        let lamp = |towards: DVec3| (40.0 * (direction.normalize().dot(towards.normalize()) - 1.0) / 0.004).exp();
+        let sum = lamp(DVec3::new(1.0, 0.2, 0.1)) + lamp(DVec3::new(1.0, 1.0, 0.9)) + lamp(DVec3::new(-0.3, 0.2, -1.0));
+        DVec3::new(0.1, 0.2 + 0.1 * direction.normalize().z + 50.0 * sum, 0.1)
+    }
+
+    /// The mean over a cone by its definition: by places that fill a disc evenly, as of a sunflower's seeds.
+    fn by_brute_force(map: &CubeMap, axis: DVec3, half_angle: f64) -> DVec3 {
+        const SEEDS: u32 = 20_000;
+        let axis = axis.normalize();
+        let (right, up) = axis.any_orthonormal_pair();
+        let sum: DVec3 = (0..SEEDS)
+            .map(|seed| {
+                // Even in solid angle: in the cosine.
+                let cos = 1.0 - (1.0 - half_angle.cos()) * (f64::from(seed) + 0.5) / f64::from(SEEDS);
+                let turn = DVec2::from_angle(f64::from(seed) * 2.399_963_229_728_653);
+                let sin = (1.0 - cos * cos).sqrt();
+                map.sample(cos * axis + sin * (turn.x * right + turn.y * up))
+            })
+            .sum();
+        sum / f64::from(SEEDS)
+    }
+
+    #[test]
+    fn cones_are_those_of_brute_force() {
+        let map = CubeMap::from_fn(256, 1, lamps);
+        for half_angle in [0.02, 0.07, 0.3, 0.5] {
+            let cones = Cones::new(&map, half_angle, [true; 6]);
+            let (mut worst, mut brightest, mut square) = (0.0f64, 0.0f64, 0.0);
+            for k in 0..400 {
+                let z = 1.0 - (f64::from(k) + 0.5) / 200.0;
+                let level = (1.0 - z * z).sqrt() * DVec2::from_angle(f64::from(k) * 2.399_963_229_728_653);
+                let axis = level.extend(z);
+                let (found, truth) = (cones.mean(axis).y, by_brute_force(&map, axis, half_angle).y);
+                worst = worst.max((found - truth).abs());
+                brightest = brightest.max(truth);
+                square += (found - truth).powi(2) / 400.0;
+            }
+            eprintln!(
+                "measured: cones of {half_angle}: rms {:.4}, worst {:.4} of the brightest",
+                square.sqrt() / brightest,
+                worst / brightest
+            );
+            // Of the brightest disc, at whose edge a row of texels, a sixth of its radius wide at most, is in or out with parts of a lamp.
+            assert!(
+                worst < 0.08 * brightest && square.sqrt() < 0.01 * brightest,
+                "{half_angle}: {worst} of {brightest}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_lamp_becomes_a_disc_with_its_energy() {
+        let lamp = |direction: DVec3| DVec3::splat(f64::from(direction.normalize().dot(DVec3::X) > 0.999_95) * 1000.0);
+        let map = CubeMap::from_fn(512, 2, lamp);
+        let half_angle = 0.08;
+        let blurred = map.defocused(half_angle, [true; 6]);
+        let (before, after) = (map.mean_radiance().y, blurred.mean_radiance().y);
+        assert!((after / before - 1.0).abs() < 0.005, "{before} becomes {after}");
+        // Evenly bright within, dark beyond, whatever the direction.
+        let part = before * 2.0 / (1.0 - half_angle.cos());
+        for k in 0..24 {
+            let around = DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 24.0);
+            let at =
+                |angle: f64| blurred.sample(DVec3::new(angle.cos(), angle.sin() * around.x, angle.sin() * around.y)).y;
+            assert!((at(0.0) / part - 1.0).abs() < 0.03 && (at(0.6 * half_angle) / part - 1.0).abs() < 0.05, "{k}");
+            assert!(at(1.4 * half_angle) < 1e-3 * part, "{k}");
+        }
+    }
+
+    #[test]
+    fn an_even_sky_stays_as_it_is() {
+        for half_angle in [1e-4, 0.01, 0.5] {
+            let blurred = CubeMap::from_fn(64, 1, |_| DVec3::new(0.5, 0.25, 2.0)).defocused(half_angle, [true; 6]);
+            for direction in [DVec3::X, DVec3::ONE, DVec3::new(-1.0, 0.99, 0.2)] {
+                assert!((blurred.sample(direction) - DVec3::new(0.5, 0.25, 2.0)).abs().max_element() < 1e-3);
+            }
+        }
+    }
+}

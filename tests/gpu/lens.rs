@@ -1,0 +1,108 @@
+//! What a lens makes of a picture.
+
+use std::path::Path;
+
+use glam::DVec3;
+use soapfilm::{
+    input::LoadedScene,
+    scene::{Backdrop, Lens, Scene},
+};
+
+use crate::support::{display, load, mean_and_max, radiance, renderer, still};
+
+const SIZE: [u32; 2] = [64, 36];
+
+/// The default scene without its bubble, behind which the park is out of focus, against rays from all over a flat lens through the plane in focus
+/// into the sharp environment.
+#[test]
+fn a_far_background_is_that_of_rays_through_a_lens() {
+    const RAYS: u32 = 3000;
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = load("default");
+    loaded.scene.bubbles.clear();
+    let request = still(&loaded, SIZE, 0.0);
+    let seen = radiance(&mut renderer, &request);
+    let camera = request.picture.draw.camera;
+    let scene = &loaded.scene;
+    let lens_radius = 0.5e-3 * scene.lens.aperture_mm / scene.camera.distance_m;
+    // On the plane one metre before the eye, where a point of the lens shifts the whole picture.
+    let through = |x: f64, y: f64| {
+        let rays = (0..RAYS).map(|ray| {
+            let (radius, turn) =
+                (lens_radius * ((f64::from(ray) + 0.5) / f64::from(RAYS)).sqrt(), f64::from(ray) * 2.399_963);
+            let (right, up) = (x + radius * turn.cos(), y + radius * turn.sin());
+            loaded.resources.environment.sample(camera.forward + right * camera.right + up * camera.up)
+        });
+        rays.sum::<DVec3>() / f64::from(RAYS)
+    };
+    let pixels = (0..SIZE[0] * SIZE[1]).step_by(7);
+    let errors = pixels.clone().map(|pixel| {
+        let place = |at: u32, size: u32| (f64::from(at) + 0.5 - 0.5 * f64::from(size)) * camera.pixel_height_m;
+        let truth = through(place(pixel % SIZE[0], SIZE[0]), -place(pixel / SIZE[0], SIZE[1]));
+        (seen[pixel as usize] - truth).abs().max_element()
+    });
+    let (mean, worst) = mean_and_max(errors);
+    let (light, brightest) = mean_and_max(seen.iter().map(|pixel| pixel.max_element()));
+    eprintln!(
+        "measured: defocus: mean {:.4} of the mean, worst {:.4} of the brightest",
+        mean / light,
+        worst / brightest
+    );
+    // The discs' edges are an eighth of their radius wide, and the picture's pixels a fifth.
+    assert!(mean < 0.04 * light && worst < 0.12 * brightest, "{mean} of {light}, {worst} of {brightest}");
+}
+
+/// A round lamp on black.
+fn lamp(lens: &str) -> LoadedScene {
+    let text = format!(
+        "version = 1\nbubble = []\n[lens]\n{lens}\n[light]\nconstant = [0, 0, 0]\n[[light.lamp]]\nshape = \"disc\"\n\
+         azimuth_deg = 200\nelevation_deg = -8\nwidth_deg = 5\nluminance = 0.5\n[view]\nexposure_ev = 0\nbackdrop = \"environment\"\ndither = false\n"
+    );
+    LoadedScene::from_toml(&text, "lamp", Path::new("")).unwrap()
+}
+
+fn linear(byte: u8) -> f64 {
+    let encoded = f64::from(byte) / 255.0;
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+#[test]
+fn glare_spreads_light_and_keeps_its_sum() {
+    let Some(mut renderer) = renderer() else { return };
+    let size = [256, 192];
+    let mut green = |lens: &str| -> Vec<f64> {
+        let mut request = still(&lamp(lens), size, 0.0);
+        request.picture.draw.full_precision = false;
+        display(&mut renderer, &request).chunks(4).map(|pixel| linear(pixel[1])).collect()
+    };
+    let (sharp, spread, dark) = (green(""), green("glare = 0.3"), green("vignetting_ev = 1"));
+    let sum = |pixels: &[f64]| pixels.iter().sum::<f64>();
+    // Steps of eight bits.
+    assert!((sum(&spread) / sum(&sharp) - 1.0).abs() < 0.03, "{} becomes {}", sum(&sharp), sum(&spread));
+    let at = |pixels: &[f64], right: usize| pixels[96 * 256 + 128 + right];
+    assert!((at(&sharp, 0) - 0.5).abs() < 0.01 && at(&sharp, 20) == 0.0);
+    assert!(at(&spread, 0) < 0.49 && at(&spread, 20) > at(&spread, 40) && at(&spread, 40) > 0.0);
+    // No darker in the middle.
+    assert!((at(&dark, 0) - at(&sharp, 0)).abs() < 0.01 && sum(&dark) < sum(&sharp));
+}
+
+#[test]
+fn grain_is_another_in_each_moment_and_has_no_mean() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut loaded = load("tent");
+    loaded.scene = Scene { bubbles: Vec::new(), lens: Lens { grain: 0.05, ..Lens::default() }, ..loaded.scene };
+    loaded.scene.view.backdrop = Backdrop::Radiance([0.1; 3]);
+    loaded.scene.view.dither = false;
+    let mut picture = |time_s: f64| -> Vec<f64> {
+        let mut request = still(&loaded, [128, 72], time_s);
+        request.picture.draw.full_precision = false;
+        display(&mut renderer, &request).chunks(4).map(|pixel| linear(pixel[1])).collect()
+    };
+    let (first, again, later) = (picture(0.0), picture(0.0), picture(0.5));
+    assert!(first == again && first != later);
+    let exposed = 0.1 * f64::exp2(loaded.scene.view.exposure_ev);
+    let (mean, _) = mean_and_max(first.iter().copied());
+    let (variance, _) = mean_and_max(first.iter().map(|pixel| (pixel / mean - 1.0).powi(2)));
+    assert!((mean / exposed - 1.0).abs() < 0.01, "{mean} of {exposed}");
+    assert!((variance.sqrt() * exposed.sqrt() / 0.05 - 1.0).abs() < 0.1, "{}", variance.sqrt());
+}
