@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LentFilm, LightKey,
@@ -125,6 +125,7 @@ fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
         right: camera.right(),
         up: camera.up(),
         pixel_height_m: 2.0 * (0.5 * camera.fov_y_deg.to_radians()).tan() / f64::from(height),
+        shift: DVec2::ZERO,
     }
 }
 
@@ -271,6 +272,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     };
     let ticks = age.moment.ticks();
     Some(BubbleKey {
+        id: index as u32 + 1,
         index,
         material: 0,
         center_m,

@@ -99,6 +99,8 @@ pub(super) fn view_uniform(key: &DrawKey) -> ViewUniform {
         width: key.size[0] as f32,
         up: floats(camera.up),
         height: key.size[1] as f32,
+        axis: camera.axis(key.size).as_vec2().to_array(),
+        padding: [0.0; 2],
     }
 }
 

@@ -3,6 +3,7 @@
 mod film;
 mod history;
 mod optics;
+mod parts;
 mod picture;
 mod rest;
 mod step;

@@ -28,6 +28,8 @@ impl PartialEq for EnvironmentKey {
 /// One bubble as the picture sees it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BubbleKey {
+    /// Its number in layers of pictures, from 1: bubbles of the scene in their order, then the places of each generator.
+    pub id: u32,
     /// Index of its film, which for a bubble of the scene is the bubble's own.
     pub index: usize,
     /// Index of the material of its film in each of the [`Lighting`]s.
@@ -90,6 +92,8 @@ pub struct LentFilm {
 /// A bubble of a generator that is drawn with all others like it at once: round, whole, and with the reflections on three walls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmallBubble {
+    /// Its number in layers of pictures, as of [`BubbleKey::id`].
+    pub id: u32,
     /// Center in metres.
     pub center_m: DVec3,
     /// Radius in metres.
@@ -121,6 +125,7 @@ impl SmallBubble {
     #[must_use]
     pub fn whole(&self, lent: &LentFilm, camera: &CameraKey) -> BubbleKey {
         BubbleKey {
+            id: self.id,
             index: lent.index,
             material: lent.material,
             center_m: self.center_m,
@@ -169,6 +174,16 @@ pub struct CameraKey {
     pub up: DVec3,
     /// Height of a pixel on the plane one metre before the eye, in metres.
     pub pixel_height_m: f64,
+    /// Where the line of sight meets the picture, in pixels to the right of its middle and below: zero but for a part of a larger picture.
+    pub shift: DVec2,
+}
+
+impl CameraKey {
+    /// Where the line of sight meets a picture of that size, in pixels from the top left.
+    #[must_use]
+    pub fn axis(&self, size: [u32; 2]) -> DVec2 {
+        0.5 * DVec2::from(size.map(f64::from)) + self.shift
+    }
 }
 
 /// What stands straight behind the bubbles.
