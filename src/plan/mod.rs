@@ -28,11 +28,11 @@ use fields::StepBudget;
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary, FilmColours,
     FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey, Opening, OpticsKey,
-    QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
+    PlateKey, QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm, remaining_nm,
 };
 pub use lender::film_owners;
 pub use pass::{Pass, Reason};
-pub use request::{Resources, SpectralLight, request};
+pub use request::{Resources, SpectralLight, film_index, request};
 pub use shot::Shot;
 pub use story::Story;
 
@@ -66,6 +66,8 @@ pub struct GpuState {
     pub fields: Vec<Option<FieldState>>,
     /// The hole in each film that bursts, by the film's index.
     pub holes: Vec<Option<OpenHoleKey>>,
+    /// The photograph behind the bubbles.
+    pub plate: Option<PlateKey>,
     /// The linear picture.
     pub radiance: Option<DrawKey>,
     /// The finished picture.
@@ -128,7 +130,7 @@ impl Plan {
     pub fn work(&self) -> u64 {
         let work = |pass: &Pass| match pass {
             Pass::StepField { key, ticks, .. } => key.steps_from(ticks.start).count() as u64 * key.cell_count(),
-            Pass::Draw(key) => key.size.map(u64::from).iter().product::<u64>() * key.lights().count() as u64,
+            Pass::Draw(key) => key.size.map(u64::from).iter().product::<u64>() * key.pictures(),
             _ => 0,
         };
         self.steps.iter().map(|(pass, _)| work(pass)).sum()
@@ -161,6 +163,10 @@ impl fmt::Display for Plan {
                 Pass::Tonemap(key) => format!("exposure {} EV", key.exposure_ev),
                 Pass::FitQuadrature { key, .. } => {
                     format!("{} wavelengths, {}, films to {} nm", key.count(), key.quality.name(), key.range_nm)
+                }
+                Pass::UploadPlate(key) => {
+                    let ([width, height], [of_width, of_height]) = (key.size, key.plate.size());
+                    format!("{width}x{height}, from {of_width}x{of_height} pixels")
                 }
                 Pass::UploadEnvironment { key, .. } => format!("6x{0}x{0} texels", key.size()),
             };
@@ -202,6 +208,7 @@ pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
             planner.environment(light, &lighting.environment);
         }
     }
+    planner.plate(draw.plate.as_ref());
     planner.fields(draw);
     for bubble in &draw.bubbles {
         if let Some(hole) = bubble.open_hole() {
@@ -296,6 +303,18 @@ impl Planner {
         if let Some(reason) = changed(current.as_ref(), requested, |_, _| "environment") {
             *current = Some(requested.clone());
             self.push(Pass::UploadEnvironment { light, key: requested.clone() }, reason);
+        }
+    }
+
+    fn plate(&mut self, requested: Option<&PlateKey>) {
+        let current = &mut self.after.plate;
+        let Some(requested) = requested else {
+            *current = None;
+            return;
+        };
+        if let Some(reason) = changed(current.as_ref(), requested, |_, _| "the photograph or the picture's size") {
+            *current = Some(requested.clone());
+            self.push(Pass::UploadPlate(requested.clone()), reason);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::{fmt, ops::Range};
 
-use super::keys::{DrawKey, EnvironmentKey, FieldKey, OpenHoleKey, QuadratureKey, TableKey, TonemapKey};
+use super::keys::{DrawKey, EnvironmentKey, FieldKey, OpenHoleKey, PlateKey, QuadratureKey, TableKey, TonemapKey};
 
 /// One pass, with all that it reads.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +14,8 @@ pub enum Pass {
         /// The environment.
         key: EnvironmentKey,
     },
+    /// Sends the photograph behind the bubbles.
+    UploadPlate(PlateKey),
     /// Bakes some rows of a lookup table.
     BakeTable {
         /// Index of the light.
@@ -104,6 +106,7 @@ impl Pass {
     pub fn name(&self) -> &'static str {
         match self {
             Self::UploadEnvironment { .. } => "upload_environment",
+            Self::UploadPlate(_) => "upload_plate",
             Self::BakeTable { .. } => "bake_table",
             Self::FitQuadrature { .. } => "fit_quadrature",
             Self::SeedField { .. } => "seed_field",

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LentFilm, LightKey,
-    Lighting, OpticsKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
+    Lighting, OpticsKey, PlateKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
@@ -20,6 +20,7 @@ use crate::{
         colour::{Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
         film::fold_seed,
+        picture::Plate,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
     },
     scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Quality, Scene},
@@ -36,6 +37,8 @@ pub struct Resources {
     pub spectral_lights: Vec<SpectralLight>,
     /// Liquids from files, by the paths that the scene gives them.
     pub liquids: BTreeMap<String, FilmIndex>,
+    /// The photograph behind the bubbles.
+    pub plate: Option<Arc<Plate>>,
 }
 
 /// All light of one illuminant other than the scene's own.
@@ -107,7 +110,9 @@ impl Story {
             small: small.into(),
             lent,
             on_bath: bath_m.is_some(),
+            plate: resources.plate.clone().filter(|_| scene.view.plate.is_some()).map(|plate| PlateKey { plate, whole: shot.size, corner: [0; 2], size: shot.size }),
         };
+        let draw = if draw.plate.is_some() { draw.before_nothing() } else { draw };
         let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
         let balances = scene.view.white_balance && !resources.illuminant.is_monochromatic();
         let balance = if balances { white_balance(&resources.illuminant) } else { DMat3::IDENTITY };
@@ -124,7 +129,7 @@ fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
         forward: camera.forward(),
         right: camera.right(),
         up: camera.up(),
-        pixel_height_m: 2.0 * (0.5 * camera.fov_y_deg.to_radians()).tan() / f64::from(height),
+        pixel_height_m: 2.0 * (0.5 * camera.fov_y_rad()).tan() / f64::from(height),
         shift: DVec2::ZERO,
     }
 }
@@ -238,7 +243,11 @@ fn materials(story: &Story, resources: &Resources) -> Result<Materials, Fault> {
     Ok(materials)
 }
 
-fn film_index(index: &FilmIndexName, resources: &Resources) -> Result<FilmIndex, FilmIndexError> {
+/// The index of a film by its name in a scene.
+///
+/// # Errors
+/// There is no such liquid, or no film has such an index.
+pub fn film_index(index: &FilmIndexName, resources: &Resources) -> Result<FilmIndex, FilmIndexError> {
     match index {
         FilmIndexName::Water => Ok(FilmIndex::Water),
         FilmIndexName::Constant(n) => FilmIndex::constant(*n),

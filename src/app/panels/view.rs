@@ -14,6 +14,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     let keys = View::KEYS;
     number(ui, &keys.exposure_ev, &mut view.exposure_ev, |slider| slider.fixed_decimals(2));
     backdrop(ui, &mut view);
+    plate(ui, &mut view);
     choice(ui, &keys.quality, &mut view.quality);
     polariser(ui, &mut view);
     flag(ui, &keys.white_balance, &mut view.white_balance);
@@ -22,7 +23,10 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         model.edit(Edit::View(view));
     }
     let mut camera = model.scene.camera.clone();
-    number(ui, &Camera::KEYS.fov_y_deg, &mut camera.fov_y_deg, |slider| slider.max_decimals(1));
+    match &mut camera.focal_mm {
+        Some(focal_mm) => number(ui, &Camera::KEYS.focal_mm, focal_mm, |slider| slider.logarithmic(true).max_decimals(1)),
+        None => number(ui, &Camera::KEYS.fov_y_deg, &mut camera.fov_y_deg, |slider| slider.max_decimals(1)),
+    };
     number(ui, &Camera::KEYS.follow_deg, &mut camera.follow_deg, |slider| slider.max_decimals(0));
     number(ui, &Camera::KEYS.distance_m, &mut camera.distance_m, |slider| {
         slider.logarithmic(true).smallest_positive(0.001).max_decimals(3)
@@ -30,6 +34,19 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     .on_hover_text("F frames the bubbles.");
     if camera != model.scene.camera {
         model.edit(Edit::Camera(camera));
+    }
+}
+
+/// The photograph behind the bubbles, which a scene file names.
+fn plate(ui: &mut Ui, view: &mut View) {
+    let Some(path) = view.plate.clone() else { return };
+    let name = path.rsplit(['/', '\\']).next().unwrap_or(&path).to_owned();
+    let removal = row(ui, View::KEYS.plate.label, &tooltip(View::KEYS.plate.help), |ui| {
+        ui.label(name);
+        ui.button("Remove")
+    });
+    if removal.clicked() {
+        view.plate = None;
     }
 }
 

@@ -90,7 +90,7 @@ fn floats(vector: DVec3) -> [f32; 3] {
 }
 
 /// The camera.
-pub(super) fn view_uniform(key: &DrawKey) -> ViewUniform {
+pub fn view_uniform(key: &DrawKey) -> ViewUniform {
     let camera = &key.camera;
     ViewUniform {
         forward: floats(camera.forward),

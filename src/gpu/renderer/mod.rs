@@ -10,12 +10,13 @@ use super::{
     abilities::missing_for_measurement,
     composition::{Composition, composition},
     device::{Gpu, GpuError},
-    draw::{DrawInputs, DrawPass, pixels_shaded, strips},
+    draw::{DrawInputs, DrawPass, pixels_shaded, strips, view_uniform},
     environment::Environment,
     film::{Company, MovingFilm},
     film_atlas::FilmAtlas,
     formats::{PICTURE_FORMAT, radiance_format},
-    passes::{add_light::add_light, bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
+    passes::{add_light::add_light, bake_table::Table, lay_plate::lay_plate, open_hole::OpenHole, tonemap::tonemap},
+    plate::upload_plate,
     quadrature::Quadrature,
     readback::Readback,
     shown_film::Shown,
@@ -24,7 +25,7 @@ use super::{
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pass, Plan, TableKey, TonemapKey, plan},
+    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Lighting, Pass, Plan, TableKey, TonemapKey, plan},
 };
 
 /// Everything that is on the device.
@@ -36,6 +37,8 @@ struct Products {
     company: Company,
     holes: Vec<Option<OpenHole>>,
     radiance: Option<Target>,
+    /// The photograph behind the bubbles, linear BT.709.
+    plate: Option<Target>,
     /// Pictures of what is behind the layer that is drawn, and of all before it.
     drawn: [Option<Target>; 2],
     /// Films of bubbles that others show.
@@ -67,8 +70,11 @@ impl Products {
         self.lights.truncate(state.lights.len());
         let lights = self.lights.iter_mut().zip(&state.lights);
         lights.for_each(|(light, state)| light.films.truncate(state.films.len()));
-        if state.lights.len() <= 1 {
-            (self.added, self.sum) = (None, None);
+        if state.plate.is_none() {
+            self.plate = None;
+            if state.lights.len() <= 1 {
+                (self.added, self.sum) = (None, None);
+            }
         }
         self.films.truncate(state.fields.len());
         let films = self.films.iter_mut().zip(&state.fields);
@@ -195,6 +201,10 @@ impl Renderer {
                 self.light(*light).environment = Some(Environment::upload(&self.gpu, &key.0));
                 Ok(())
             }
+            Pass::UploadPlate(key) => {
+                self.products.plate = Some(upload_plate(&self.gpu, key));
+                Ok(())
+            }
             Pass::BakeTable { light, material, key, rows } => self.bake([*light, *material], key, rows.clone()),
             Pass::FitQuadrature { light, material, key } => {
                 self.colours([*light, *material]).quadrature = Some(Quadrature::fit(&self.gpu, key));
@@ -271,19 +281,43 @@ impl Renderer {
         }
         self.gather_films(key, &composition);
         let mut radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
-        self.draw_light(key, &composition, 0, &radiance)?;
-        for light in 1..=key.spectral_lights.len() {
-            let [added, sum] = [self.products.added.take(), self.products.sum.take()]
-                .map(|slot| Target::fit(slot, &self.gpu, "spectral light", key.size, format));
-            self.draw_light(key, &composition, light, &added)?;
-            let mut recorder = Recorder::new(&self.gpu);
-            add_light(&mut recorder, key.full_precision, [&radiance.view, &added.view], &sum.view)?;
-            Self::submit(&self.times, &mut self.counts, recorder);
-            self.products.added = Some(added);
+        self.draw_light(key, &composition, (0, &key.lighting), &radiance)?;
+        for (light, lighting) in key.spectral_lights.iter().enumerate() {
+            let sum = self.add(key, &composition, (light + 1, lighting), |recorder, added, sum| {
+                add_light(recorder, key.full_precision, [&radiance.view, added], sum)
+            })?;
             self.products.sum = Some(std::mem::replace(&mut radiance, sum));
+        }
+        if let Some(plate) = self.products.plate.take().filter(|_| key.plate.is_some()) {
+            let white = key.before_white().lighting;
+            let laid = self.add(key, &composition, (0, &white), |recorder, through, laid| {
+                let pictures = [&radiance.view, through, &plate.view];
+                lay_plate(recorder, (key, &view_uniform(key)), pictures, laid)
+            })?;
+            self.products.sum = Some(std::mem::replace(&mut radiance, laid));
+            self.products.plate = Some(plate);
         }
         self.products.radiance = Some(radiance);
         Ok(())
+    }
+
+    /// Draws the picture in one light, and adds it to others: `add` is given the picture and where the sum goes.
+    fn add(
+        &mut self,
+        key: &DrawKey,
+        composition: &Composition,
+        light: (usize, &Lighting),
+        add: impl FnOnce(&mut Recorder<'_>, &wgpu::TextureView, &wgpu::TextureView) -> Result<(), GpuError>,
+    ) -> Result<Target, GpuError> {
+        let format = radiance_format(key.full_precision);
+        let [added, sum] = [self.products.added.take(), self.products.sum.take()]
+            .map(|slot| Target::fit(slot, &self.gpu, "added light", key.size, format));
+        self.draw_light(key, composition, light, &added)?;
+        let mut recorder = Recorder::new(&self.gpu);
+        add(&mut recorder, &added.view, &sum.view)?;
+        Self::submit(&self.times, &mut self.counts, recorder);
+        self.products.added = Some(added);
+        Ok(sum)
     }
 
     /// Copies the films of bubbles that others show to one texture.
@@ -304,12 +338,12 @@ impl Renderer {
         self.products.atlas = Some(atlas);
     }
 
-    /// The picture in one light alone.
+    /// The picture in one light alone, whose tables and environment are those of a light of the scene.
     fn draw_light(
         &mut self,
         key: &DrawKey,
         composition: &Composition,
-        light: usize,
+        (light, lighting): (usize, &Lighting),
         target: &Target,
     ) -> Result<(), GpuError> {
         self.light(light);
@@ -324,9 +358,7 @@ impl Renderer {
             let FilmColours { table, quadrature, .. } = products.films.get(material)?;
             Some((table.as_ref(), quadrature.as_ref()?))
         };
-        let (Some(lighting), [Some(behind), Some(so_far)], Some(atlas)) =
-            (key.lights().nth(light), &self.products.drawn, &self.products.atlas)
-        else {
+        let ([Some(behind), Some(so_far)], Some(atlas)) = (&self.products.drawn, &self.products.atlas) else {
             return Ok(());
         };
         let drawn = [behind, so_far];

@@ -28,6 +28,7 @@
 mod bath;
 mod front;
 mod light_path;
+mod plate;
 mod view;
 mod walls;
 mod weights;
@@ -38,6 +39,7 @@ use rayon::prelude::*;
 use super::colour::{ColourWeights, FilmOptics};
 pub use front::{FrontBubble, FrontPixel, FrontScene, FrontWall};
 use light_path::LightPath;
+pub use plate::Plate;
 pub use view::PictureCamera;
 
 /// A bubble.

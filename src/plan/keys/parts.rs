@@ -13,16 +13,21 @@ impl DrawKey {
     /// What bubbles add: the picture before black.
     #[must_use]
     pub fn before_black(&self) -> Self {
+        Self { plate: None, ..self.before_nothing() }
+    }
+
+    /// The picture with black in place of the backdrop, but with its plate.
+    pub(in crate::plan) fn before_nothing(&self) -> Self {
         self.in_other_light(|lighting| lighting.light.backdrop = BackdropKey::Colour(DVec3::ZERO))
     }
 
     /// What bubbles leave of white light from straight behind, where nothing else shines.
     #[must_use]
     pub fn before_white(&self) -> Self {
-        let mut key = self.in_other_light(|lighting| {
-            lighting.light.gain = DVec3::ZERO;
-            lighting.light.backdrop = BackdropKey::Colour(DVec3::ZERO);
-        });
+        let mut key = self.before_black();
+        std::iter::once(&mut key.lighting)
+            .chain(&mut key.spectral_lights)
+            .for_each(|lighting| lighting.light.gain = DVec3::ZERO);
         key.lighting.light.backdrop = BackdropKey::Colour(DVec3::ONE);
         key
     }
@@ -47,6 +52,10 @@ impl DrawKey {
         let whole = DVec2::from(self.size.map(f64::from));
         let part = DVec2::from(key.size.map(f64::from));
         let corner = DVec2::new(f64::from(columns.start), f64::from(rows.start));
+        if let Some(plate) = &mut key.plate {
+            plate.corner = [plate.corner[0] + columns.start, plate.corner[1] + rows.start];
+            plate.size = key.size;
+        }
         // From the middle of the rectangle to the middle of the picture, in pixels.
         let to_middle = 0.5 * whole - (corner + 0.5 * part);
         key.camera.shift += to_middle;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{FilmKey, OpenHoleKey, Opening, QuadratureKey, TableKey};
-use crate::physics::{colour::Gamut, environment::CubeMap, film::Cap};
+use crate::physics::{colour::Gamut, environment::CubeMap, film::Cap, picture::Plate};
 
 /// The light around the bubbles.
 #[derive(Clone, Debug)]
@@ -195,6 +195,34 @@ pub enum BackdropKey {
     Colour(DVec3),
 }
 
+/// A photograph behind the bubbles, and the part of the picture that is drawn.
+#[derive(Clone, Debug)]
+pub struct PlateKey {
+    /// The photograph.
+    pub plate: Arc<Plate>,
+    /// Width and height in pixels of the picture that it fills.
+    pub whole: [u32; 2],
+    /// Column and row in that picture of the first pixel that is drawn.
+    pub corner: [u32; 2],
+    /// Width and height in pixels of what is drawn.
+    pub size: [u32; 2],
+}
+
+impl PartialEq for PlateKey {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.plate, &other.plate) && (self.whole, self.corner, self.size) == (other.whole, other.corner, other.size)
+    }
+}
+
+impl PlateKey {
+    /// Its pixels in what is drawn, linear BT.709, row by row from the top left.
+    #[must_use]
+    pub fn pixels(&self) -> Vec<[f32; 3]> {
+        let [columns, rows] = [0, 1].map(|axis| self.corner[axis]..self.corner[axis] + self.size[axis]);
+        self.plate.fitted(self.whole, &columns, &rows)
+    }
+}
+
 /// How the environment lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightKey {
@@ -237,6 +265,8 @@ pub struct DrawKey {
     pub lent: Vec<LentFilm>,
     /// Whether they stand on a bath, which is a mirror of water at the height of their centers.
     pub on_bath: bool,
+    /// The photograph behind the bubbles. All light then stands before black, and the photograph is laid behind it.
+    pub plate: Option<PlateKey>,
 }
 
 /// Light of one illuminant, and what the films' optics in it need.
@@ -273,6 +303,12 @@ impl DrawKey {
     /// All lights, the scene's own first.
     pub fn lights(&self) -> impl Iterator<Item = &Lighting> {
         std::iter::once(&self.lighting).chain(&self.spectral_lights)
+    }
+
+    /// How many pictures are drawn and added: one for each light, and what bubbles leave of a plate.
+    #[must_use]
+    pub fn pictures(&self) -> u64 {
+        self.lights().count() as u64 + u64::from(self.plate.is_some())
     }
 
     /// All bubbles in sight, the small ones too, each as it would be drawn alone.
@@ -320,6 +356,8 @@ impl DrawKey {
             self.lighting.difference(&other.lighting)
         } else if self.spectral_lights != other.spectral_lights {
             "a light of another illuminant"
+        } else if self.plate != other.plate {
+            "the plate"
         } else if self.bubbles != other.bubbles || self.small != other.small || self.lent != other.lent {
             "a bubble or its film"
         } else {

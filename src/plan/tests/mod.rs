@@ -34,6 +34,7 @@ fn resources() -> Resources {
         illuminant: Arc::new(Illuminant::default()),
         spectral_lights: Vec::new(),
         liquids: BTreeMap::new(),
+        plate: None,
     }
 }
 
