@@ -180,7 +180,8 @@ impl<'a> Painter<'a> {
 
     /// How many parts the work of a picture has, as its progress is reported.
     pub fn parts(&self) -> u64 {
-        let tiles = if self.arguments.is_reference() { 1 } else { tiles(self.arguments.size, self.arguments.samples).len() };
+        let tiles =
+            if self.arguments.is_reference() { 1 } else { tiles(self.arguments.size, self.arguments.samples).len() };
         let pictures = match (self.arguments.layers, self.arguments.alpha) {
             (true, false) => PICTURES_OF_LAYERS,
             (_, true) => PICTURES_OF_PASSAGES,

@@ -67,7 +67,8 @@ fn encoded(path: &Path, file: BufReader<File>, format: ImageFormat) -> Result<De
     let curve: Vec<f32> = (0..=u16::MAX).map(|value| srgb_decode(f64::from(value) / 65535.0) as f32).collect();
     let size = [rgb.width() as usize, rgb.height() as usize];
     let pixels = rgb.as_raw().par_chunks_exact(3).map(|pixel| std::array::from_fn(|k| curve[usize::from(pixel[k])]));
-    let note = has_alpha.then(|| "is transparent in parts; what is behind them is not known, and they are shown whole".to_owned());
+    let note = has_alpha
+        .then(|| "is transparent in parts; what is behind them is not known, and they are shown whole".to_owned());
     Ok((size, pixels.collect(), note.into_iter().collect()))
 }
 

@@ -39,7 +39,8 @@ impl ExrChannels<'_> {
         for (k, (name, values)) in self.channels.iter().enumerate() {
             let is_taken = self.channels[..k].iter().any(|(other, _)| other == name);
             if name.is_empty() || is_taken || values.is_empty() || values.len() != size[0] * size[1] {
-                let reason = format!("{} values cannot be channel {name:?} of {}x{} pixels", values.len(), size[0], size[1]);
+                let reason =
+                    format!("{} values cannot be channel {name:?} of {}x{} pixels", values.len(), size[0], size[1]);
                 return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
             }
         }
@@ -59,7 +60,8 @@ mod tests {
     fn layers_come_back_by_their_names() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.exr");
-        let channels = [("R", 0.5), ("normal.X", -1.0), ("A", 1e10)].map(|(name, value)| (name.to_owned(), vec![value; 6]));
+        let channels =
+            [("R", 0.5), ("normal.X", -1.0), ("A", 1e10)].map(|(name, value)| (name.to_owned(), vec![value; 6]));
         ExrChannels { size: [3, 2], channels: &channels, metadata: &Metadata::new() }.save(&path).unwrap();
         let read = read_exr(&path).unwrap();
         assert_eq!(read.channels.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["A", "R", "normal.X"]);
@@ -69,7 +71,9 @@ mod tests {
     #[test]
     fn channels_that_do_not_fit_are_errors() {
         let channel = |name: &str, count: usize| (name.to_owned(), vec![0.0; count]);
-        for channels in [[channel("R", 4), channel("R", 4)], [channel("R", 4), channel("", 4)], [channel("R", 4), channel("G", 3)]] {
+        for channels in
+            [[channel("R", 4), channel("R", 4)], [channel("R", 4), channel("", 4)], [channel("R", 4), channel("G", 3)]]
+        {
             let picture = ExrChannels { size: [2, 2], channels: &channels, metadata: &Metadata::new() };
             picture.encode(io::Cursor::new(Vec::new())).unwrap_err();
         }

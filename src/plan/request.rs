@@ -20,8 +20,8 @@ use crate::{
         colour::{Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
         environment::CubeMap,
         film::fold_seed,
-        picture::Plate,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
+        picture::Plate,
     },
     scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Quality, Scene},
 };
@@ -110,7 +110,12 @@ impl Story {
             small: small.into(),
             lent,
             on_bath: bath_m.is_some(),
-            plate: resources.plate.clone().filter(|_| scene.view.plate.is_some()).map(|plate| PlateKey { plate, whole: shot.size, corner: [0; 2], size: shot.size }),
+            plate: resources.plate.clone().filter(|_| scene.view.plate.is_some()).map(|plate| PlateKey {
+                plate,
+                whole: shot.size,
+                corner: [0; 2],
+                size: shot.size,
+            }),
         };
         let draw = if draw.plate.is_some() { draw.before_nothing() } else { draw };
         let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));

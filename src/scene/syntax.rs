@@ -3,7 +3,7 @@
 use super::check::BACKSLASHES;
 use super::error::{Located, Problem};
 use super::words::shorten;
-use super::{Bubble, Change, Event, Generator, Light, LightPatch, Scene, View};
+use super::{Bubble, Camera, Change, Event, Generator, Light, LightPatch, Scene, View};
 use toml::Table;
 use toml::de::Error;
 
@@ -20,7 +20,8 @@ pub(super) fn every_key() -> Table {
             patches: vec![LightPatch { radiance: Some([0.0; 3]), ..LightPatch::default() }],
             ..Light::default()
         },
-        view: View { polariser_deg: Some(0.0), ..View::default() },
+        camera: Camera { focal_mm: Some(50.0), ..Camera::default() },
+        view: View { polariser_deg: Some(0.0), plate: Some(String::new()), ..View::default() },
         events: Change::every_key().map(|change| Event { tick: 0, change }).into(),
         ..Scene::default()
     };

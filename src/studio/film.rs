@@ -97,12 +97,7 @@ pub fn reference_film_at(
     moved_in_f64(scene, bubble, time_s, progress)?.at(directions)
 }
 
-fn moved_in_f64(
-    scene: &LoadedScene,
-    bubble: usize,
-    time_s: f64,
-    progress: &dyn Fn(u64),
-) -> Result<MovedFilm, Error> {
+fn moved_in_f64(scene: &LoadedScene, bubble: usize, time_s: f64, progress: &dyn Fn(u64)) -> Result<MovedFilm, Error> {
     let asked = Asked::new(scene, bubble, time_s)?;
     let (grid, films) = match &asked.key.film {
         FilmKey::Uniform(_) => (asked.grid_of_scene()?, MovedFilms::new()),

@@ -45,7 +45,8 @@ fn layers_add_up_to_the_picture() {
         assert!(own.clone().count() > 100, "bubble {id}");
         assert!(own.clone().all(|k| (channel("thickness_nm")[k] - thickness_nm).abs() < 1e-3));
         assert!(own.clone().all(|k| (0.0..=1.0).contains(&channel("cos_theta")[k])));
-        let unit = |k: usize| ["X", "Y", "Z"].map(|axis| channel(&format!("normal.{axis}"))[k].powi(2)).iter().sum::<f32>();
+        let unit =
+            |k: usize| ["X", "Y", "Z"].map(|axis| channel(&format!("normal.{axis}"))[k].powi(2)).iter().sum::<f32>();
         assert!(own.clone().all(|k| (unit(k) - 1.0).abs() < 1e-5));
     }
     assert!((0..96 * 64).all(|k| (channel("id.A")[k] > 0.0) == (channel("depth")[k] < 1e9)));
@@ -80,12 +81,14 @@ fn alpha_leaves_out_what_stands_behind() {
 fn a_plate_is_seen_through_the_bubbles_as_compositors_lay_it() {
     let desk = Desk::new();
     desk.write("scene.toml", SCENE.replace("backdrop = [0.5, 0.25, 0.1]", "plate = 'plate.png'"));
-    let plate = image::RgbImage::from_fn(50, 50, |x, y| image::Rgb([5 * x as u8, 255 - 5 * y as u8, ((x ^ y) * 4) as u8]));
+    let plate =
+        image::RgbImage::from_fn(50, 50, |x, y| image::Rgb([5 * x as u8, 255 - 5 * y as u8, ((x ^ y) * 4) as u8]));
     plate.save(desk.path("plate.png")).unwrap();
     let Some(_) = desk.done("render scene.toml -o plated.exr --size 96x64") else { return };
     desk.done("render scene.toml -o layers.exr --size 96x64 --layers");
     desk.done("render scene.toml -o alone.exr --size 96x64 --layers --alpha");
-    let [plated, layers, alone] = ["plated.exr", "layers.exr", "alone.exr"].map(|name| read_exr(&desk.path(name)).unwrap());
+    let [plated, layers, alone] =
+        ["plated.exr", "layers.exr", "alone.exr"].map(|name| read_exr(&desk.path(name)).unwrap());
     let background = colour(&layers, "background.");
     for layers in [&layers, &alone] {
         let difference = max_difference(&composed(layers, &background), &colour(&plated, ""));

@@ -24,7 +24,9 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     }
     let mut camera = model.scene.camera.clone();
     match &mut camera.focal_mm {
-        Some(focal_mm) => number(ui, &Camera::KEYS.focal_mm, focal_mm, |slider| slider.logarithmic(true).max_decimals(1)),
+        Some(focal_mm) => {
+            number(ui, &Camera::KEYS.focal_mm, focal_mm, |slider| slider.logarithmic(true).max_decimals(1))
+        }
         None => number(ui, &Camera::KEYS.fov_y_deg, &mut camera.fov_y_deg, |slider| slider.max_decimals(1)),
     };
     number(ui, &Camera::KEYS.follow_deg, &mut camera.follow_deg, |slider| slider.max_decimals(0));

@@ -35,7 +35,9 @@ impl Map {
         let [width, height] = self.size();
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
         match self.projection {
-            Projection::Equirect => pixels.map(|[x, y]| equirect(DVec2::new(part(x, width), part(y, height)))).collect(),
+            Projection::Equirect => {
+                pixels.map(|[x, y]| equirect(DVec2::new(part(x, width), part(y, height)))).collect()
+            }
             Projection::Cube => pixels.map(|[x, y]| cube(self.height, x, y)).collect(),
         }
     }
@@ -47,7 +49,9 @@ impl Map {
                 "equirectangular: column x of W is the azimuth (x + 0.5 - W / 2) 360 / W degrees, from +x towards +y; row y of H from the top is the \
                  elevation (H / 2 - y - 0.5) 180 / H degrees; +z is up"
             }
-            Projection::Cube => "cube: faces +x, -x, +y, -y, +z, -z from the top, each as Vulkan, WebGPU and OpenGL sample it; +z is up",
+            Projection::Cube => {
+                "cube: faces +x, -x, +y, -y, +z, -z from the top, each as Vulkan, WebGPU and OpenGL sample it; +z is up"
+            }
         };
         metadata.with("Values", "total thickness of the film in nm; 0 where there is none").with("Layout", layout)
     }

@@ -8,8 +8,6 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::{AdapterArguments, SceneSettings, parse, progress::Progress};
-use map::{Map, Projection};
-use model::Model;
 use crate::{
     input::LoadedScene,
     output::{CsvWriter, ExrChannels, Metadata, check_target, print, write_atomically},
@@ -21,6 +19,8 @@ use crate::{
     scene::Scene,
     studio::{FilmCell, Studio, reference_film, reference_film_at},
 };
+use map::{Map, Projection};
+use model::Model;
 
 /// Write the thickness of a bubble's film: as numbers, as a map, or as a glTF model
 #[derive(Args)]

@@ -124,7 +124,8 @@ struct Mesh {
 impl Mesh {
     fn new(radius_m: f64) -> Self {
         let columns = SECTORS + 1;
-        let place = |k: u32| DVec2::new(f64::from(k % columns) / f64::from(SECTORS), f64::from(k / columns) / f64::from(RINGS));
+        let place =
+            |k: u32| DVec2::new(f64::from(k % columns) / f64::from(SECTORS), f64::from(k / columns) / f64::from(RINGS));
         let to_gltf = |direction: DVec3| DVec3::new(direction.x, direction.z, -direction.y);
         let vertices = (0..columns * (RINGS + 1)).map(place).map(|place| (to_gltf(equirect(place)), place)).collect();
         let quads = (0..RINGS).flat_map(|ring| (0..SECTORS).map(move |sector| (ring, ring * columns + sector)));
@@ -175,11 +176,13 @@ mod tests {
         let path = folder.path().join("film.gltf");
         let thickness_nm: Vec<f64> = (0..32).map(|k| 100.3 + 20.0 * f64::from(k)).collect();
         let metadata = Metadata::new();
-        let model = Model { radius_m: 0.05, index: 1.333, size: [8, 4], thickness_nm: &thickness_nm, metadata: &metadata };
+        let model =
+            Model { radius_m: 0.05, index: 1.333, size: [8, 4], thickness_nm: &thickness_nm, metadata: &metadata };
         let step_nm = model.save(&path).unwrap();
         let document: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let film = &document["materials"][0]["extensions"]["KHR_materials_iridescence"];
-        let [low, high] = ["Minimum", "Maximum"].map(|end| film[format!("iridescenceThickness{end}")].as_f64().unwrap());
+        let [low, high] =
+            ["Minimum", "Maximum"].map(|end| film[format!("iridescenceThickness{end}")].as_f64().unwrap());
         let texture = crate::output::read_back::read_png(&folder.path().join("film_thickness.png")).unwrap();
         for (pixel, nm) in texture.rgba.chunks(4).zip(&thickness_nm) {
             let shown_nm = low + (high - low) * f64::from(pixel[1]) / 255.0;

@@ -45,8 +45,7 @@ impl Painter<'_> {
     fn colours(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Channels> {
         let light = self.passages(request, progress)?;
         let to_bt709 = bt2020_to_bt709();
-        let transmission: Vec<Vec3> =
-            light.par_iter().map(|light| light.transmittance(&to_bt709).as_vec3()).collect();
+        let transmission: Vec<Vec3> = light.par_iter().map(|light| light.transmittance(&to_bt709).as_vec3()).collect();
         let arrays = |colours: &[Vec3]| colours.iter().map(Vec3::to_array).collect::<Vec<_>>();
         let mut channels = colour_channels("transmission.", &arrays(&transmission));
         if self.arguments.alpha {

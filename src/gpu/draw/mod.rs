@@ -26,9 +26,7 @@ use super::{
 use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting};
 use small::SmallDraw;
 pub use values::view_uniform;
-use values::{
-    backdrop_colour, bubble_uniform, light_uniform, list_part, other_bubble, ring_overrides, small_bubbles,
-};
+use values::{backdrop_colour, bubble_uniform, light_uniform, list_part, other_bubble, ring_overrides, small_bubbles};
 
 /// What a draw reads that other passes left.
 pub struct DrawInputs<'a> {

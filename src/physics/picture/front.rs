@@ -86,9 +86,8 @@ impl FrontScene<'_> {
         let surface = |bubble: &FrontBubble| Surface::new(bubble.center_m - eye_m, bubble.radius_m, bubble.stretch);
         let surfaces: Vec<Surface> = self.bubbles.iter().map(surface).collect();
         let reaches: Vec<Reach> = (0..self.bubbles.len()).map(|bubble| self.reach(bubble)).collect();
-        let touches = |range: &Range<f64>, pixel: u32| {
-            range.start < f64::from(pixel) + 1.0 && f64::from(pixel) < range.end
-        };
+        let touches =
+            |range: &Range<f64>, pixel: u32| range.start < f64::from(pixel) + 1.0 && f64::from(pixel) < range.end;
         let row = |y: u32| {
             let near: Vec<&Reach> = reaches.iter().filter(|reach| touches(&reach.rows, y)).collect();
             let pixel = |x: u32| {
@@ -124,7 +123,10 @@ impl FrontScene<'_> {
         let edges = [0.0, 0.5, 1.0];
         let mut around = edges.iter().flat_map(|y| edges.map(|x| DVec2::new(x, *y)));
         if !near.iter().any(is_small) && around.all(|offset| bubble(front(offset)) == bubble(middle)) {
-            return FrontPixel { wall: middle, shares: bubble(middle).map(|bubble| (bubble, 1.0)).into_iter().collect() };
+            return FrontPixel {
+                wall: middle,
+                shares: bubble(middle).map(|bubble| (bubble, 1.0)).into_iter().collect(),
+            };
         }
         crossed(front)
     }
@@ -156,10 +158,10 @@ impl FrontScene<'_> {
 /// A pixel that an outline crosses, from what is in front at each offset from its corner.
 fn crossed(front: impl Fn(DVec2) -> Option<FrontWall>) -> FrontPixel {
     let place = |k: u32| (f64::from(k) + 0.5) / f64::from(OUTLINE_SAMPLES);
-    let offsets = (0..OUTLINE_SAMPLES.pow(2)).map(|k| DVec2::new(place(k % OUTLINE_SAMPLES), place(k / OUTLINE_SAMPLES)));
-    let walls: Vec<(FrontWall, f64)> = offsets
-        .filter_map(|offset| Some((front(offset)?, offset.distance_squared(DVec2::splat(0.5)))))
-        .collect();
+    let offsets =
+        (0..OUTLINE_SAMPLES.pow(2)).map(|k| DVec2::new(place(k % OUTLINE_SAMPLES), place(k / OUTLINE_SAMPLES)));
+    let walls: Vec<(FrontWall, f64)> =
+        offsets.filter_map(|offset| Some((front(offset)?, offset.distance_squared(DVec2::splat(0.5))))).collect();
     let mut shares: Vec<(usize, f64)> = Vec::new();
     for (wall, _) in &walls {
         match shares.iter_mut().find(|(bubble, _)| *bubble == wall.bubble) {
@@ -217,7 +219,14 @@ mod tests {
     #[test]
     fn shares_are_the_areas() {
         let pixels = scene().pixels();
-        let area = |bubble: usize| pixels.iter().flat_map(|pixel| &pixel.shares).filter(|share| share.0 == bubble).map(|share| share.1).sum::<f64>();
+        let area = |bubble: usize| {
+            pixels
+                .iter()
+                .flat_map(|pixel| &pixel.shares)
+                .filter(|share| share.0 == bubble)
+                .map(|share| share.1)
+                .sum::<f64>()
+        };
         // The outline of the near one has the angle asin(1 / 4), and pixels are 0.02 on the plane one metre before the eye; its hole takes a little.
         let radius = (0.25_f64.asin()).tan() / 0.02;
         let disc = std::f64::consts::PI * radius * radius;

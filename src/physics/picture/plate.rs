@@ -61,7 +61,8 @@ impl Taps {
     fn around(place: f64, scale: f64, count: usize) -> Self {
         let reach = (1.0 / scale).max(1.0);
         let last = count as f64 - 1.0;
-        let [first, end] = [(place - 0.5 - reach).ceil(), (place - 0.5 + reach).floor()].map(|x| x.clamp(0.0, last) as usize);
+        let [first, end] =
+            [(place - 0.5 - reach).ceil(), (place - 0.5 + reach).floor()].map(|x| x.clamp(0.0, last) as usize);
         let weight = |pixel: usize| (1.0 - (pixel as f64 + 0.5 - place).abs() / reach).max(0.0);
         let weights: Vec<f64> = (first..=end).map(weight).collect();
         let sum: f64 = weights.iter().sum();
@@ -77,7 +78,8 @@ impl Taps {
     }
 
     fn mean(&self, pixel: impl Fn(usize) -> [f32; 3]) -> [f32; 3] {
-        let add = |sum: [f32; 3], (pixel, weight): ([f32; 3], &f32)| std::array::from_fn(|k| sum[k] + weight * pixel[k]);
+        let add =
+            |sum: [f32; 3], (pixel, weight): ([f32; 3], &f32)| std::array::from_fn(|k| sum[k] + weight * pixel[k]);
         (self.first..).map(pixel).zip(&self.weights).fold([0.0; 3], add)
     }
 }

@@ -210,7 +210,8 @@ pub struct PlateKey {
 
 impl PartialEq for PlateKey {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.plate, &other.plate) && (self.whole, self.corner, self.size) == (other.whole, other.corner, other.size)
+        Arc::ptr_eq(&self.plate, &other.plate)
+            && (self.whole, self.corner, self.size) == (other.whole, other.corner, other.size)
     }
 }
 

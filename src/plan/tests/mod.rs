@@ -5,6 +5,7 @@ mod crowd;
 mod events;
 mod films;
 mod lives;
+mod parts;
 mod story;
 
 use std::{
