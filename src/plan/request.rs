@@ -110,14 +110,8 @@ impl Story {
             small: small.into(),
             lent,
             on_bath: bath_m.is_some(),
-            plate: resources.plate.clone().filter(|_| scene.view.plate.is_some()).map(|plate| PlateKey {
-                plate,
-                whole: shot.size,
-                corner: [0; 2],
-                size: shot.size,
-            }),
+            plate: plate(scene, resources, shot.size),
         };
-        let draw = if draw.plate.is_some() { draw.before_nothing() } else { draw };
         let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
         let balances = scene.view.white_balance && !resources.illuminant.is_monochromatic();
         let balance = if balances { white_balance(&resources.illuminant) } else { DMat3::IDENTITY };
@@ -139,10 +133,17 @@ fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
     }
 }
 
+fn plate(scene: &Scene, resources: &Resources, size: [u32; 2]) -> Option<PlateKey> {
+    let plate = resources.plate.clone().filter(|_| scene.view.plate.is_some())?;
+    Some(PlateKey { plate, whole: size, corner: [0; 2], size })
+}
+
 fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     // A constant environment is a white cube times this factor: exact, where half floats in the cube would round.
     let constant = scene.light.constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
     let backdrop = match scene.view.backdrop {
+        // A photograph is laid behind the finished picture.
+        _ if scene.view.plate.is_some() => BackdropKey::Colour(DVec3::ZERO),
         Backdrop::Environment => BackdropKey::Environment,
         Backdrop::Radiance(rgb) => BackdropKey::Colour(bt709_to_bt2020() * DVec3::from(rgb)),
     };

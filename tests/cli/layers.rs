@@ -35,7 +35,8 @@ fn layers_add_up_to_the_picture() {
     desk.done("render scene.toml -o plain.exr --size 96x64");
     let [layers, plain] = ["layers.exr", "plain.exr"].map(|name| read_exr(&desk.path(name)).unwrap());
     let background = colour(&layers, "background.");
-    assert!(max_difference(&background, &vec![[0.5, 0.25, 0.1]; 96 * 64]) < 1e-5);
+    // The white of daylight's spectrum differs from its rounded chromaticity by 2e-4.
+    assert!(max_difference(&background, &vec![[0.5, 0.25, 0.1]; 96 * 64]) < 2e-4);
     assert!(max_difference(&composed(&layers, &background), &colour(&layers, "")) < 1e-5);
     assert_eq!(colour(&layers, ""), colour(&plain, ""));
     let channel = |name: &str| layers.channel(name).unwrap();

@@ -1,6 +1,7 @@
 //! Walks a plan: owns the products, records each pass from its key, and keeps the record of what is on the GPU.
 
 mod films;
+mod sums;
 
 use std::{collections::BTreeMap, ops::Range};
 
@@ -10,12 +11,12 @@ use super::{
     abilities::missing_for_measurement,
     composition::{Composition, composition},
     device::{Gpu, GpuError},
-    draw::{DrawInputs, DrawPass, pixels_shaded, strips, view_uniform},
+    draw::{DrawInputs, DrawPass, pixels_shaded, strips},
     environment::Environment,
     film::{Company, MovingFilm},
     film_atlas::FilmAtlas,
     formats::{PICTURE_FORMAT, radiance_format},
-    passes::{add_light::add_light, bake_table::Table, lay_plate::lay_plate, open_hole::OpenHole, tonemap::tonemap},
+    passes::{bake_table::Table, open_hole::OpenHole, tonemap::tonemap},
     plate::upload_plate,
     quadrature::Quadrature,
     readback::Readback,
@@ -280,44 +281,11 @@ impl Renderer {
             *slot = Some(Target::fit(slot.take(), &self.gpu, "drawn", drawn_size, format));
         }
         self.gather_films(key, &composition);
-        let mut radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
+        let radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
         self.draw_light(key, &composition, (0, &key.lighting), &radiance)?;
-        for (light, lighting) in key.spectral_lights.iter().enumerate() {
-            let sum = self.add(key, &composition, (light + 1, lighting), |recorder, added, sum| {
-                add_light(recorder, key.full_precision, [&radiance.view, added], sum)
-            })?;
-            self.products.sum = Some(std::mem::replace(&mut radiance, sum));
-        }
-        if let Some(plate) = self.products.plate.take().filter(|_| key.plate.is_some()) {
-            let white = key.before_white().lighting;
-            let laid = self.add(key, &composition, (0, &white), |recorder, through, laid| {
-                let pictures = [&radiance.view, through, &plate.view];
-                lay_plate(recorder, (key, &view_uniform(key)), pictures, laid)
-            })?;
-            self.products.sum = Some(std::mem::replace(&mut radiance, laid));
-            self.products.plate = Some(plate);
-        }
+        let radiance = self.add_lights(key, &composition, radiance)?;
         self.products.radiance = Some(radiance);
         Ok(())
-    }
-
-    /// Draws the picture in one light, and adds it to others: `add` is given the picture and where the sum goes.
-    fn add(
-        &mut self,
-        key: &DrawKey,
-        composition: &Composition,
-        light: (usize, &Lighting),
-        add: impl FnOnce(&mut Recorder<'_>, &wgpu::TextureView, &wgpu::TextureView) -> Result<(), GpuError>,
-    ) -> Result<Target, GpuError> {
-        let format = radiance_format(key.full_precision);
-        let [added, sum] = [self.products.added.take(), self.products.sum.take()]
-            .map(|slot| Target::fit(slot, &self.gpu, "added light", key.size, format));
-        self.draw_light(key, composition, light, &added)?;
-        let mut recorder = Recorder::new(&self.gpu);
-        add(&mut recorder, &added.view, &sum.view)?;
-        Self::submit(&self.times, &mut self.counts, recorder);
-        self.products.added = Some(added);
-        Ok(sum)
     }
 
     /// Copies the films of bubbles that others show to one texture.

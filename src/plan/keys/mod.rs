@@ -5,6 +5,7 @@ mod history;
 mod optics;
 mod parts;
 mod picture;
+mod plate;
 mod rest;
 mod step;
 
@@ -15,6 +16,7 @@ pub use picture::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, LentFilm, LightKey, Lighting, PlateKey,
     SmallBubble, TonemapKey, exposed_ev,
 };
+pub use plate::PlateKey;
 pub use rest::RestingFilm;
 
 pub use crate::physics::{

@@ -13,21 +13,16 @@ impl DrawKey {
     /// What bubbles add: the picture before black.
     #[must_use]
     pub fn before_black(&self) -> Self {
-        Self { plate: None, ..self.before_nothing() }
-    }
-
-    /// The picture with black in place of the backdrop, but with its plate.
-    pub(in crate::plan) fn before_nothing(&self) -> Self {
-        self.in_other_light(|lighting| lighting.light.backdrop = BackdropKey::Colour(DVec3::ZERO))
+        let mut key = Self { plate: None, ..self.clone() };
+        key.each_light(|lighting| lighting.light.backdrop = BackdropKey::Colour(DVec3::ZERO));
+        key
     }
 
     /// What bubbles leave of white light from straight behind, where nothing else shines.
     #[must_use]
     pub fn before_white(&self) -> Self {
         let mut key = self.before_black();
-        std::iter::once(&mut key.lighting)
-            .chain(&mut key.spectral_lights)
-            .for_each(|lighting| lighting.light.gain = DVec3::ZERO);
+        key.each_light(|lighting| lighting.light.gain = DVec3::ZERO);
         key.lighting.light.backdrop = BackdropKey::Colour(DVec3::ONE);
         key
     }
@@ -38,10 +33,8 @@ impl DrawKey {
         Self { bubbles: Vec::new(), small: [].into(), lent: Vec::new(), ..self.clone() }
     }
 
-    fn in_other_light(&self, change: impl Fn(&mut Lighting)) -> Self {
-        let mut key = self.clone();
-        std::iter::once(&mut key.lighting).chain(&mut key.spectral_lights).for_each(change);
-        key
+    fn each_light(&mut self, change: impl Fn(&mut Lighting)) {
+        std::iter::once(&mut self.lighting).chain(&mut self.spectral_lights).for_each(change);
     }
 
     /// A rectangle of the picture, in pixels from the top left, as a picture of its own. It may hold no pixel of some of the bubbles.
