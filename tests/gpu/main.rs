@@ -19,6 +19,7 @@ mod lamps;
 mod layers;
 mod layouts;
 mod optics;
+mod parts;
 mod passes;
 mod pictures;
 mod shader_kinds;

@@ -13,8 +13,8 @@ pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};
 pub use optics::{OpticsKey, QuadratureKey, TableKey, range_nm};
 pub(in crate::plan) use picture::samples;
 pub use picture::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, LentFilm, LightKey, Lighting, PlateKey,
-    SmallBubble, TonemapKey, exposed_ev,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, LentFilm, LightKey, Lighting, SmallBubble,
+    TonemapKey, exposed_ev,
 };
 pub use plate::PlateKey;
 pub use rest::RestingFilm;
