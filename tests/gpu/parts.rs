@@ -57,6 +57,6 @@ fn rectangles_of_a_picture_are_what_the_picture_shows_there() {
         let (_, max) = mean_and_max(errors);
         eprintln!("measured: columns {columns:?}, rows {rows:?}: {max:.2e}");
         // Rays differ by the rounding of f32, which mirrors magnify.
-        assert!(max < 2e-3, "columns {columns:?}, rows {rows:?}: {max}");
+        assert!(max < 1e-5, "columns {columns:?}, rows {rows:?}: {max}");
     }
 }
