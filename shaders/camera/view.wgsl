@@ -12,11 +12,13 @@ struct View {
     width: f32,
     up: vec3f,
     height: f32,
+    // Where the line of sight meets the picture, in pixels: its middle, unless the picture is a part of a larger one.
+    axis: vec2f,
 }
 
 // Point on the plane one metre before the eye, relative to the eye, that a picture position (pixels, y down) looks through.
 fn view_plane(view: View, position: vec2f) -> vec3f {
-    let offset = (position - 0.5 * vec2f(view.width, view.height)) * view.pixel_height;
+    let offset = (position - view.axis) * view.pixel_height;
     return view.forward + offset.x * view.right - offset.y * view.up;
 }
 
@@ -26,9 +28,11 @@ fn view_ray(view: View, position: vec2f) -> vec3f {
 
 // Where a direction from the eye is in the picture.
 fn clip_position(view: View, ray: vec3f) -> vec4f {
-    let half = 0.5 * view.pixel_height * vec2f(view.width, view.height);
+    let size = vec2f(view.width, view.height);
+    let half = 0.5 * view.pixel_height * size;
     let depth = dot(ray, view.forward);
-    return vec4f(dot(ray, view.right) / half.x, dot(ray, view.up) / half.y, 0.5 * depth, depth);
+    let aside = depth * (2.0 * view.axis / size - 1.0);
+    return vec4f(dot(ray, view.right) / half.x + aside.x, dot(ray, view.up) / half.y - aside.y, 0.5 * depth, depth);
 }
 
 // Angle that one pixel spans along a ray: the geometric mean of its two directions.

@@ -270,7 +270,9 @@ mod tests {
         for (path, value) in [(old.join("lamp.csv"), "1"), (new.join("patch.csv"), "2"), (old.join("n.csv"), "1.4")] {
             std::fs::write(path, table(value)).unwrap();
         }
-        let text = "version = 1\n[light]\nilluminant = 'lamp.csv'\nconstant = [1, 1, 1]\n\
+        let photograph = image::RgbImage::from_pixel(2, 2, image::Rgb([9, 99, 199]));
+        photograph.save(old.join("street.png")).unwrap();
+        let text = "version = 1\n[view]\nplate = 'street.png'\n[light]\nilluminant = 'lamp.csv'\nconstant = [1, 1, 1]\n\
                     [[light.patch]]\nilluminant = '../new/patch.csv'\n[[bubble]]\n[bubble.film]\nindex = 'n.csv'\n";
         std::fs::write(old.join("scene.toml"), text).unwrap();
         let loaded = load_scene(old.join("scene.toml")).unwrap();
@@ -285,6 +287,8 @@ mod tests {
             loaded.resources.spectral_lights[0].illuminant.spectrum()
         );
         assert_eq!(read.resources.liquids.len(), 1);
+        assert_eq!(read.resources.plate, loaded.resources.plate);
+        assert!(read.resources.plate.is_some());
 
         files.save_scene(old.join("again.toml"), loaded.scene.clone(), loaded.folder);
         arrived.recv_timeout(PATIENCE).unwrap();

@@ -38,7 +38,7 @@ pub fn moved(camera: &Camera, bubbles: &[Bubble], aspect: f64, gesture: &Gesture
 
 /// Turns the camera about its target. From inside a bubble one holds the wall, which moves with the pointer and against the target.
 fn turned(camera: &Camera, inside: bool, turn: DVec2) -> Camera {
-    let step = if inside { -camera.fov_y_deg * turn } else { TURN_DEG * turn };
+    let step = if inside { -camera.fov_y_rad().to_degrees() * turn } else { TURN_DEG * turn };
     Camera {
         azimuth_deg: wrapped(camera.azimuth_deg - step.x),
         elevation_deg: (camera.elevation_deg + step.y).clamp(-90.0, 90.0),
@@ -90,7 +90,7 @@ fn is_inside(camera: &Camera, bubbles: &[Bubble]) -> bool {
 }
 
 fn half_fov(camera: &Camera) -> f64 {
-    0.5 * camera.fov_y_deg.to_radians()
+    0.5 * camera.fov_y_rad()
 }
 
 /// An angle within (-180, 180] degrees.

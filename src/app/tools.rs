@@ -217,7 +217,7 @@ fn rounded(vector: DVec3) -> [f64; 3] {
 /// The direction of the line of sight through a place in the picture.
 fn ray(scene: &Scene, place: DVec2) -> DVec3 {
     let camera = &scene.camera;
-    let height = 2.0 * (0.5 * camera.fov_y_deg.to_radians()).tan();
+    let height = 2.0 * (0.5 * camera.fov_y_rad()).tan();
     (camera.forward() + height * (place.x * camera.right() + place.y * camera.up())).normalize()
 }
 

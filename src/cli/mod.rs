@@ -7,6 +7,7 @@
 mod colour;
 mod failure;
 mod film;
+mod finished;
 mod flow;
 mod info;
 mod lut;
@@ -15,7 +16,6 @@ mod parse;
 mod picture;
 mod presets;
 mod progress;
-mod reference;
 mod render;
 mod sequence;
 mod strip;

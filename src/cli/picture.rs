@@ -1,14 +1,18 @@
 //! What `render` and `sequence` share: the options of a picture, and the picture that they ask for.
 
+mod layers;
+mod parts;
+
+use layers::PICTURES_OF_LAYERS;
+use parts::{PICTURES_OF_PASSAGES, tiles};
 use std::{collections::BTreeSet, path::Path};
 
 use anyhow::{Context, bail};
 use clap::Args;
 
 use super::{
-    AdapterArguments, SceneSettings, parse,
+    AdapterArguments, SceneSettings, finished, parse,
     progress::{Part, Progress},
-    reference,
 };
 use crate::{
     gpu::{GpuError, Renderer},
@@ -17,7 +21,7 @@ use crate::{
     physics::colour::Gamut,
     plan::{FrameRequest, Moment, Pace, Plan, Shot, Story, plan},
     studio::MAX_TICKS,
-    verify::reference::{MovedFilms, moved_film, needs_device, radiance},
+    verify::reference::{MovedFilms, moved_film, needs_device},
 };
 
 /// The options of a picture; a new one belongs here, so that every command that draws pictures has it.
@@ -35,14 +39,38 @@ pub struct PictureArguments {
     /// Colour space of a PNG: `srgb`, or `p3` for wide-gamut displays
     #[arg(long, value_name = "GAMUT", default_value = "srgb", value_parser = parse::gamut)]
     gamut: Gamut,
+    /// Leave out what stands behind the bubbles: PNG with straight alpha, EXR with colours premultiplied by alpha, which is 1 minus the mean
+    /// transmittance
+    #[arg(long)]
+    alpha: bool,
+    /// Write what the picture is made of as layers of one EXR file: beauty, reflection, transmission, background, and of the nearest wall of film
+    /// its thickness, normal, position, depth, angle, place on the film and number of its bubble
+    #[arg(long)]
+    layers: bool,
+    /// Take N x N samples per pixel
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=MAX_SAMPLES))]
+    samples: u32,
     #[command(flatten)]
     adapter: AdapterArguments,
 }
+
+/// The largest number of samples along each side of a pixel.
+const MAX_SAMPLES: i64 = 64;
 
 impl PictureArguments {
     /// Whether the picture is computed in f64.
     pub fn is_reference(&self) -> bool {
         self.quality == Some(parse::Quality::Reference)
+    }
+
+    /// Samples along each side of a pixel.
+    fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// Whether the picture is one frame as the window would draw it.
+    pub fn is_plain(&self) -> bool {
+        !self.is_reference() && !self.alpha && !self.layers && self.samples == 1
     }
 }
 
@@ -84,6 +112,9 @@ pub struct Painter<'a> {
 impl<'a> Painter<'a> {
     /// A painter of a scene file or a preset.
     pub fn new(arguments: &'a PictureArguments, format: Format, scene: &Path) -> anyhow::Result<Self> {
+        if arguments.layers && format != Format::Exr {
+            bail!("--layers needs an EXR file, which can hold them");
+        }
         let mut loaded = arguments.settings.load(scene)?;
         if let Some(parse::Quality::Gpu(quality)) = arguments.quality {
             loaded.scene.view.quality = quality;
@@ -103,15 +134,22 @@ impl<'a> Painter<'a> {
 
     /// What a picture of a moment needs.
     pub fn request(&self, moment: Moment) -> anyhow::Result<FrameRequest> {
+        let samples = if self.arguments.is_reference() { 1 } else { self.arguments.samples };
         let shot = Shot {
-            size: self.arguments.size,
+            size: self.arguments.size.map(|pixels| samples * pixels),
             moment,
-            full_precision: self.format == Format::Exr,
+            full_precision: self.format == Format::Exr || !self.arguments.is_plain(),
             gamut: self.arguments.gamut,
             yardstick: false,
             pace: Pace::Whole,
         };
-        Ok(self.story.request(&self.loaded.resources, &shot).map_err(|fault| self.loaded.source.locate(fault))?)
+        let request = self.story.request(&self.loaded.resources, &shot);
+        let mut request = request.map_err(|fault| self.loaded.source.locate(fault))?;
+        if self.arguments.is_reference() {
+            let bubbles = request.picture.draw.bubbles.iter_mut();
+            bubbles.for_each(|bubble| bubble.samples = bubble.samples.max(self.arguments.samples));
+        }
+        Ok(request)
     }
 
     /// The metadata of the file.
@@ -140,13 +178,39 @@ impl<'a> Painter<'a> {
         self.renderer.as_mut().context("no adapter was opened")
     }
 
-    /// Draws or computes a picture, which is the next part of the work.
+    /// How many parts the work of a picture has, as its progress is reported.
+    pub fn parts(&self) -> u64 {
+        let tiles =
+            if self.arguments.is_reference() { 1 } else { tiles(self.arguments.size, self.arguments.samples).len() };
+        let pictures = match (self.arguments.layers, self.arguments.alpha) {
+            (true, false) => PICTURES_OF_LAYERS,
+            (_, true) => PICTURES_OF_PASSAGES,
+            (false, false) => 1,
+        };
+        tiles as u64 * pictures
+    }
+
+    /// Draws or computes a picture, which is the next [`Self::parts`] of the work.
     pub fn paint(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Picture> {
-        if self.arguments.is_reference() {
-            self.compute(request, progress)
-        } else {
-            Ok(self.draw(request, progress)?.0)
+        let (size, format, key) = (self.arguments.size, self.format, &request.picture);
+        if self.arguments.is_plain() {
+            return Ok(self.draw(request, progress)?.0);
         }
+        if self.arguments.layers {
+            return self.layers(request, progress);
+        }
+        if self.arguments.alpha {
+            let light = self.passages(request, progress)?;
+            return Ok(match format {
+                Format::Png => finished::display_alone(key, size, &light),
+                Format::Exr => finished::linear_alone(size, &light),
+            });
+        }
+        let radiance = self.radiance(request, key.draw.clone(), progress)?;
+        Ok(match format {
+            Format::Png => finished::display(key, size, &radiance),
+            Format::Exr => finished::linear(size, &radiance),
+        })
     }
 
     /// Draws a picture on the device; also gives the plan that was carried out.
@@ -164,17 +228,6 @@ impl<'a> Painter<'a> {
             Format::Exr => Picture::radiance_from_bt2020(size, &bytemuck::pod_collect_to_vec(&bytes)),
         };
         Ok((picture, plan))
-    }
-
-    fn compute(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Picture> {
-        let films = self.moved_films(request)?;
-        let rows = u64::from(self.arguments.size[1]) * request.picture.draw.lights().count() as u64;
-        let part = progress.part(rows);
-        let radiance = radiance(&request.picture.draw, &films, &|| part.add(1))?;
-        Ok(match self.format {
-            Format::Png => reference::display(&request.picture, &radiance),
-            Format::Exr => reference::linear(self.arguments.size, &radiance),
-        })
     }
 
     /// The films that only the device can move, at their moment.

@@ -47,11 +47,6 @@ impl Progress {
         Part { bar: self.bar.clone(), start, parts, units, done: AtomicU64::new(0) }
     }
 
-    /// Counts a part that took no time.
-    pub fn step(&self) {
-        self.part(1).add(1);
-    }
-
     /// Prints while the bar is out of the way. `print` must not panic: it holds the bar's lock.
     pub fn print<T>(&self, print: impl FnOnce() -> T) -> T {
         self.bar.suspend(print)
@@ -113,7 +108,7 @@ mod tests {
         assert_eq!(at(), 0.25);
         part.add(100);
         assert_eq!(at(), 1.0, "a part never takes more than its place");
-        progress.step();
+        progress.part(1).add(1);
         assert_eq!(at(), 2.0);
         progress.part(0).add(1);
         assert_eq!(at(), 2.0, "a part without work has no steps");

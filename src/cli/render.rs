@@ -59,13 +59,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
 
 fn draw(arguments: &Arguments, painter: &mut Painter<'_>, request: &FrameRequest) -> anyhow::Result<Picture> {
     let measures = arguments.repeat > 0 || arguments.stats.is_some();
-    let is_reference = arguments.picture.is_reference();
-    if is_reference && (arguments.explain || measures) {
-        bail!("--explain, --repeat and --stats report on the GPU; leave them out with --quality reference");
+    let is_plain = arguments.picture.is_plain();
+    if !is_plain && (arguments.explain || measures) {
+        bail!(
+            "--explain, --repeat and --stats report on one frame on the GPU; leave them out with --quality reference, --alpha, --layers and --samples"
+        );
     }
     painter.prepare(request)?;
-    let progress = Progress::new("render", 1);
-    if is_reference {
+    let progress = Progress::new("render", painter.parts());
+    if !is_plain {
         return painter.paint(request, &progress);
     }
     let (picture, plan) = painter.draw(request, &progress)?;

@@ -67,14 +67,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = &arguments.output;
     painter.prepare(&last)?;
     std::fs::create_dir_all(folder).with_context(|| format!("{}: the folder cannot be created", folder.display()))?;
-    let progress = Progress::new("sequence", frames.clone().count() as u64);
+    let progress = Progress::new("sequence", frames.clone().count() as u64 * painter.parts());
     let mut skipped = 0;
     for frame in frames {
         let path = folder.join(format!("frame_{frame:06}.{}", arguments.format.ending()));
         // Files are written whole or not at all, so one that is there is complete.
         if path.exists() && !arguments.overwrite {
             skipped += 1;
-            progress.step();
+            progress.parts(painter.parts(), 1).add(1);
         } else {
             draw(arguments, &mut painter, frame, &path, &progress)?;
         }

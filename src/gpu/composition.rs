@@ -322,6 +322,7 @@ mod tests {
             illuminant: Arc::new(Illuminant::default()),
             spectral_lights: Vec::new(),
             liquids: BTreeMap::new(),
+            plate: None,
         };
         let shot = Shot {
             size: [1280, 720],

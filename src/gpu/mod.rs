@@ -23,6 +23,7 @@ pub mod kernel;
 mod late_errors;
 pub mod passes;
 pub mod pipelines;
+mod plate;
 pub mod quadrature;
 pub mod readback;
 pub mod renderer;

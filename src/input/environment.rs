@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::chromaticities::BT709;
 use super::panic_guard::catch_panic;
+use super::picture::Shape;
 use super::{InputError, exr, radiance, text};
 use crate::physics::environment::Equirect;
 
@@ -25,8 +26,8 @@ pub fn read_environment(path: &Path, notes: &mut Vec<String>) -> Result<Equirect
     let mut file = BufReader::new(text::open(path)?);
     let format = recognise(&mut file, path)?;
     let decode = || match format {
-        Format::OpenExr => exr::decode(path, file),
-        Format::Radiance => radiance::decode(path, file),
+        Format::OpenExr => exr::decode(path, file, Shape::Panorama),
+        Format::Radiance => radiance::decode(path, file, Shape::Panorama),
     };
     let failed = || InputError::DecoderFailed { path: path.to_owned() };
     let mut picture = catch_panic(decode).unwrap_or_else(|| Err(failed()))?;

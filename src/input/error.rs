@@ -16,6 +16,9 @@ pub const MAX_ENVIRONMENT_WIDTH: usize = 8192;
 /// The highest panorama that is read, pixels.
 pub const MAX_ENVIRONMENT_HEIGHT: usize = MAX_ENVIRONMENT_WIDTH / 2;
 
+/// The most pixels along a side of a photograph that is read.
+pub const MAX_PLATE_SIDE: usize = 16384;
+
 /// Why a scene cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
@@ -91,6 +94,22 @@ pub enum InputError {
     UnknownPicture {
         /// The file.
         path: PathBuf,
+    },
+    /// None of the formats of photographs.
+    #[error("{} is no PNG, JPEG, OpenEXR or Radiance .hdr picture, whatever its name: convert it to one of them", path.display())]
+    UnknownPlate {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A photograph without pixels, or with too many.
+    #[error("{} has {width}x{height} pixels: a plate has 1 to {MAX_PLATE_SIDE} along each side", path.display())]
+    PlateSize {
+        /// The file.
+        path: PathBuf,
+        /// Pixels in a row.
+        width: usize,
+        /// Rows.
+        height: usize,
     },
     /// Cut short, or its parts contradict each other.
     #[error("{} is damaged or cut short ({reason}): export or download it again", path.display())]

@@ -16,7 +16,7 @@ use half::f16;
 
 use super::InputError;
 use super::chromaticities::{BT709, RgbSpace};
-use super::picture::DecodedPicture;
+use super::picture::{DecodedPicture, Shape};
 use layers::Layer;
 use window::Placement;
 
@@ -24,13 +24,13 @@ use window::Placement;
 ///
 /// On one thread: the `exr` crate decompresses on a pool of its own, where a panic over a damaged block would abort the
 /// program. Block by block: its readers of whole pictures refuse a file with any deep part, and cannot tell layers apart.
-pub(super) fn decode(path: &Path, mut file: impl BufRead + Seek) -> Result<DecodedPicture, InputError> {
+pub(super) fn decode(path: &Path, mut file: impl BufRead + Seek, shape: Shape) -> Result<DecodedPicture, InputError> {
     let in_words = |error| in_words(path, error);
     let meta = read_meta(&mut file).map_err(in_words)?;
     let (layer, note) = layers::choose(path, &meta.headers)?;
     let header = &meta.headers[layer.part];
     check_decoder(path, header)?;
-    let placement = Placement::of(path, header)?;
+    let placement = Placement::of(path, header, shape)?;
     let [width, height] = placement.size;
     let mut pixels = vec![[0.0; 3]; width * height];
     read_blocks(file, &meta, layer.part, |line| put(&mut pixels, &layer, header, &placement, line))

@@ -13,7 +13,7 @@ use image::error::ImageError;
 
 use super::InputError;
 use super::chromaticities::{BT709, CIE_XYZ, RgbSpace};
-use super::picture::{DecodedPicture, check_size};
+use super::picture::{DecodedPicture, Shape, check_size};
 
 /// The longest line of a header that is read, bytes.
 const MAX_LINE_BYTES: u64 = 1 << 16;
@@ -23,10 +23,10 @@ const WHITE_EFFICACY: f64 = 179.0;
 
 /// Decodes a Radiance picture; its `EXPOSURE` and `COLORCORR` are undone and its `PRIMARIES` honoured, as Radiance's file
 /// format asks.
-pub(super) fn decode(path: &Path, mut file: impl BufRead) -> Result<DecodedPicture, InputError> {
+pub(super) fn decode(path: &Path, mut file: impl BufRead, shape: Shape) -> Result<DecodedPicture, InputError> {
     let header = Header::read(path, &mut file)?;
     let [width, height] = header.resolution.size();
-    check_size(path, width, height)?;
+    check_size(path, width, height, shape)?;
     let stored = read_scan_lines(file, &header.resolution).map_err(|error| in_words(path, error))?;
     let scale = header.scale();
     let mut pixels = vec![[0.0; 3]; width * height];

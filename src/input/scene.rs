@@ -3,11 +3,12 @@
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
-use super::{LoadError, load_environment, load_illuminant, read_table_text, read_text};
+use super::{LoadError, load_environment, load_illuminant, read_plate, read_table_text, read_text};
 use crate::{
-    physics::optics::FilmIndex,
+    physics::{optics::FilmIndex, picture::Plate},
     plan::{FrameRequest, Resources, Shot, request},
     scene::{
         Fault, FilmIndexName, Scene, SceneError, SceneSource, Setting, is_table, nearest, preset_names, preset_toml,
@@ -110,7 +111,16 @@ fn load_resources(scene: &Scene, folder: &Path, notes: &mut Vec<String>) -> Resu
         illuminant: illuminant.into(),
         spectral_lights,
         liquids: load_liquids(scene, folder, notes)?,
+        plate: load_plate(scene, folder, notes)?,
     })
+}
+
+/// The photograph that a scene names.
+fn load_plate(scene: &Scene, folder: &Path, notes: &mut Vec<String>) -> Result<Option<Arc<Plate>>, LoadError> {
+    let Some(path) = &scene.view.plate else { return Ok(None) };
+    let plate = read_plate(&folder.join(path), notes);
+    let plate = plate.map_err(|error| Fault::unusable("plate", error).inside("view"))?;
+    Ok(Some(Arc::new(plate)))
 }
 
 /// A liquid by its name or index, or from the `.csv` file of that path. What a user should know of how it was read is added to `notes`.

@@ -69,18 +69,7 @@ impl<const N: usize> ExrPicture<'_, N> {
 
     fn encode_as(&self, samples: Samples, writer: impl Write + Seek) -> io::Result<()> {
         self.check()?;
-        let encoding = openexr::Encoding {
-            compression: openexr::Compression::ZIP16,
-            blocks: openexr::Blocks::ScanLines,
-            // Blocks in a fixed order, however many threads compress them.
-            line_order: openexr::LineOrder::Increasing,
-        };
-        let size = (self.width, self.height);
-        let layer = openexr::Layer::new(size, self.layer_attributes(), encoding, self.any_channels(samples));
-        let mut image = openexr::Image::from_layer(layer);
-        image.attributes.chromaticities = self.primaries.map(chromaticities);
-        image.attributes.time_code = self.metadata.frame().and_then(|(rate, frame)| time_code(rate, frame));
-        image.write().to_buffered(writer).map_err(in_io)
+        write([self.width, self.height], self.any_channels(samples), self.primaries, self.metadata, writer)
     }
 
     fn check(&self) -> io::Result<()> {
@@ -96,21 +85,6 @@ impl<const N: usize> ExrPicture<'_, N> {
         Ok(())
     }
 
-    /// All metadata goes into one attribute: the `exr` crate keeps custom attributes in a hash map and would write them in
-    /// another order each time.
-    fn layer_attributes(&self) -> openexr::LayerAttributes {
-        let comments = self.metadata.to_lines();
-        openexr::LayerAttributes {
-            software_name: Some(openexr::Text::from(concat!("soapfilm ", env!("CARGO_PKG_VERSION")))),
-            comments: (!comments.is_empty()).then(|| openexr::Text::from_slice_unchecked(comments.as_bytes())),
-            frames_per_second: self.metadata.frame().map(|(rate, _)| {
-                let [numerator, denominator] = rate.ratio();
-                (numerator as i32, denominator)
-            }),
-            ..Default::default()
-        }
-    }
-
     fn any_channels(&self, samples: Samples) -> openexr::AnyChannels<openexr::FlatSamples> {
         let channel = |i: usize| {
             let values = self.pixels.iter().map(|pixel| pixel[i]);
@@ -121,6 +95,42 @@ impl<const N: usize> ExrPicture<'_, N> {
             openexr::AnyChannel::new(self.channels[i], samples)
         };
         openexr::AnyChannels::sort((0..N).map(channel).collect())
+    }
+}
+
+/// Writes channels that are checked and sorted. Equal ones give equal bytes.
+pub(super) fn write(
+    [width, height]: [usize; 2],
+    channels: openexr::AnyChannels<openexr::FlatSamples>,
+    primaries: Option<ExrPrimaries>,
+    metadata: &Metadata,
+    writer: impl Write + Seek,
+) -> io::Result<()> {
+    let encoding = openexr::Encoding {
+        compression: openexr::Compression::ZIP16,
+        blocks: openexr::Blocks::ScanLines,
+        // Blocks in a fixed order, however many threads compress them.
+        line_order: openexr::LineOrder::Increasing,
+    };
+    let layer = openexr::Layer::new((width, height), layer_attributes(metadata), encoding, channels);
+    let mut image = openexr::Image::from_layer(layer);
+    image.attributes.chromaticities = primaries.map(chromaticities);
+    image.attributes.time_code = metadata.frame().and_then(|(rate, frame)| time_code(rate, frame));
+    image.write().to_buffered(writer).map_err(in_io)
+}
+
+/// All metadata goes into one attribute: the `exr` crate keeps custom attributes in a hash map and would write them in
+/// another order each time.
+fn layer_attributes(metadata: &Metadata) -> openexr::LayerAttributes {
+    let comments = metadata.to_lines();
+    openexr::LayerAttributes {
+        software_name: Some(openexr::Text::from(concat!("soapfilm ", env!("CARGO_PKG_VERSION")))),
+        comments: (!comments.is_empty()).then(|| openexr::Text::from_slice_unchecked(comments.as_bytes())),
+        frames_per_second: metadata.frame().map(|(rate, _)| {
+            let [numerator, denominator] = rate.ratio();
+            (numerator as i32, denominator)
+        }),
+        ..Default::default()
     }
 }
 

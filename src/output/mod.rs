@@ -3,6 +3,7 @@
 mod atomic;
 mod error;
 mod exr;
+mod exr_channels;
 mod film_table;
 mod frame_rate;
 mod icc;
@@ -18,6 +19,7 @@ mod table;
 pub use atomic::{check_target, write_atomically};
 pub use error::OutputError;
 pub use exr::{ExrPicture, ExrPrimaries};
+pub use exr_channels::ExrChannels;
 pub use film_table::{FilmTableFile, TABLE_LAYERS, TableFormat, TablePrecision};
 pub use frame_rate::{FrameRate, FrameRateError};
 pub use metadata::Metadata;

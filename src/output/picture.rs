@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 
-use super::{ExrPicture, ExrPrimaries, Metadata, OutputError, PngPicture, write_atomically};
+use super::{ExrChannels, ExrPicture, ExrPrimaries, Metadata, OutputError, PngPicture, write_atomically};
 use crate::physics::colour::{Gamut, bt2020_to_bt709};
 
 /// A finished picture.
@@ -26,6 +26,13 @@ pub enum Picture {
         /// Width · height pixels.
         rgb: Vec<[f32; 3]>,
     },
+    /// Named channels, of which colours are linear BT.709.
+    Channels {
+        /// Width and height in pixels.
+        size: [u32; 2],
+        /// Each channel's name with width · height values, rows from the top left.
+        channels: Vec<(String, Vec<f32>)>,
+    },
 }
 
 impl Picture {
@@ -43,6 +50,7 @@ impl Picture {
         match self {
             Self::Display { size, gamut, rgba } => save_display(path, *size, *gamut, rgba, metadata),
             Self::Radiance { size, rgb } => save_radiance(path, *size, rgb, metadata),
+            Self::Channels { size, channels } => ExrChannels { size: *size, channels, metadata }.save(path),
         }
     }
 }

@@ -43,7 +43,10 @@ const INVISIBLE_PIXELS: f64 = 0.006;
 pub(super) fn in_sight(story: &Story, camera: &CameraKey, shot: &Shot) -> InSight {
     let mut sight = InSight::default();
     let time_s = shot.moment.ticks() * story.motion.tick_s;
+    let mut next_id = story.bubbles.len() as u32 + 1;
     for lender in story.lenders() {
+        let first_id = next_id;
+        next_id += lender.swarm.count;
         // The place in the list of each of its films, once one is shown.
         let mut places: Vec<Option<usize>> = vec![None; lender.swarm.lending.films as usize];
         for member in lender.swarm.at(time_s) {
@@ -55,10 +58,11 @@ pub(super) fn in_sight(story: &Story, camera: &CameraKey, shot: &Shot) -> InSigh
                 sight.lent.push(lent);
             }
             let Some(place) = places[film] else { continue };
+            let id = first_id + member.slot;
             if seen.is_small(&member, camera, story.view.quality) {
-                sight.small.push(small(&member, place, seen.bounds));
+                sight.small.push(SmallBubble { id, ..small(&member, place, seen.bounds) });
             } else {
-                sight.bubbles.push(large(&member, &sight.lent[place], &seen, camera));
+                sight.bubbles.push(BubbleKey { id, ..large(&member, &sight.lent[place], &seen, camera) });
             }
         }
     }
@@ -118,6 +122,7 @@ fn lent_film(story: &Story, lender: &Lender, film: usize, shot: &Shot) -> Option
 
 fn small(member: &Member, lent: usize, bounds: [DVec2; 2]) -> SmallBubble {
     SmallBubble {
+        id: 0,
         center_m: member.center_m,
         radius_m: member.radius_m,
         bounds,

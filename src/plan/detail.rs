@@ -68,5 +68,5 @@ fn largest_diameter(scene: &Scene, index: usize, bubble: &Bubble) -> f64 {
     });
     let places = std::iter::once(DVec3::from(bubble.center_m)).chain(dragged);
     let nearest_m = places.map(|place_m| place_m.distance(eye_m)).fold(f64::INFINITY, f64::min);
-    ROWS * radius_m / nearest_m / (0.5 * scene.camera.fov_y_deg.to_radians()).tan()
+    ROWS * radius_m / nearest_m / (0.5 * scene.camera.fov_y_rad()).tan()
 }

@@ -28,12 +28,12 @@ use fields::StepBudget;
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary,
     FilmColours, FilmKey, Finish, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment,
-    OpenHoleKey, Opening, OpticsKey, QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev,
-    range_nm, remaining_nm,
+    OpenHoleKey, Opening, OpticsKey, PlateKey, QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey,
+    exposed_ev, range_nm, remaining_nm,
 };
 pub use lender::film_owners;
 pub use pass::{Pass, Reason};
-pub use request::{Resources, SpectralLight, request};
+pub use request::{Resources, SpectralLight, film_index, request};
 pub use shot::Shot;
 pub use story::Story;
 
@@ -67,6 +67,8 @@ pub struct GpuState {
     pub fields: Vec<Option<FieldState>>,
     /// The hole in each film that bursts, by the film's index.
     pub holes: Vec<Option<OpenHoleKey>>,
+    /// The photograph behind the bubbles.
+    pub plate: Option<PlateKey>,
     /// The linear picture.
     pub radiance: Option<DrawKey>,
     /// The finished picture.
@@ -131,7 +133,7 @@ impl Plan {
     pub fn work(&self) -> u64 {
         let work = |pass: &Pass| match pass {
             Pass::StepField { key, ticks, .. } => key.steps_from(ticks.start).count() as u64 * key.cell_count(),
-            Pass::Draw(key) => key.size.map(u64::from).iter().product::<u64>() * key.lights().count() as u64,
+            Pass::Draw(key) => key.size.map(u64::from).iter().product::<u64>() * key.pictures(),
             _ => 0,
         };
         self.steps.iter().map(|(pass, _)| work(pass)).sum()
@@ -167,6 +169,10 @@ impl fmt::Display for Plan {
                 }
                 Pass::DefocusBackdrop { key, .. } => {
                     format!("each point a disc of {:.2}°", 2.0 * key.half_angle_rad.to_degrees())
+                }
+                Pass::UploadPlate(key) => {
+                    let ([width, height], [of_width, of_height]) = (key.size, key.plate.size());
+                    format!("{width}x{height}, from {of_width}x{of_height} pixels")
                 }
                 Pass::UploadEnvironment { key, .. } => format!("6x{0}x{0} texels", key.size()),
             };
@@ -212,6 +218,7 @@ pub fn plan(request: &FrameRequest, state: &GpuState) -> Plan {
     for (light, requested) in defocus.into_iter().enumerate() {
         planner.defocus(light, requested);
     }
+    planner.plate(draw.plate.as_ref());
     planner.fields(draw);
     for bubble in &draw.bubbles {
         if let Some(hole) = bubble.open_hole() {
@@ -322,6 +329,18 @@ impl Planner {
             Some(DefocusKey { faces: faces(|requested, had| requested || had), ..requested.clone() });
         if missing.faces.contains(&true) {
             self.push(Pass::DefocusBackdrop { light, key: missing, adds: had.contains(&true) }, reason);
+        }
+    }
+
+    fn plate(&mut self, requested: Option<&PlateKey>) {
+        let current = &mut self.after.plate;
+        let Some(requested) = requested else {
+            *current = None;
+            return;
+        };
+        if let Some(reason) = changed(current.as_ref(), requested, |_, _| "the photograph or the picture's size") {
+            *current = Some(requested.clone());
+            self.push(Pass::UploadPlate(requested.clone()), reason);
         }
     }
 

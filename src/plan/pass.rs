@@ -2,7 +2,9 @@
 
 use std::{fmt, ops::Range};
 
-use super::keys::{DefocusKey, DrawKey, EnvironmentKey, FieldKey, OpenHoleKey, QuadratureKey, TableKey, TonemapKey};
+use super::keys::{
+    DefocusKey, DrawKey, EnvironmentKey, FieldKey, OpenHoleKey, PlateKey, QuadratureKey, TableKey, TonemapKey,
+};
 
 /// One pass, with all that it reads.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +25,8 @@ pub enum Pass {
         /// Whether there are other faces of it already, which stay.
         adds: bool,
     },
+    /// Sends the photograph behind the bubbles.
+    UploadPlate(PlateKey),
     /// Bakes some rows of a lookup table.
     BakeTable {
         /// Index of the light.
@@ -114,6 +118,7 @@ impl Pass {
         match self {
             Self::UploadEnvironment { .. } => "upload_environment",
             Self::DefocusBackdrop { .. } => "defocus_backdrop",
+            Self::UploadPlate(_) => "upload_plate",
             Self::BakeTable { .. } => "bake_table",
             Self::FitQuadrature { .. } => "fit_quadrature",
             Self::SeedField { .. } => "seed_field",

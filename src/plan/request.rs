@@ -2,11 +2,11 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, Finish, FrameRequest, LentFilm,
-    LightKey, Lighting, OpticsKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
+    LightKey, Lighting, OpticsKey, PlateKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
@@ -21,6 +21,7 @@ use crate::{
         environment::CubeMap,
         film::fold_seed,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
+        picture::Plate,
     },
     scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Lens, Quality, Scene},
 };
@@ -36,6 +37,8 @@ pub struct Resources {
     pub spectral_lights: Vec<SpectralLight>,
     /// Liquids from files, by the paths that the scene gives them.
     pub liquids: BTreeMap<String, FilmIndex>,
+    /// The photograph behind the bubbles.
+    pub plate: Option<Arc<Plate>>,
 }
 
 /// All light of one illuminant other than the scene's own.
@@ -107,6 +110,7 @@ impl Story {
             small: small.into(),
             lent,
             on_bath: bath_m.is_some(),
+            plate: plate(scene, resources, shot.size),
         };
         let dither = scene.view.dither.then_some(fold_seed(scene.view.dither_seed));
         let balances = scene.view.white_balance && !resources.illuminant.is_monochromatic();
@@ -132,8 +136,14 @@ fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
         forward: camera.forward(),
         right: camera.right(),
         up: camera.up(),
-        pixel_height_m: 2.0 * (0.5 * camera.fov_y_deg.to_radians()).tan() / f64::from(height),
+        pixel_height_m: 2.0 * (0.5 * camera.fov_y_rad()).tan() / f64::from(height),
+        shift: DVec2::ZERO,
     }
+}
+
+fn plate(scene: &Scene, resources: &Resources, size: [u32; 2]) -> Option<PlateKey> {
+    let plate = resources.plate.clone().filter(|_| scene.view.plate.is_some())?;
+    Some(PlateKey { plate, whole: size, corner: [0; 2], size })
 }
 
 fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
@@ -141,6 +151,8 @@ fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
     let constant = scene.light.constant.filter(|_| scene.light.lamps.is_empty());
     let constant = constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
     let backdrop = match scene.view.backdrop {
+        // A photograph is laid behind the finished picture.
+        _ if scene.view.plate.is_some() => BackdropKey::Colour(DVec3::ZERO),
         Backdrop::Environment => BackdropKey::Environment,
         Backdrop::Radiance(rgb) => BackdropKey::Colour(bt709_to_bt2020() * DVec3::from(rgb)),
     };
@@ -247,7 +259,11 @@ fn materials(story: &Story, resources: &Resources) -> Result<Materials, Fault> {
     Ok(materials)
 }
 
-fn film_index(index: &FilmIndexName, resources: &Resources) -> Result<FilmIndex, FilmIndexError> {
+/// The index of a film by its name in a scene.
+///
+/// # Errors
+/// There is no such liquid, or no film has such an index.
+pub fn film_index(index: &FilmIndexName, resources: &Resources) -> Result<FilmIndex, FilmIndexError> {
     match index {
         FilmIndexName::Water => Ok(FilmIndex::Water),
         FilmIndexName::Constant(n) => FilmIndex::constant(*n),
@@ -281,6 +297,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     };
     let ticks = age.moment.ticks();
     Some(BubbleKey {
+        id: index as u32 + 1,
         index,
         material: 0,
         center_m,

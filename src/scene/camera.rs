@@ -11,6 +11,8 @@ section! {
     elevation_deg: f64 = 8.0, [-90.0 ..= 90.0], "Elevation", "°", "elevation of the eye above the horizon";
     distance_m: f64 = 0.24, [0.0 ..= 1000.0], "Distance", " m", "distance from the target to the eye, m; at 0 the eye is at the target";
     fov_y_deg: f64 = 30.0, [1.0 ..= 170.0], "Field of view", "°", "full vertical field of view";
+    focal_mm: Option<f64> = None, [1.0 ..= 5000.0], "Focal length", " mm", "focal length of the lens, mm: it takes the place of `fov_y_deg`";
+    sensor_mm: f64 = 24.0, [1.0 ..= 500.0], "Sensor height", " mm", "height of the sensor that a picture fills, mm, where `focal_mm` is given: 24 for a full frame of 3:2, and 20.25 for the same sensor cropped to 16:9";
     follow_deg: f64 = 0.0, [0.0 ..= 180.0], "Follow", "°", "angle by which the eye goes around the target in a window while the pointer moves over as much as the picture's height; 0: it stays";
 }
 
@@ -18,6 +20,11 @@ impl Camera {
     /// Position of the eye, m.
     pub fn eye(&self) -> DVec3 {
         DVec3::from(self.target_m) - self.distance_m * self.forward()
+    }
+
+    /// Full vertical field of view, radians: that of the lens, if there is one.
+    pub fn fov_y_rad(&self) -> f64 {
+        self.focal_mm.map_or(self.fov_y_deg.to_radians(), |focal_mm| 2.0 * (0.5 * self.sensor_mm / focal_mm).atan())
     }
 
     /// Unit vector along the view, from the eye to the target; defined at distance 0 too.
@@ -51,6 +58,14 @@ mod tests {
         let half_angle = (bubble.radius_mm * 1e-3 / camera.distance_m).asin();
         let filled = half_angle.tan() / (camera.fov_y_deg / 2.0).to_radians().tan();
         assert!((filled - 0.8).abs() < 0.01, "the bubble fills {filled} of the height");
+    }
+
+    #[test]
+    fn a_lens_sees_what_its_sensor_holds() {
+        let of = |focal_mm| Camera { focal_mm, ..Camera::default() }.fov_y_rad().to_degrees();
+        assert!((of(None) - 30.0).abs() < 1e-12);
+        // A normal lens of full frame: 26.99 degrees vertically.
+        assert!((of(Some(50.0)) - 26.9915).abs() < 1e-4 && (of(Some(12.0)) - 90.0).abs() < 1e-9);
     }
 
     #[test]

@@ -137,6 +137,7 @@ section! {
     pub struct View, ViewKeys:
     exposure_ev: f64 = 1.5, [-20.0 ..= 20.0], "Exposure", " EV", "exposure in stops: the radiance is multiplied by 2 to this power";
     backdrop: Backdrop = Backdrop::Radiance([0.0012, 0.0012, 0.0016]), [0.0 ..= 65504.0], "Backdrop", "", "what is seen behind the bubbles: `\"environment\"`, or a radiance `[r, g, b]`, linear BT.709";
+    plate: Option<String> = None, ["a path"], "Plate", "", "a photograph that stands behind the bubbles and is seen through them, cropped to fill the picture: the path of a `.png`, `.jpg`, `.exr` or `.hdr` file; it takes the place of `backdrop`";
     quality: Quality = Quality::Standard, [word], "Quality", "", "accuracy of colours; the choices differ only in light that meets several walls, and single walls are accurate in all";
     polariser_deg: Option<f64> = None, [finite], "Polariser", "°", "angle of a polariser in front of the camera, from the horizontal, counter-clockwise";
     white_balance: bool = false, [flag], "White balance", "", "whether 8-bit pictures are adapted to the illuminant (Bradford); light of one hue stays as it is";

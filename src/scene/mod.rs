@@ -184,7 +184,7 @@ impl Scene {
             FilmIndexName::Water | FilmIndexName::Constant(_) => None,
         });
         let names = std::iter::once(&mut self.light.illuminant).chain(patches).chain(liquids);
-        environment.into_iter().chain(names.filter(|name| is_table(name)))
+        environment.into_iter().chain(&mut self.view.plate).chain(names.filter(|name| is_table(name)))
     }
 
     fn check(&self) -> Checked {

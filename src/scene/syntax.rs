@@ -3,7 +3,7 @@
 use super::check::BACKSLASHES;
 use super::error::{Located, Problem};
 use super::words::shorten;
-use super::{Bubble, Change, Event, Generator, Lens, Light, LightLamp, LightPatch, Scene, View};
+use super::{Bubble, Camera, Change, Event, Generator, Lens, Light, LightLamp, LightPatch, Scene, View};
 use toml::Table;
 use toml::de::Error;
 
@@ -22,7 +22,8 @@ pub(super) fn every_key() -> Table {
             ..Light::default()
         },
         lens: Lens { focus_m: Some(1.0), ..Lens::default() },
-        view: View { polariser_deg: Some(0.0), ..View::default() },
+        camera: Camera { focal_mm: Some(50.0), ..Camera::default() },
+        view: View { polariser_deg: Some(0.0), plate: Some(String::new()), ..View::default() },
         events: Change::every_key().map(|change| Event { tick: 0, change }).into(),
         ..Scene::default()
     };

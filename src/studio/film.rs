@@ -1,6 +1,7 @@
 //! The film of a bubble as numbers.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::{Error, Studio, moment, shot};
 use crate::{
@@ -9,7 +10,7 @@ use crate::{
     plan::{BubbleKey, FilmKey, FrameRequest, Story, film_grids, settle_detail},
     scene::{Camera, Scene},
     verify::{
-        reference::{MovedFilms, ReferenceError, film_thickness, moved_film},
+        reference::{FilmThickness, MovedFilms, ReferenceError, film_thickness, moved_film},
         reference_film::ReferenceFilm,
     },
 };
@@ -28,6 +29,13 @@ pub struct FilmCell {
 /// Width and height in pixels of the picture that computes a film: small, for only the film is read.
 const SIZE: [u32; 2] = [64, 64];
 
+/// A bubble's film at a moment.
+struct MovedFilm {
+    key: BubbleKey,
+    grid: CubedSphere,
+    films: MovedFilms,
+}
+
 /// Reads a bubble's film at a time in seconds.
 pub(super) fn read(
     studio: &mut Studio,
@@ -35,6 +43,20 @@ pub(super) fn read(
     bubble: usize,
     time_s: f64,
 ) -> Result<Vec<FilmCell>, Error> {
+    moved(studio, loaded, bubble, time_s)?.cells()
+}
+
+/// Reads a bubble's film in some directions, in axes that turn with the film.
+pub(super) fn read_at(
+    studio: &mut Studio,
+    loaded: &LoadedScene,
+    (bubble, time_s): (usize, f64),
+    directions: &[DVec3],
+) -> Result<Vec<f64>, Error> {
+    moved(studio, loaded, bubble, time_s)?.at(directions)
+}
+
+fn moved(studio: &mut Studio, loaded: &LoadedScene, bubble: usize, time_s: f64) -> Result<MovedFilm, Error> {
     let asked = Asked::new(loaded, bubble, time_s)?;
     studio.renderer.render(&asked.request)?;
     let (grid, films) = match asked.key.film {
@@ -44,7 +66,7 @@ pub(super) fn read(
             (grid, MovedFilms::from([(bubble, field)]))
         }
     };
-    cells(&asked.key, grid, &films)
+    Ok(MovedFilm { key: asked.key, grid, films })
 }
 
 /// Thickness of each cell of a bubble's film, moved by the film model in f64 on the CPU; no adapter is needed. It is slow, and takes films of the
@@ -59,6 +81,23 @@ pub fn reference_film(
     time_s: f64,
     progress: &dyn Fn(u64),
 ) -> Result<Vec<FilmCell>, Error> {
+    moved_in_f64(scene, bubble, time_s, progress)?.cells()
+}
+
+/// Thickness of a bubble's film in some directions, as [`Studio::film_at`], moved as [`reference_film`] does.
+///
+/// # Errors
+/// Those of [`reference_film`].
+pub fn reference_film_at(
+    scene: &LoadedScene,
+    (bubble, time_s): (usize, f64),
+    directions: &[DVec3],
+    progress: &dyn Fn(u64),
+) -> Result<Vec<f64>, Error> {
+    moved_in_f64(scene, bubble, time_s, progress)?.at(directions)
+}
+
+fn moved_in_f64(scene: &LoadedScene, bubble: usize, time_s: f64, progress: &dyn Fn(u64)) -> Result<MovedFilm, Error> {
     let asked = Asked::new(scene, bubble, time_s)?;
     let (grid, films) = match &asked.key.film {
         FilmKey::Uniform(_) => (asked.grid_of_scene()?, MovedFilms::new()),
@@ -70,7 +109,7 @@ pub fn reference_film(
             (grid, MovedFilms::from([(bubble, field)]))
         }
     };
-    cells(&asked.key, grid, &films)
+    Ok(MovedFilm { key: asked.key, grid, films })
 }
 
 /// A bubble's film that is asked for.
@@ -115,14 +154,27 @@ fn look_at(scene: &mut Scene, bubble: usize, time_s: f64) {
     scene.camera = Camera { target_m: center_m.into(), distance_m, elevation_deg: 45.0, ..Camera::default() };
 }
 
-/// The film as pictures see it: thinned by evaporation, with its hole, and with nothing beyond its rim.
-fn cells(key: &BubbleKey, grid: CubedSphere, films: &MovedFilms) -> Result<Vec<FilmCell>, Error> {
-    // A bath shows the image of the film below its rim; there is no film.
-    let thickness_nm = film_thickness(key, false, films)?;
-    let to_world = key.to_film.transpose();
-    let cell = |(index, solid_angle_sr): (usize, f64)| {
-        let direction = to_world * grid.cell_direction(index);
-        FilmCell { direction, solid_angle_sr, thickness_nm: thickness_nm(direction) }
-    };
-    Ok(grid.areas().into_iter().enumerate().map(cell).collect())
+impl MovedFilm {
+    /// The film as pictures see it: thinned by evaporation, with its hole, and with nothing beyond its rim.
+    fn cells(&self) -> Result<Vec<FilmCell>, Error> {
+        let thickness_nm = self.thickness_nm()?;
+        let to_world = self.key.to_film.transpose();
+        let cell = |(index, solid_angle_sr): (usize, f64)| {
+            let direction = to_world * self.grid.cell_direction(index);
+            FilmCell { direction, solid_angle_sr, thickness_nm: thickness_nm(direction) }
+        };
+        Ok(self.grid.areas().into_iter().enumerate().map(cell).collect())
+    }
+
+    /// The same in some directions of the film's own axes.
+    fn at(&self, directions: &[DVec3]) -> Result<Vec<f64>, Error> {
+        let thickness_nm = self.thickness_nm()?;
+        let to_world = self.key.to_film.transpose();
+        Ok(directions.par_iter().map(|direction| thickness_nm(to_world * *direction)).collect())
+    }
+
+    fn thickness_nm(&self) -> Result<FilmThickness<'_>, Error> {
+        // A bath shows the image of the film below its rim; there is no film.
+        Ok(film_thickness(&self.key, false, &self.films)?)
+    }
 }

@@ -19,8 +19,10 @@ mod tests;
 
 pub use colour::{Colour, colour};
 pub use error::Error;
-pub use film::{FilmCell, reference_film};
+pub use film::{FilmCell, reference_film, reference_film_at};
 pub use picture::{Picture, Radiance};
+
+use glam::DVec3;
 
 use crate::{
     gpu::{AdapterChoice, Gpu, Renderer, readback::Readback},
@@ -104,6 +106,21 @@ impl Studio {
     /// [`Error::NoBubble`] and [`Error::NoFilm`] if there is no such bubble, or none at that time, and the errors of [`Studio::render`].
     pub fn film(&mut self, scene: &LoadedScene, bubble: usize, time_s: f64) -> Result<Vec<FilmCell>, Error> {
         film::read(self, scene, bubble, time_s)
+    }
+
+    /// Thickness of a bubble's film in nm in some directions, unit vectors in axes that turn with the film: where it does not turn as a whole, the
+    /// world's. It is 0 where there is no film. The other arguments are as in [`Studio::film`].
+    ///
+    /// # Errors
+    /// As [`Studio::film`].
+    pub fn film_at(
+        &mut self,
+        scene: &LoadedScene,
+        bubble: usize,
+        time_s: f64,
+        directions: &[DVec3],
+    ) -> Result<Vec<f64>, Error> {
+        film::read_at(self, scene, (bubble, time_s), directions)
     }
 
     /// Renders a picture of a scene on the device.

@@ -194,6 +194,7 @@ fn random_scene(kind: &Kind, count: usize, seed: usize) -> Result<(Scene, Resour
         illuminant: Arc::new(Illuminant::default()),
         spectral_lights: Vec::new(),
         liquids: BTreeMap::new(),
+        plate: None,
     };
     Ok((scene, resources))
 }

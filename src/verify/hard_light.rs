@@ -129,6 +129,7 @@ fn lit(lamps: &'static [Lamp], seed: usize) -> Result<(Scene, Resources), GpuErr
         illuminant: Arc::new(Illuminant::default()),
         spectral_lights: Vec::new(),
         liquids: BTreeMap::new(),
+        plate: None,
     };
     Ok((scene, resources))
 }

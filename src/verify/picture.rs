@@ -128,6 +128,7 @@ fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
             illuminant: Arc::new(illuminant),
             spectral_lights: Vec::new(),
             liquids: BTreeMap::new(),
+            plate: None,
         },
     ))
 }

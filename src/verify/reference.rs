@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use crate::{
     gpu::{GpuError, Renderer},
     physics::{
-        colour::FilmOptics,
+        colour::{FilmOptics, bt709_to_bt2020, bt2020_to_bt709, transmittance},
         film::Hole,
         picture::{FilmSphere, PictureCamera, PictureScene},
         sphere::{CubedSphere, GridError, HaloTable, PaddedField},
@@ -58,7 +58,11 @@ pub fn needs_device(bubble: &BubbleKey) -> bool {
 /// # Errors
 /// A film's grid that is too coarse or too fine, or one that [`needs_device`] and is not there.
 pub fn radiance(key: &DrawKey, films: &MovedFilms, progress: &(dyn Fn() + Sync)) -> Result<Vec<DVec3>, ReferenceError> {
-    sum_of_lights(key, films, |scene| scene.radiance(progress))
+    let seen = |key: &DrawKey| sum_of_lights(key, films, |scene| scene.radiance(progress));
+    match &key.plate {
+        None => seen(key),
+        Some(plate) => before_plate(key, &plate.pixels(), seen),
+    }
 }
 
 /// Radiance of some pixels, each a column and a row.
@@ -66,7 +70,30 @@ pub fn radiance(key: &DrawKey, films: &MovedFilms, progress: &(dyn Fn() + Sync))
 /// # Errors
 /// As of [`radiance`].
 pub fn radiance_of(key: &DrawKey, films: &MovedFilms, pixels: &[[u32; 2]]) -> Result<Vec<DVec3>, ReferenceError> {
-    sum_of_lights(key, films, |scene| scene.radiance_of(pixels))
+    let seen = |key: &DrawKey| sum_of_lights(key, films, |scene| scene.radiance_of(pixels));
+    match &key.plate {
+        None => seen(key),
+        Some(plate) => {
+            let all = plate.pixels();
+            let shown: Vec<[f32; 3]> = pixels.iter().map(|[x, y]| all[(y * key.size[0] + x) as usize]).collect();
+            before_plate(key, &shown, seen)
+        }
+    }
+}
+
+/// What bubbles add to what they leave of a photograph, whose pixels are linear BT.709. `seen` is what is seen of other pictures at the same pixels.
+fn before_plate(
+    key: &DrawKey,
+    plate: &[[f32; 3]],
+    seen: impl Fn(&DrawKey) -> Result<Vec<DVec3>, ReferenceError>,
+) -> Result<Vec<DVec3>, ReferenceError> {
+    let (white, to_bt709) = (key.before_white(), bt2020_to_bt709());
+    let through = seen(&white)?.into_iter().zip(seen(&white.without_bubbles())?);
+    let left = through.map(|(through, white)| transmittance(to_bt709 * through, to_bt709 * white));
+    let pixels = seen(&key.before_black())?.into_iter().zip(left).zip(plate);
+    Ok(pixels
+        .map(|((added, left), plate)| added + bt709_to_bt2020() * (left * Vec3::from(*plate).as_dvec3()))
+        .collect())
 }
 
 /// The sum of what is seen in each light alone.

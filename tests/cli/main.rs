@@ -6,6 +6,7 @@ mod app;
 mod colour;
 mod files;
 mod film;
+mod layers;
 mod lut;
 mod mistakes;
 mod sequence;

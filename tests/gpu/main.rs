@@ -20,6 +20,7 @@ mod layers;
 mod layouts;
 mod lens;
 mod optics;
+mod parts;
 mod passes;
 mod pictures;
 mod shader_kinds;

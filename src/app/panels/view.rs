@@ -14,6 +14,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     let keys = View::KEYS;
     number(ui, &keys.exposure_ev, &mut view.exposure_ev, |slider| slider.fixed_decimals(2));
     backdrop(ui, &mut view);
+    plate(ui, &mut view);
     choice(ui, &keys.quality, &mut view.quality);
     polariser(ui, &mut view);
     flag(ui, &keys.white_balance, &mut view.white_balance);
@@ -23,7 +24,12 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     }
     lens(ui, model);
     let mut camera = model.scene.camera.clone();
-    number(ui, &Camera::KEYS.fov_y_deg, &mut camera.fov_y_deg, |slider| slider.max_decimals(1));
+    match &mut camera.focal_mm {
+        Some(focal_mm) => {
+            number(ui, &Camera::KEYS.focal_mm, focal_mm, |slider| slider.logarithmic(true).max_decimals(1))
+        }
+        None => number(ui, &Camera::KEYS.fov_y_deg, &mut camera.fov_y_deg, |slider| slider.max_decimals(1)),
+    };
     number(ui, &Camera::KEYS.follow_deg, &mut camera.follow_deg, |slider| slider.max_decimals(0));
     number(ui, &Camera::KEYS.distance_m, &mut camera.distance_m, |slider| {
         slider.logarithmic(true).smallest_positive(0.001).max_decimals(3)
@@ -57,6 +63,19 @@ fn focus(ui: &mut Ui, lens: &mut Lens, distance_m: f64) {
     lens.focus_m = is_held.then(|| lens.focus_m.unwrap_or(distance_m).clamp(0.01, 1000.0));
     if let Some(focus_m) = &mut lens.focus_m {
         number(ui, &Lens::KEYS.focus_m, focus_m, |slider| slider.logarithmic(true).max_decimals(3));
+    }
+}
+
+/// The photograph behind the bubbles, which a scene file names.
+fn plate(ui: &mut Ui, view: &mut View) {
+    let Some(path) = view.plate.clone() else { return };
+    let name = path.rsplit(['/', '\\']).next().unwrap_or(&path).to_owned();
+    let removal = row(ui, View::KEYS.plate.label, &tooltip(View::KEYS.plate.help), |ui| {
+        ui.label(name);
+        ui.button("Remove")
+    });
+    if removal.clicked() {
+        view.plate = None;
     }
 }
 

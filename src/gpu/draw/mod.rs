@@ -25,9 +25,10 @@ use super::{
 };
 use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting};
 use small::SmallDraw;
+pub use values::view_uniform;
 use values::{
     backdrop_colour, bubble_uniform, lamp_uniforms, light_uniform, list_part, other_bubble, ring_overrides,
-    small_bubbles, view_uniform,
+    small_bubbles,
 };
 
 /// What a draw reads that other passes left.

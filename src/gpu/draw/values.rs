@@ -91,7 +91,7 @@ fn floats(vector: DVec3) -> [f32; 3] {
 }
 
 /// The camera.
-pub(super) fn view_uniform(key: &DrawKey) -> ViewUniform {
+pub fn view_uniform(key: &DrawKey) -> ViewUniform {
     let camera = &key.camera;
     ViewUniform {
         forward: floats(camera.forward),
@@ -100,6 +100,8 @@ pub(super) fn view_uniform(key: &DrawKey) -> ViewUniform {
         width: key.size[0] as f32,
         up: floats(camera.up),
         height: key.size[1] as f32,
+        axis: camera.axis(key.size).as_vec2().to_array(),
+        padding: [0.0; 2],
     }
 }
 

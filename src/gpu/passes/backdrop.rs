@@ -17,6 +17,10 @@ shader_struct! {
         pub up: [f32; 3],
         /// Picture height in pixels.
         pub height: f32,
+        /// Where the line of sight meets the picture, in pixels.
+        pub axis: [f32; 2],
+        /// Fills 16 bytes.
+        pub padding: [f32; 2],
     }
 }
 

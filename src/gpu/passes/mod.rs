@@ -29,6 +29,7 @@ pub mod flow_sweep;
 pub mod flow_thickness;
 pub mod flow_trace;
 pub mod flow_velocity;
+pub mod lay_plate;
 pub mod open_hole;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod probe_colour;
@@ -75,6 +76,7 @@ pub fn kernels() -> Vec<Kernel> {
         flow_thickness::kernels(),
         flow_trace::kernels(),
         flow_velocity::kernels(),
+        lay_plate::kernels(),
         open_hole::kernels(),
         #[cfg(not(target_arch = "wasm32"))]
         probe_colour::kernels(),

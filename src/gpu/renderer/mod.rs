@@ -1,6 +1,7 @@
 //! Walks a plan: owns the products, records each pass from its key, and keeps the record of what is on the GPU.
 
 mod films;
+mod sums;
 
 use std::{collections::BTreeMap, ops::Range};
 
@@ -15,7 +16,8 @@ use super::{
     film::{Company, MovingFilm},
     film_atlas::FilmAtlas,
     formats::{PICTURE_FORMAT, radiance_format},
-    passes::{add_light::add_light, bake_table::Table, finish::Finished, open_hole::OpenHole, tonemap::tonemap},
+    passes::{bake_table::Table, finish::Finished, open_hole::OpenHole, tonemap::tonemap},
+    plate::upload_plate,
     quadrature::Quadrature,
     readback::Readback,
     shown_film::Shown,
@@ -24,7 +26,7 @@ use super::{
 };
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{DrawKey, FilmKey, Finish, FrameRequest, GpuState, Pass, Plan, TableKey, TonemapKey, plan},
+    plan::{DrawKey, FilmKey, Finish, FrameRequest, GpuState, Lighting, Pass, Plan, TableKey, TonemapKey, plan},
 };
 
 /// Everything that is on the device.
@@ -36,6 +38,8 @@ struct Products {
     company: Company,
     holes: Vec<Option<OpenHole>>,
     radiance: Option<Target>,
+    /// The photograph behind the bubbles, linear BT.709.
+    plate: Option<Target>,
     /// Pictures of what is behind the layer that is drawn, and of all before it.
     drawn: [Option<Target>; 2],
     /// Films of bubbles that others show.
@@ -73,8 +77,11 @@ impl Products {
             light.films.truncate(state.films.len());
             light.defocused.take_if(|_| state.defocused.is_none());
         });
-        if state.lights.len() <= 1 {
-            (self.added, self.sum) = (None, None);
+        if state.plate.is_none() {
+            self.plate = None;
+            if state.lights.len() <= 1 {
+                (self.added, self.sum) = (None, None);
+            }
         }
         self.films.truncate(state.fields.len());
         let films = self.films.iter_mut().zip(&state.fields);
@@ -208,6 +215,10 @@ impl Renderer {
                 self.light(*light).defocused = Some(defocused);
                 Ok(())
             }
+            Pass::UploadPlate(key) => {
+                self.products.plate = Some(upload_plate(&self.gpu, key));
+                Ok(())
+            }
             Pass::BakeTable { light, material, key, rows } => self.bake([*light, *material], key, rows.clone()),
             Pass::FitQuadrature { light, material, key } => {
                 self.colours([*light, *material]).quadrature = Some(Quadrature::fit(&self.gpu, key));
@@ -283,18 +294,9 @@ impl Renderer {
             *slot = Some(Target::fit(slot.take(), &self.gpu, "drawn", drawn_size, format));
         }
         self.gather_films(key, &composition);
-        let mut radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
-        self.draw_light(key, &composition, 0, &radiance)?;
-        for light in 1..=key.spectral_lights.len() {
-            let [added, sum] = [self.products.added.take(), self.products.sum.take()]
-                .map(|slot| Target::fit(slot, &self.gpu, "spectral light", key.size, format));
-            self.draw_light(key, &composition, light, &added)?;
-            let mut recorder = Recorder::new(&self.gpu);
-            add_light(&mut recorder, key.full_precision, [&radiance.view, &added.view], &sum.view)?;
-            Self::submit(&self.times, &mut self.counts, recorder);
-            self.products.added = Some(added);
-            self.products.sum = Some(std::mem::replace(&mut radiance, sum));
-        }
+        let radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
+        self.draw_light(key, &composition, (0, &key.lighting), &radiance)?;
+        let radiance = self.add_lights(key, &composition, radiance)?;
         self.products.radiance = Some(radiance);
         Ok(())
     }
@@ -317,12 +319,12 @@ impl Renderer {
         self.products.atlas = Some(atlas);
     }
 
-    /// The picture in one light alone.
+    /// The picture in one light alone, whose tables and environment are those of a light of the scene.
     fn draw_light(
         &mut self,
         key: &DrawKey,
         composition: &Composition,
-        light: usize,
+        (light, lighting): (usize, &Lighting),
         target: &Target,
     ) -> Result<(), GpuError> {
         self.light(light);
@@ -338,9 +340,7 @@ impl Renderer {
             let FilmColours { table, quadrature, .. } = products.films.get(material)?;
             Some((table.as_ref(), quadrature.as_ref()?))
         };
-        let (Some(lighting), [Some(behind), Some(so_far)], Some(atlas)) =
-            (key.lights().nth(light), &self.products.drawn, &self.products.atlas)
-        else {
+        let ([Some(behind), Some(so_far)], Some(atlas)) = (&self.products.drawn, &self.products.atlas) else {
             return Ok(());
         };
         let drawn = [behind, so_far];

@@ -6,7 +6,7 @@ use ::exr::meta::header::Header;
 use ::exr::prelude::Vec2;
 
 use crate::input::InputError;
-use crate::input::picture::check_size;
+use crate::input::picture::{Shape, check_size};
 
 /// The place of a part's stored pixels, its data window, in the picture, its display window.
 ///
@@ -22,11 +22,11 @@ pub(super) struct Placement {
 }
 
 impl Placement {
-    /// Refuses pictures that are no environments, and pictures whose data window is outside of the display window.
-    pub fn of(path: &Path, header: &Header) -> Result<Self, InputError> {
+    /// Refuses pictures of another shape, and pictures whose data window is outside of the display window.
+    pub fn of(path: &Path, header: &Header, shape: Shape) -> Result<Self, InputError> {
         let (data, display) = (header.data_window(), header.shared_attributes.display_window);
         let (Vec2(width, height), Vec2(stored_width, stored_height)) = (display.size, data.size);
-        check_size(path, width, height)?;
+        check_size(path, width, height, shape)?;
         let shift = |data: i32, display: i32| i64::from(data) - i64::from(display);
         let first = match data.size == display.size {
             true => [0, 0],

@@ -63,12 +63,42 @@ impl Display {
     /// The encoded bytes of a pixel of that column and row (from the top left), from linear BT.2020 radiance.
     #[must_use]
     pub fn encode(&self, radiance: DVec3, pixel: [u32; 2]) -> [u8; 3] {
+        self.bytes(encoded(self.linear(radiance)), pixel)
+    }
+
+    /// The same of light that is added to what a page shows, of which the part `left` remains in each of the display's channels: with straight
+    /// alpha, for programs that mix encoded values, as nearly all do that show PNG files.
+    ///
+    /// Alpha is how much less white a white page is, beside what is added: with P the encoded picture before black and W that before white it
+    /// is 1 − (W − P), the mean of the channels. It is no less than P, so that a colour times alpha is P, and the picture before black is exact.
+    #[must_use]
+    pub fn encode_alone(&self, added: DVec3, left: DVec3, pixel: [u32; 2]) -> [u8; 4] {
+        let added = self.linear(added);
+        let [black, white] = [added, (added + left).clamp(DVec3::ZERO, DVec3::ONE)].map(encoded);
+        let hidden = 1.0 - (white - black).element_sum() / 3.0;
+        let alpha = (255.0 * hidden.max(black.max_element())).round().clamp(0.0, 255.0);
+        if alpha == 0.0 {
+            return [0; 4];
+        }
+        let [r, g, b] = self.bytes((255.0 / alpha * black).min(DVec3::ONE), pixel);
+        [r, g, b, alpha as u8]
+    }
+
+    /// The display's linear RGB of radiance, 0 to 1.
+    fn linear(&self, radiance: DVec3) -> DVec3 {
         let exposed = self.exposure_ev.exp2() * (self.balance * radiance);
         let (toned, bleach) = tone_curve(exposed.max(DVec3::ZERO));
-        let linear = into_gamut(self.gamut, self.gamut.from_bt2020() * toned, bleach);
-        let noise = self.dither.map_or(0.0, |seed| dither(pixel, seed));
-        linear.to_array().map(|value| (255.0 * srgb_encode(value) + noise).round().clamp(0.0, 255.0) as u8)
+        into_gamut(self.gamut, self.gamut.from_bt2020() * toned, bleach)
     }
+
+    fn bytes(&self, encoded: DVec3, pixel: [u32; 2]) -> [u8; 3] {
+        let noise = self.dither.map_or(0.0, |seed| dither(pixel, seed));
+        encoded.to_array().map(|value| (255.0 * value + noise).round().clamp(0.0, 255.0) as u8)
+    }
+}
+
+fn encoded(linear: DVec3) -> DVec3 {
+    DVec3::from(linear.to_array().map(srgb_encode))
 }
 
 /// How much of its chroma a colour loses for its brightness, from 0 to 1, and the grey that it would end at, linear.

@@ -66,7 +66,11 @@ impl<'a> LightPath<'a> {
         let scale = DMat3::from_diagonal(daylight_scale());
         let responses: Vec<DMat3> = responses(scene.light).into_iter().map(|response| scale * response).collect();
         let seen = responses.iter().fold(DMat3::ZERO, |sum, response| sum + *response);
-        let surfaces: Vec<Surface> = scene.spheres.iter().map(|sphere| Surface::new(sphere, eye_m)).collect();
+        let surfaces: Vec<Surface> = scene
+            .spheres
+            .iter()
+            .map(|sphere| Surface::new(sphere.center_m - eye_m, sphere.radius_m, sphere.stretch))
+            .collect();
         // Where nothing stands on it, any height below the eye does.
         let level_m = || scene.spheres.first().map_or(-1.0, |sphere| sphere.center_m.z - eye_m.z);
         let one_plane = matches!(&scene.spheres[..], [sphere] if sphere.stretch == DMat3::IDENTITY);

@@ -26,7 +26,9 @@
 //! film's thickness). What stands behind the bubbles is seen straight through them only, not in reflections.
 
 mod bath;
+mod front;
 mod light_path;
+mod plate;
 mod view;
 mod walls;
 mod weights;
@@ -35,7 +37,9 @@ use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::colour::{ColourWeights, FilmOptics};
+pub use front::{FrontBubble, FrontPixel, FrontScene, FrontWall};
 use light_path::LightPath;
+pub use plate::Plate;
 pub use view::PictureCamera;
 
 /// A bubble.

@@ -2,8 +2,6 @@
 
 use glam::{DMat3, DVec3};
 
-use super::FilmSphere;
-
 /// A straight part of a light path, followed from the eye against the light.
 pub(super) struct Line {
     /// Where it starts, in metres from the eye.
@@ -39,14 +37,9 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// The surface of a bubble for an eye in metres.
-    pub fn new(sphere: &FilmSphere, eye_m: DVec3) -> Self {
-        Self {
-            center_m: sphere.center_m - eye_m,
-            radius_m: sphere.radius_m,
-            stretch: sphere.stretch,
-            to_round: sphere.stretch.inverse(),
-        }
+    /// The surface of a bubble, whose center is given in metres from the eye.
+    pub fn new(center_m: DVec3, radius_m: f64, stretch: DMat3) -> Self {
+        Self { center_m, radius_m, stretch, to_round: stretch.inverse() }
     }
 
     /// A place on the bubble, in metres from the eye.

@@ -3,7 +3,9 @@
 mod film;
 mod history;
 mod optics;
+mod parts;
 mod picture;
+mod plate;
 mod rest;
 mod step;
 
@@ -14,6 +16,7 @@ pub use picture::{
     BackdropKey, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FilmColours, Finish, LentFilm, LightKey,
     Lighting, SmallBubble, TonemapKey, exposed_ev,
 };
+pub use plate::PlateKey;
 pub use rest::RestingFilm;
 
 pub use crate::physics::{

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{FilmKey, OpenHoleKey, Opening, QuadratureKey, TableKey};
+use super::{FilmKey, OpenHoleKey, Opening, PlateKey, QuadratureKey, TableKey};
 use crate::physics::{
     colour::Gamut,
     environment::{CubeFace, CubeMap},
@@ -57,6 +57,8 @@ impl DefocusKey {
 /// One bubble as the picture sees it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BubbleKey {
+    /// Its number in layers of pictures, from 1: bubbles of the scene in their order, then the places of each generator.
+    pub id: u32,
     /// Index of its film, which for a bubble of the scene is the bubble's own.
     pub index: usize,
     /// Index of the material of its film in each of the [`Lighting`]s.
@@ -119,6 +121,8 @@ pub struct LentFilm {
 /// A bubble of a generator that is drawn with all others like it at once: round, whole, and with the reflections on three walls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmallBubble {
+    /// Its number in layers of pictures, as of [`BubbleKey::id`].
+    pub id: u32,
     /// Center in metres.
     pub center_m: DVec3,
     /// Radius in metres.
@@ -150,6 +154,7 @@ impl SmallBubble {
     #[must_use]
     pub fn whole(&self, lent: &LentFilm, camera: &CameraKey) -> BubbleKey {
         BubbleKey {
+            id: self.id,
             index: lent.index,
             material: lent.material,
             center_m: self.center_m,
@@ -198,6 +203,16 @@ pub struct CameraKey {
     pub up: DVec3,
     /// Height of a pixel on the plane one metre before the eye, in metres.
     pub pixel_height_m: f64,
+    /// Where the line of sight meets the picture, in pixels to the right of its middle and below: zero but for a part of a larger picture.
+    pub shift: DVec2,
+}
+
+impl CameraKey {
+    /// Where the line of sight meets a picture of that size, in pixels from the top left.
+    #[must_use]
+    pub fn axis(&self, size: [u32; 2]) -> DVec2 {
+        0.5 * DVec2::from(size.map(f64::from)) + self.shift
+    }
 }
 
 /// What stands straight behind the bubbles.
@@ -253,6 +268,8 @@ pub struct DrawKey {
     pub lent: Vec<LentFilm>,
     /// Whether they stand on a bath, which is a mirror of water at the height of their centers.
     pub on_bath: bool,
+    /// The photograph behind the bubbles. All light then stands before black, and the photograph is laid behind it.
+    pub plate: Option<PlateKey>,
 }
 
 /// Light of one illuminant, and what the films' optics in it need.
@@ -309,6 +326,12 @@ impl DrawKey {
         std::iter::once(&self.lighting).chain(&self.spectral_lights)
     }
 
+    /// How many pictures are drawn and added: one for each light, and what bubbles leave of a plate.
+    #[must_use]
+    pub fn pictures(&self) -> u64 {
+        self.lights().count() as u64 + u64::from(self.plate.is_some())
+    }
+
     /// All bubbles in sight, the small ones too, each as it would be drawn alone.
     #[must_use]
     pub fn all_bubbles(&self) -> Vec<BubbleKey> {
@@ -354,6 +377,8 @@ impl DrawKey {
             self.lighting.difference(&other.lighting)
         } else if self.spectral_lights != other.spectral_lights {
             "a light of another illuminant"
+        } else if self.plate != other.plate {
+            "the plate"
         } else if self.bubbles != other.bubbles || self.small != other.small || self.lent != other.lent {
             "a bubble or its film"
         } else {

@@ -5,6 +5,7 @@ mod crowd;
 mod events;
 mod films;
 mod lives;
+mod parts;
 mod story;
 
 use std::{
@@ -34,6 +35,7 @@ fn resources() -> Resources {
         illuminant: Arc::new(Illuminant::default()),
         spectral_lights: Vec::new(),
         liquids: BTreeMap::new(),
+        plate: None,
     }
 }
 

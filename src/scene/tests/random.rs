@@ -37,8 +37,11 @@ fn bubble() -> impl Strategy<Value = Bubble> {
 }
 
 fn camera() -> impl Strategy<Value = Camera> {
-    (prop::array::uniform3(-1e3..1e3), -1e9..1e9, -90.0..90.0, 0.0..1e3, 1.0..170.0, 0.0..180.0).prop_map(
-        |(target_m, azimuth_deg, elevation_deg, distance_m, fov_y_deg, follow_deg)| Camera {
+    let lens = (prop::option::of(1.0..5000.0), 1.0..500.0);
+    (prop::array::uniform3(-1e3..1e3), -1e9..1e9, -90.0..90.0, 0.0..1e3, 1.0..170.0, 0.0..180.0, lens).prop_map(
+        |(target_m, azimuth_deg, elevation_deg, distance_m, fov_y_deg, follow_deg, (focal_mm, sensor_mm))| Camera {
+            focal_mm,
+            sensor_mm,
             follow_deg,
             target_m,
             azimuth_deg,
@@ -130,10 +133,12 @@ fn lamp() -> impl Strategy<Value = LightLamp> {
 fn view() -> impl Strategy<Value = View> {
     let backdrop = prop_oneof![Just(Backdrop::Environment), radiance().prop_map(Backdrop::Radiance)];
     let look = (any_of(), prop::option::of(-1e9..1e9), any::<bool>());
-    (-20.0..20.0, backdrop, look, any::<bool>(), any::<u64>()).prop_map(
-        |(exposure_ev, backdrop, (quality, polariser_deg, white_balance), dither, dither_seed)| View {
+    let plate = prop::option::of("[a-z \\\\\"'é/]{0,8}\\.(png|jpg|exr|hdr)");
+    (-20.0..20.0, (backdrop, plate), look, any::<bool>(), any::<u64>()).prop_map(
+        |(exposure_ev, (backdrop, plate), (quality, polariser_deg, white_balance), dither, dither_seed)| View {
             exposure_ev,
             backdrop,
+            plate,
             quality,
             polariser_deg,
             white_balance,
