@@ -1,26 +1,24 @@
 //! Work that takes long, on threads of its own, so that the window never freezes: dialogs, loading, saving.
 
 use std::{
-    future::Future,
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
     sync::{
         Arc,
         mpsc::{Receiver, Sender, channel},
     },
-    time::{Duration, Instant},
 };
 
-use super::model::{Model, Target};
+use super::{
+    model::{Model, Target},
+    system,
+};
 use crate::{
     input::{LoadError, LoadedScene, load_environment, load_illuminant, load_scene},
     output::{Metadata, Picture, write_text},
     plan::Resources,
     scene::{Light, Scene},
 };
-
-/// A dialog that ends sooner than this without an answer was never seen.
-const UNSEEN: Duration = Duration::from_millis(250);
 
 /// What came of a piece of work.
 enum Outcome {
@@ -103,44 +101,38 @@ impl Files {
         });
     }
 
-    /// Asks for a file. The dialog is made here, on the window's thread, as macOS demands, and waited for on another.
+    /// Asks for a file.
     pub fn ask(&self, target: Target, model: &Model, window: &winit::window::Window) {
-        let dialog = rfd::AsyncFileDialog::new().set_parent(window).set_directory(model.folder.as_path());
-        let (name, endings) = target.file_type();
-        let dialog = dialog.add_filter(name, endings);
-        if target.is_read() {
-            self.wait_for(target, dialog.pick_file());
-        } else {
-            let stem = Path::new(&model.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
-            self.wait_for(target, dialog.set_file_name(format!("{stem}.{}", endings[0])).save_file());
-        }
-    }
-
-    fn wait_for(&self, target: Target, answer: impl Future<Output = Option<rfd::FileHandle>> + Send + 'static) {
-        let asked = Instant::now();
-        self.run(move || match pollster::block_on(answer) {
-            Some(file) => Outcome::Chosen(target, file.path().to_owned()),
-            None if asked.elapsed() < UNSEEN => Outcome::Failed(
-                "no file dialog could be opened: install xdg-desktop-portal or zenity, or drop files on the window"
-                    .to_owned(),
-            ),
-            None => Outcome::Nothing,
+        let stem = Path::new(&model.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
+        let tell = self.teller();
+        system::choose_file(target, &model.folder, stem, window, move |answer| {
+            tell(match answer {
+                Ok(Some(path)) => Outcome::Chosen(target, path),
+                Ok(None) => Outcome::Nothing,
+                Err(text) => Outcome::Failed(text),
+            });
         });
     }
 
-    fn run(&self, work: impl FnOnce() -> Outcome + Send + 'static) {
+    /// Tells the window of an outcome, from any thread.
+    fn teller(&self) -> impl Fn(Outcome) + Clone + Send + 'static {
         let (wake, sender, load) = (self.wake.clone(), self.sender.clone(), self.load);
-        let job = move || {
-            let broken = |_| Outcome::Failed("an internal error stopped the work: please report it".to_owned());
-            let outcome = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(broken);
+        move |outcome| {
             // Nobody listens any more once the window is gone.
             let _ = sender.send((load, outcome));
             wake();
+        }
+    }
+
+    fn run(&self, work: impl FnOnce() -> Outcome + Send + 'static) {
+        let tell = self.teller();
+        let told = tell.clone();
+        let job = move || {
+            let broken = |_| Outcome::Failed("an internal error stopped the work: please report it".to_owned());
+            tell(catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(broken));
         };
-        if let Err(error) = std::thread::Builder::new().name("soapfilm files".to_owned()).spawn(job) {
-            let failed = Outcome::Failed(format!("no thread could be started: {error}"));
-            let _ = self.sender.send((self.load, failed));
-            (self.wake)();
+        if let Err(error) = system::spawn(job) {
+            told(Outcome::Failed(format!("no thread could be started: {error}")));
         }
     }
 
@@ -210,6 +202,8 @@ fn load_light(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::time::Duration;
+
     use crate::{
         app::model::tests::model,
         scene::{Environment, Scene},

@@ -1,17 +1,14 @@
 //! One redraw: time, panels, picture, window, and when the next one is due.
 
-use std::{
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{sync::Arc, time::Duration};
 
 use egui::{Rect, ViewportInfo};
+use web_time::Instant;
 use winit::{event_loop::ActiveEventLoop, window::Window};
 
-#[cfg(debug_assertions)]
+#[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 use super::reload::ShaderWatch;
 use super::{
-    AppError,
     capture::Capture,
     files::Files,
     model::{Model, Request},
@@ -20,7 +17,6 @@ use super::{
     stage::Stage,
 };
 use crate::{
-    gpu::AdapterChoice,
     physics::colour::Gamut,
     plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
 };
@@ -34,6 +30,17 @@ const FETCH: Duration = Duration::from_millis(8);
 /// Time that a picture rests after it failed: nothing is gained by failing at every frame.
 const REST: Duration = Duration::from_secs(1);
 
+/// How far the window is with the picture that its model asks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// It is being made.
+    Under,
+    /// It is on the window.
+    Done,
+    /// It cannot be made.
+    Failed(String),
+}
+
 /// The window with all that it needs to draw itself.
 pub struct View {
     /// The window.
@@ -44,14 +51,15 @@ pub struct View {
     pub stage: Stage,
     /// Whether the system asks for the window to be drawn again.
     pub exposed: bool,
+    /// How far the picture is.
+    pub progress: Progress,
     /// Size of the picture, pixels.
     pub picture_size: [u32; 2],
-    choice: AdapterChoice,
     info: ViewportInfo,
     captures: Vec<Capture>,
     last_redraw: Instant,
     rests_until: Option<Instant>,
-    #[cfg(debug_assertions)]
+    #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
     watch: Option<ShaderWatch>,
 }
 
@@ -74,19 +82,19 @@ impl Due {
 
 impl View {
     /// A view on a new window.
-    pub fn new(window: Arc<Window>, egui: egui_winit::State, stage: Stage, choice: AdapterChoice) -> Self {
+    pub fn new(window: Arc<Window>, egui: egui_winit::State, stage: Stage) -> Self {
         Self {
             window,
             egui,
             stage,
             exposed: true,
+            progress: Progress::Under,
             picture_size: [1, 1],
-            choice,
             info: ViewportInfo::default(),
             captures: Vec::new(),
             last_redraw: Instant::now(),
             rests_until: None,
-            #[cfg(debug_assertions)]
+            #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
             watch: ShaderWatch::of_source(),
         }
     }
@@ -97,12 +105,12 @@ impl View {
         event_loop: &ActiveEventLoop,
         model: &mut Model,
         files: &Files,
-    ) -> Result<Option<Instant>, AppError> {
+    ) -> Option<Instant> {
         let size = <[u32; 2]>::from(self.window.inner_size());
         if size.contains(&0) {
-            return Ok(None);
+            return None;
         }
-        self.recover(model)?;
+        self.check(model);
         let mut due = Due { now: Instant::now(), at: None };
         let mut output = self.run_panels(event_loop, model, &mut due);
         // After the panels: what is changed there happens at the tick that its user sees.
@@ -112,7 +120,7 @@ impl View {
         self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
         let painted = self.paint(&mut output, size, moves);
         self.schedule(model, painted, moves, &mut due);
-        Ok(due.at)
+        due.at
     }
 
     /// Lets film time pass, unless the films are behind it; returns the tick before.
@@ -176,10 +184,13 @@ impl View {
             Ok((request, plan)) => {
                 hold_clock(model, &request, self.stage.renderer.state(), first_tick);
                 self.account(model, &plan, due);
+                let is_done = plan.complete && model.behind_ticks == 0;
+                self.progress = if is_done { Progress::Done } else { Progress::Under };
                 !plan.is_empty()
             }
             Err(text) => {
-                model.messages.problem(text);
+                model.messages.problem(&text);
+                self.progress = Progress::Failed(text);
                 self.rests_until = Some(due.now + REST);
                 // The message itself is to be shown at once.
                 due.after(Duration::ZERO);
@@ -218,7 +229,7 @@ impl View {
             let wait = Duration::from_secs_f64(wait_s);
             due.after(if moves { wait } else { wait.max(READING) });
         }
-        #[cfg(debug_assertions)]
+        #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
         due.at_latest(self.watch.as_ref().map(ShaderWatch::next));
         match painted {
             Painted::Done => {}
@@ -249,27 +260,24 @@ impl View {
         }
     }
 
-    /// Recreates everything on the device if the device is lost; reloads changed shaders.
-    fn recover(&mut self, model: &mut Model) -> Result<(), AppError> {
+    /// Whether the device is lost, and everything on it with it.
+    pub fn is_lost(&self) -> bool {
         // A loss is told by a callback, which comes when the device is polled.
         let _ = self.stage.renderer.gpu.device.poll(wgpu::PollType::Poll);
-        if self.stage.renderer.gpu.is_lost() {
-            log::warn!("recreating everything on the graphics device");
-            self.captures.clear();
-            let instance = self.stage.renderer.gpu.instance.clone();
-            self.stage = Stage::new(instance, &self.choice, &self.window, self.egui.egui_ctx())?;
-            self.exposed = true;
-            model.messages.note("The graphics device was lost and has been reopened");
-        }
-        if let Err(error) = self.stage.renderer.gpu.check() {
-            model.messages.problem(error.to_string());
-        }
-        #[cfg(debug_assertions)]
-        self.reload_shaders(model);
-        Ok(())
+        self.stage.renderer.gpu.is_lost()
     }
 
-    #[cfg(debug_assertions)]
+    /// Reports what the device has refused; reloads changed shaders.
+    fn check(&mut self, model: &mut Model) {
+        if let Err(error) = self.stage.renderer.gpu.check() {
+            self.progress = Progress::Failed(error.to_string());
+            model.messages.problem(error.to_string());
+        }
+        #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+        self.reload_shaders(model);
+    }
+
+    #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
     fn reload_shaders(&mut self, model: &mut Model) {
         let Some(folder) = self.watch.as_mut().and_then(|watch| watch.changed(Instant::now())) else { return };
         let library = crate::gpu::shaders::Library::Directory(folder.to_owned());

@@ -6,6 +6,7 @@
 //! | [`clock`], [`orbit`], [`history`] | time, camera and events as pure functions of the model |
 //! | [`panels`], [`keys`] | how people change the model |
 //! | [`files`] | dialogs, loading and saving on threads |
+//! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
 //! | `window`, `frame` | the event loop, and one redraw |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
@@ -15,26 +16,30 @@ mod edit;
 pub mod files;
 pub mod history;
 pub mod keys;
+#[cfg(any(target_arch = "wasm32", test))]
+pub mod link;
 pub mod messages;
 pub mod model;
 pub mod orbit;
 pub mod panels;
 
 mod capture;
-mod frame;
+pub(crate) mod frame;
 mod paint;
-#[cfg(debug_assertions)]
+#[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 mod reload;
 mod stage;
 mod style;
 mod surface;
+#[cfg_attr(target_arch = "wasm32", path = "system/browser.rs")]
+#[cfg_attr(not(target_arch = "wasm32"), path = "system/desktop.rs")]
+mod system;
 mod tools;
-mod window;
+pub(crate) mod window;
 
-use crate::{
-    gpu::{AdapterChoice, GpuError},
-    input::LoadedScene,
-};
+use crate::gpu::GpuError;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::{gpu::AdapterChoice, input::LoadedScene};
 
 /// Why the window cannot be opened, or had to be closed.
 #[derive(Debug, thiserror::Error)]
@@ -76,6 +81,7 @@ fn without_place(error: &dyn std::fmt::Display) -> String {
 ///
 /// # Errors
 /// There is no display or no usable adapter, or the device was lost and no other could be opened.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn run(loaded: LoadedScene, choice: &AdapterChoice) -> Result<(), AppError> {
     window::run(model::Model::new(loaded), choice)
 }

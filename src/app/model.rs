@@ -62,6 +62,9 @@ pub enum Request {
     LoadScene(String),
     /// Another light, whose environment must be loaded.
     LoadLight(Light),
+    /// A link to this page that holds the scene.
+    #[cfg(target_arch = "wasm32")]
+    CopyLink,
     /// The end.
     Quit,
 }

@@ -1,27 +1,31 @@
 //! The event loop: hands events to egui, redraws when something asks for it, and sleeps otherwise.
 
 use std::{
+    cell::RefCell,
     path::{Path, PathBuf},
+    rc::Rc,
     sync::Arc,
-    time::Instant,
 };
 
+#[cfg(not(target_arch = "wasm32"))]
 use egui_winit::accesskit_winit;
+use web_time::Instant;
 use winit::{
     application::ApplicationHandler,
-    dpi::LogicalSize,
     event::{StartCause, WindowEvent},
-    event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy},
-    window::{Window, WindowId},
+    event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy},
+    window::{Window, WindowAttributes, WindowId},
 };
+#[cfg(not(target_arch = "wasm32"))]
+use winit::{dpi::LogicalSize, event_loop::EventLoop};
 
 use super::{
     AppError,
     files::{Arrival, Files},
-    frame::View,
+    frame::{Progress, View},
     model::{Model, Request, Target},
     stage::Stage,
-    style,
+    style, system,
 };
 use crate::{
     gpu::{AdapterChoice, Gpu},
@@ -30,13 +34,18 @@ use crate::{
 };
 
 /// What reaches the loop from outside the window.
-enum Outside {
+#[cfg_attr(target_arch = "wasm32", derive(Clone))]
+pub enum Outside {
     /// A screen reader asks for something.
+    #[cfg(not(target_arch = "wasm32"))]
     Accessibility(accesskit_winit::Event),
     /// A worker has a result.
     Arrival,
+    /// The device is open, or there is none.
+    Stage,
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 impl From<accesskit_winit::Event> for Outside {
     fn from(event: accesskit_winit::Event) -> Self {
         Self::Accessibility(event)
@@ -44,54 +53,145 @@ impl From<accesskit_winit::Event> for Outside {
 }
 
 /// Runs the window until it is closed.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn run(model: Model, choice: &AdapterChoice) -> Result<(), AppError> {
     let event_loop = EventLoop::with_user_event().build()?;
-    let proxy = event_loop.create_proxy();
-    let waker = proxy.clone();
-    // A loop that has ended needs no waking.
-    let files = Files::new(move || drop(waker.send_event(Outside::Arrival)));
-    let mut handler =
-        Handler { model, files, choice: choice.clone(), proxy, view: None, next: None, asked: false, failure: None };
+    let attributes = Window::default_attributes().with_inner_size(LogicalSize::new(1280, 800)).with_visible(false);
+    let mut handler = Handler::new(model, choice.clone(), event_loop.create_proxy(), attributes);
     event_loop.run_app(&mut handler)?;
     handler.failure.map_or(Ok(()), Err)
 }
 
-struct Handler {
-    model: Model,
-    files: Files,
+/// A window, its model, and all that it is drawn with.
+pub struct Handler {
+    /// What is shown.
+    pub model: Model,
+    /// The workers.
+    pub files: Files,
     choice: AdapterChoice,
     proxy: EventLoopProxy<Outside>,
+    attributes: WindowAttributes,
+    /// A window that waits for its device.
+    bare: Option<Bare>,
+    /// Where the device arrives.
+    arriving: Rc<RefCell<Option<Result<Stage, AppError>>>>,
     view: Option<View>,
     /// When the next redraw is due; never where nothing will change by itself.
-    next: Option<Instant>,
+    pub next: Option<Instant>,
     /// Whether the redraw that comes is one that was asked for here.
     asked: bool,
     /// Why the loop ends early.
-    failure: Option<AppError>,
+    pub failure: Option<AppError>,
+}
+
+/// A window without a device, and what its user does.
+struct Bare {
+    window: Arc<Window>,
+    egui: egui_winit::State,
 }
 
 impl Handler {
-    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<View, AppError> {
-        let attributes = Window::default_attributes().with_inner_size(LogicalSize::new(1280, 800)).with_visible(false);
-        let window = Arc::new(event_loop.create_window(attributes.with_title(title(&self.model)))?);
+    /// A window that is opened when the loop runs.
+    pub fn new(
+        model: Model,
+        choice: AdapterChoice,
+        proxy: EventLoopProxy<Outside>,
+        attributes: WindowAttributes,
+    ) -> Self {
+        let waker = proxy.clone();
+        // A loop that has ended needs no waking.
+        let files = Files::new(move || drop(waker.send_event(Outside::Arrival)));
+        let (arriving, attributes) = (Rc::default(), attributes.with_title(title(&model)));
+        Self {
+            model,
+            files,
+            choice,
+            proxy,
+            attributes,
+            bare: None,
+            arriving,
+            view: None,
+            next: None,
+            asked: false,
+            failure: None,
+        }
+    }
+
+    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), AppError> {
+        let window = Arc::new(event_loop.create_window(self.attributes.clone())?);
         let ctx = egui::Context::default();
         style::apply(&ctx);
         let scale = Some(window.scale_factor() as f32);
         let root = egui::ViewportId::ROOT;
+        #[cfg_attr(target_arch = "wasm32", allow(unused_mut, reason = "screen readers see a canvas there"))]
         let mut egui = egui_winit::State::new(ctx, root, &window, scale, window.theme(), None);
         // Screen readers must be connected before the window is seen.
+        #[cfg(not(target_arch = "wasm32"))]
         egui.init_accesskit(event_loop, &window, self.proxy.clone());
         let instance = Gpu::instance_for(&self.choice, Box::new(event_loop.owned_display_handle()))?;
-        let stage = Stage::new(instance, &self.choice, &window, egui.egui_ctx())?;
+        self.open_device(instance, Bare { window, egui });
+        Ok(())
+    }
+
+    /// Opens a device for a window. A browser has none at once, and what is done in the window meanwhile is kept.
+    fn open_device(&mut self, instance: wgpu::Instance, bare: Bare) {
+        let opening = Stage::open(instance, self.choice.clone(), bare.window.clone(), bare.egui.egui_ctx().clone());
+        let (arriving, proxy) = (self.arriving.clone(), self.proxy.clone());
+        system::finish(async move {
+            *arriving.borrow_mut() = Some(opening.await);
+            // A loop that has ended needs no device.
+            let _ = proxy.send_event(Outside::Stage);
+        });
+        self.bare = Some(bare);
+    }
+
+    /// Takes the device that has arrived.
+    fn take_device(&mut self) -> Result<(), AppError> {
+        let Some(stage) = self.arriving.borrow_mut().take() else { return Ok(()) };
+        let (stage, Some(Bare { window, mut egui })) = (stage?, self.bare.take()) else { return Ok(()) };
         let gpu = &stage.renderer.gpu;
         self.model.costs.adapter = format!("{}, {}", gpu.adapter_name(), gpu.driver());
         tell(format_args!("adapter: {}", self.model.costs.adapter));
         egui.set_max_texture_side(gpu.device.limits().max_texture_dimension_2d as usize);
         window.set_visible(true);
-        Ok(View::new(window, egui, stage, self.choice.clone()))
+        self.view = Some(View::new(window, egui, stage));
+        Ok(())
     }
 
-    fn ask_for_redraw(&mut self) {
+    /// Opens another device if the device is lost, and everything on it with it.
+    fn recover(&mut self) {
+        let Some(view) = self.view.take_if(|view| view.is_lost()) else { return };
+        log::warn!("recreating everything on the graphics device");
+        let instance = view.stage.renderer.gpu.instance.clone();
+        self.open_device(instance, Bare { window: view.window, egui: view.egui });
+        self.model.messages.note("The graphics device was lost and has been reopened");
+    }
+
+    /// How far the picture is that the model asks for.
+    #[cfg(target_arch = "wasm32")]
+    pub fn progress(&self) -> Progress {
+        match (&self.failure, &self.view) {
+            (Some(error), _) => Progress::Failed(error.to_string()),
+            (None, Some(view)) if self.model.loading.is_none() => view.progress.clone(),
+            _ => Progress::Under,
+        }
+    }
+
+    /// Whether events of a window are for this one.
+    #[cfg(target_arch = "wasm32")]
+    pub fn is_of(&self, window: WindowId) -> bool {
+        let own = self.view.as_ref().map(|view| &view.window).or(self.bare.as_ref().map(|bare| &bare.window));
+        own.is_some_and(|own| own.id() == window)
+    }
+
+    /// The device, once it is open.
+    #[cfg(target_arch = "wasm32")]
+    pub fn gpu(&self) -> Option<&Gpu> {
+        self.view.as_ref().map(|view| &view.stage.renderer.gpu)
+    }
+
+    /// Requests another frame.
+    pub fn ask_for_redraw(&mut self) {
         if let Some(view) = &self.view {
             self.asked = true;
             self.next = None;
@@ -100,13 +200,11 @@ impl Handler {
     }
 
     fn redraw(&mut self, event_loop: &ActiveEventLoop) {
+        self.recover();
         let Some(view) = &mut self.view else { return };
         // A redraw that the program did not request comes from the system, which has lost the contents of the window.
         view.exposed |= !std::mem::take(&mut self.asked);
-        match view.redraw(event_loop, &mut self.model, &self.files) {
-            Ok(next) => self.next = next,
-            Err(error) => self.fail(event_loop, error),
-        }
+        self.next = view.redraw(event_loop, &mut self.model, &self.files);
         for request in std::mem::take(&mut self.model.requests) {
             self.serve(event_loop, request);
         }
@@ -123,6 +221,13 @@ impl Handler {
             Request::Ask(target) => self.files.ask(target, &self.model, &view.window),
             Request::LoadScene(name) => self.files.load_scene(&mut self.model, name),
             Request::LoadLight(light) => self.files.load_light(&mut self.model, light),
+            #[cfg(target_arch = "wasm32")]
+            Request::CopyLink => match system::copy_link(&self.model.scene.to_toml()) {
+                Ok(()) => self.model.messages.note("The link is on the clipboard"),
+                Err(text) => self.model.messages.problem(text),
+            },
+            // A browser closes its pages itself.
+            Request::Quit if cfg!(target_arch = "wasm32") => {}
             Request::Quit => event_loop.exit(),
         }
         self.ask_for_redraw();
@@ -153,9 +258,9 @@ impl Handler {
     }
 
     /// Opens a file that was chosen or dropped, by its ending.
-    fn open_file(&mut self, path: &Path) {
+    pub fn open_file(&mut self, path: &Path) {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("").to_ascii_lowercase();
-        let Some(name) = std::path::absolute(path).ok().and_then(|path| path.to_str().map(str::to_owned)) else {
+        let Some(name) = system::whole_path(path).to_str().map(str::to_owned) else {
             return self.model.messages.problem(format!("{}: this file name is not UTF-8; rename it", path.display()));
         };
         match ending.as_str() {
@@ -184,12 +289,11 @@ fn with_ending(path: PathBuf, ending: &str) -> PathBuf {
 
 impl ApplicationHandler<Outside> for Handler {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if self.view.is_none() {
-            match self.open(event_loop) {
-                Ok(view) => self.view = Some(view),
-                Err(error) => self.fail(event_loop, error),
-            }
-            self.ask_for_redraw();
+        if self.view.is_none()
+            && self.bare.is_none()
+            && let Err(error) = self.open(event_loop)
+        {
+            self.fail(event_loop, error);
         }
     }
 
@@ -199,9 +303,14 @@ impl ApplicationHandler<Outside> for Handler {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, event: Outside) {
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Outside) {
         match event {
             Outside::Arrival => self.arrive(),
+            Outside::Stage => match self.take_device() {
+                Ok(()) => self.ask_for_redraw(),
+                Err(error) => self.fail(event_loop, error),
+            },
+            #[cfg(not(target_arch = "wasm32"))]
             Outside::Accessibility(event) => {
                 let Some(view) = &mut self.view else { return };
                 match event.window_event {

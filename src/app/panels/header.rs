@@ -29,6 +29,10 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
                 ask(&mut model.requests, Target::SaveExr);
             }
         });
+        #[cfg(target_arch = "wasm32")]
+        if ui.button("Link").on_hover_text("Copy a link to this page that holds the scene with its history").clicked() {
+            model.requests.push(Request::CopyLink);
+        }
         if ui.button("?").on_hover_text("Keys and pointer (F1)").clicked() {
             model.shows_help = !model.shows_help;
         }

@@ -1,0 +1,129 @@
+//! What a browser has: tasks of one thread, a dialog for files, and files by name alone.
+
+use std::{
+    cell::RefCell,
+    io,
+    path::{Path, PathBuf},
+};
+
+use wasm_bindgen::{JsCast, JsValue, closure::Closure};
+use wasm_bindgen_futures::{JsFuture, spawn_local};
+use web_sys::{File, HtmlInputElement};
+
+use crate::{
+    app::{link::fragment, model::Target},
+    gpu::{AdapterChoice, Gpu, GpuError},
+    input::keep_file,
+};
+
+thread_local! {
+    /// The page's device, and what is fulfilled once it is there.
+    static DEVICE: RefCell<(Option<Result<Gpu, GpuError>>, Option<js_sys::Promise>)> = const { RefCell::new((None, None)) };
+}
+
+/// The device for a canvas: all canvases of a page share one, until it is lost.
+pub async fn device(
+    instance: wgpu::Instance,
+    choice: &AdapterChoice,
+    surface: &wgpu::Surface<'_>,
+) -> Result<Gpu, GpuError> {
+    let is_gone = |device: &Option<Result<Gpu, GpuError>>| !matches!(device, Some(Ok(gpu)) if !gpu.is_lost());
+    let opening = DEVICE.with_borrow(|(device, opening)| opening.clone().filter(|_| device.is_none()));
+    match opening {
+        Some(opening) => drop(JsFuture::from(opening).await),
+        None if DEVICE.with_borrow(|(device, _)| is_gone(device)) => {
+            // Others that come meanwhile wait for this one.
+            let mut opened = None;
+            let promise = js_sys::Promise::new(&mut |resolve, _| opened = Some(resolve));
+            DEVICE.set((None, Some(promise)));
+            let device = Gpu::on_instance(instance, choice, Some(surface)).await;
+            DEVICE.with_borrow_mut(|slot| slot.0 = Some(device));
+            let _ = opened.map(|opened| opened.call0(&JsValue::NULL));
+        }
+        None => {}
+    }
+    DEVICE.with_borrow(|(device, _)| device.clone()).unwrap_or_else(|| Err(GpuError::NoAdapter(String::new())))
+}
+
+/// Puts a link to this page that shows a scene on the clipboard.
+pub fn copy_link(toml: &str) -> Result<(), String> {
+    let refused = |reason: JsValue| format!("the link is not copied: {reason:?}");
+    let window = web_sys::window().ok_or("there is no page")?;
+    let href = window.location().href().map_err(refused)?;
+    let page = href.split(['?', '#']).next().unwrap_or(&href);
+    let writing = window.navigator().clipboard().write_text(&format!("{page}{}", fragment(toml)));
+    spawn_local(async move {
+        if let Err(reason) = JsFuture::from(writing).await {
+            log::error!("the link is not copied: {reason:?}");
+        }
+    });
+    Ok(())
+}
+
+/// Goes on when a device that is being opened is there.
+pub fn finish(opening: impl Future<Output = ()> + 'static) {
+    spawn_local(opening);
+}
+
+/// Runs a piece of work in a task of its own, after the page has shown that it has begun.
+pub fn spawn(job: impl FnOnce() + 'static) -> io::Result<()> {
+    let refused = |reason: JsValue| io::Error::other(format!("{reason:?}"));
+    let window = web_sys::window().ok_or_else(|| io::Error::other("there is no page"))?;
+    let task = Closure::once_into_js(job);
+    window
+        .set_timeout_with_callback_and_timeout_and_arguments_0(task.unchecked_ref(), 50)
+        .map(|_| ())
+        .map_err(refused)
+}
+
+/// Pages know files by their names alone.
+pub fn whole_path(path: &Path) -> PathBuf {
+    path.to_owned()
+}
+
+/// Asks for a file: `answer` gets its name, or why there is no dialog. Files that are written are downloads, which the browser asks for itself.
+pub fn choose_file(
+    target: Target,
+    _: &Path,
+    stem: &str,
+    _: &winit::window::Window,
+    answer: impl FnOnce(Result<Option<PathBuf>, String>) + 'static,
+) {
+    let (_, endings) = target.file_type();
+    if !target.is_read() {
+        return answer(Ok(Some(format!("{stem}.{}", endings[0]).into())));
+    }
+    let accepted: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
+    spawn_local(async move {
+        let kept = pick(&accepted.join(",")).await;
+        answer(kept.map_err(|reason| format!("the browser opens no file: {reason:?}")));
+    });
+}
+
+/// Shows the browser's dialog, and keeps all files that are chosen; the first one's name.
+async fn pick(accepted: &str) -> Result<Option<PathBuf>, JsValue> {
+    let document = web_sys::window().and_then(|window| window.document()).ok_or("there is no page")?;
+    let input: HtmlInputElement = document.create_element("input")?.unchecked_into();
+    input.set_type("file");
+    input.set_accept(accepted);
+    input.set_multiple(true);
+    let chosen = js_sys::Promise::new(&mut |resolve, _| {
+        input.set_onchange(Some(&resolve));
+        let _ = input.add_event_listener_with_callback("cancel", &resolve);
+    });
+    input.click();
+    JsFuture::from(chosen).await?;
+    let Some(files) = input.files() else { return Ok(None) };
+    let mut first = None;
+    for file in (0..files.length()).filter_map(|index| files.get(index)) {
+        keep(&file).await?;
+        first = first.or(Some(PathBuf::from(file.name())));
+    }
+    Ok(first)
+}
+
+async fn keep(file: &File) -> Result<(), JsValue> {
+    let bytes = JsFuture::from(file.array_buffer()).await?;
+    keep_file(&file.name(), &js_sys::Uint8Array::new(&bytes).to_vec());
+    Ok(())
+}
