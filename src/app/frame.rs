@@ -14,9 +14,10 @@ use super::{
     AppError,
     capture::Capture,
     files::Files,
-    model::{Model, Request},
+    model::Model,
     paint::{Contents, Painted},
     panels,
+    request::Request,
     stage::Stage,
 };
 use crate::{
@@ -46,6 +47,7 @@ pub struct View {
     pub exposed: bool,
     /// Size of the picture, pixels.
     pub picture_size: [u32; 2],
+    title: String,
     choice: AdapterChoice,
     info: ViewportInfo,
     captures: Vec<Capture>,
@@ -81,6 +83,7 @@ impl View {
             stage,
             exposed: true,
             picture_size: [1, 1],
+            title: String::new(),
             choice,
             info: ViewportInfo::default(),
             captures: Vec::new(),
@@ -103,6 +106,7 @@ impl View {
             return Ok(None);
         }
         self.recover(model)?;
+        self.tell_system(model);
         let mut due = Due { now: Instant::now(), at: None };
         let mut output = self.run_panels(event_loop, model, &mut due);
         // After the panels: what is changed there happens at the tick that its user sees.
@@ -113,6 +117,17 @@ impl View {
         let painted = self.paint(&mut output, size, moves);
         self.schedule(model, painted, moves, &mut due);
         Ok(due.at)
+    }
+
+    /// The title follows the scene, and the settings the window's size.
+    fn tell_system(&mut self, model: &mut Model) {
+        let title = model.title();
+        if self.title != title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
+        let size = self.window.inner_size().to_logical::<f64>(self.window.scale_factor());
+        model.settings.window = [size.width, size.height];
     }
 
     /// Lets film time pass, unless the films are behind it; returns the tick before.
@@ -135,7 +150,7 @@ impl View {
         if let Some(root) = full.viewport_output.get_mut(&egui::ViewportId::ROOT) {
             let commands = std::mem::take(&mut root.commands);
             if commands.contains(&egui::ViewportCommand::Close) {
-                model.requests.push(Request::Quit);
+                model.ask_for(Request::Quit);
             }
             // Nothing here asks for screenshots or the clipboard, so no action comes back.
             egui_winit::process_viewport_commands(&ctx, &mut self.info, commands, &self.window, &mut Vec::new());

@@ -19,8 +19,11 @@ use super::{
     AppError,
     files::{Arrival, Files},
     frame::View,
-    model::{Model, Request, Target},
+    keeper::Keeper,
+    model::Model,
+    request::{Question, Request, Target},
     stage::Stage,
+    storage::Storage,
     style,
 };
 use crate::{
@@ -44,14 +47,24 @@ impl From<accesskit_winit::Event> for Outside {
 }
 
 /// Runs the window until it is closed.
-pub fn run(model: Model, choice: &AdapterChoice) -> Result<(), AppError> {
+pub fn run(mut model: Model, choice: &AdapterChoice) -> Result<(), AppError> {
     let event_loop = EventLoop::with_user_event().build()?;
     let proxy = event_loop.create_proxy();
     let waker = proxy.clone();
     // A loop that has ended needs no waking.
     let files = Files::new(move || drop(waker.send_event(Outside::Arrival)));
-    let mut handler =
-        Handler { model, files, choice: choice.clone(), proxy, view: None, next: None, asked: false, failure: None };
+    let keeper = Keeper::new(Storage::of_user(), &mut model);
+    let mut handler = Handler {
+        model,
+        files,
+        keeper,
+        choice: choice.clone(),
+        proxy,
+        view: None,
+        next: None,
+        asked: false,
+        failure: None,
+    };
     event_loop.run_app(&mut handler)?;
     handler.failure.map_or(Ok(()), Err)
 }
@@ -59,6 +72,7 @@ pub fn run(model: Model, choice: &AdapterChoice) -> Result<(), AppError> {
 struct Handler {
     model: Model,
     files: Files,
+    keeper: Keeper,
     choice: AdapterChoice,
     proxy: EventLoopProxy<Outside>,
     view: Option<View>,
@@ -72,8 +86,12 @@ struct Handler {
 
 impl Handler {
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<View, AppError> {
-        let attributes = Window::default_attributes().with_inner_size(LogicalSize::new(1280, 800)).with_visible(false);
-        let window = Arc::new(event_loop.create_window(attributes.with_title(title(&self.model)))?);
+        let [width, height] = self.model.settings.window;
+        let attributes = Window::default_attributes()
+            .with_inner_size(LogicalSize::new(width, height))
+            .with_min_inner_size(LogicalSize::new(320, 240));
+        let attributes = attributes.with_title(self.model.title()).with_visible(false);
+        let window = Arc::new(event_loop.create_window(attributes)?);
         let ctx = egui::Context::default();
         style::apply(&ctx);
         let scale = Some(window.scale_factor() as f32);
@@ -107,6 +125,8 @@ impl Handler {
             Ok(next) => self.next = next,
             Err(error) => self.fail(event_loop, error),
         }
+        let kept = self.keeper.keep(&mut self.model, Instant::now());
+        self.next = [self.next, kept].into_iter().flatten().min();
         for request in std::mem::take(&mut self.model.requests) {
             self.serve(event_loop, request);
         }
@@ -123,6 +143,13 @@ impl Handler {
             Request::Ask(target) => self.files.ask(target, &self.model, &view.window),
             Request::LoadScene(name) => self.files.load_scene(&mut self.model, name),
             Request::LoadLight(light) => self.files.load_light(&mut self.model, light),
+            Request::Save => self.model.file.iter().for_each(|file| self.files.save_scene(file.clone(), &self.model)),
+            Request::Typed(target, text) => self.typed(target, text),
+            Request::Left(fate) => {
+                if let Some(work) = self.keeper.decide(fate) {
+                    self.files.take_up(&mut self.model, work);
+                }
+            }
             Request::Quit => event_loop.exit(),
         }
         self.ask_for_redraw();
@@ -130,26 +157,40 @@ impl Handler {
 
     fn arrive(&mut self) {
         for arrival in self.files.collect(&mut self.model) {
-            let Some(view) = &mut self.view else { return };
             match arrival {
-                Arrival::Scene => view.window.set_title(&title(&self.model)),
-                Arrival::Chosen(Target::SaveScene, path) => {
-                    self.files.save_scene(
-                        with_ending(path, "toml"),
-                        self.model.scene.clone(),
-                        self.model.folder.clone(),
-                    );
+                Arrival::Scene => {
+                    let path = self.model.file.as_ref().and_then(|file| std::path::absolute(file).ok());
+                    path.iter().for_each(|path| self.model.settings.remember(&path.display().to_string()));
                 }
-                Arrival::Chosen(Target::SavePng, path) => {
-                    view.capture(&mut self.model, false, with_ending(path, "png"));
-                }
-                Arrival::Chosen(Target::SaveExr, path) => {
-                    view.capture(&mut self.model, true, with_ending(path, "exr"));
-                }
-                Arrival::Chosen(Target::OpenScene | Target::OpenEnvironment, path) => self.open_file(&path),
+                Arrival::TakenUp => self.keeper.taken_up(&mut self.model),
+                Arrival::Saved => {}
+                Arrival::NotSaved => self.model.once_saved = None,
+                Arrival::Chosen(target, path) => self.chosen(target, path),
             }
         }
         self.ask_for_redraw();
+    }
+
+    fn chosen(&mut self, target: Target, path: PathBuf) {
+        let Some(view) = &mut self.view else { return };
+        match target {
+            Target::SaveScene => self.files.save_scene(with_ending(path, "toml"), &self.model),
+            Target::SavePng => view.capture(&mut self.model, false, with_ending(path, "png")),
+            Target::SaveExr => view.capture(&mut self.model, true, with_ending(path, "exr")),
+            Target::OpenScene | Target::OpenEnvironment => self.open_file(&path),
+        }
+    }
+
+    /// Takes a typed path; one that would replace a file must be typed twice, as the dialogs of systems ask too.
+    fn typed(&mut self, target: Target, text: String) {
+        let path = with_ending(from_home(&text), target.file_type().1[0]);
+        let replaces = format!("{} is there already; Enter replaces it", path.display());
+        let wrong = match (target.is_read(), path.exists(), self.model.question.take()) {
+            (true, false, _) => format!("there is no file {}", path.display()),
+            (false, true, Some(Question::Path(_, _, wrong))) if wrong.as_ref() != Some(&replaces) => replaces,
+            _ => return self.chosen(target, path),
+        };
+        self.model.question = Some(Question::Path(target, text, Some(wrong)));
     }
 
     /// Opens a file that was chosen or dropped, by its ending.
@@ -159,7 +200,7 @@ impl Handler {
             return self.model.messages.problem(format!("{}: this file name is not UTF-8; rename it", path.display()));
         };
         match ending.as_str() {
-            "toml" => self.files.load_scene(&mut self.model, name),
+            "toml" => self.model.ask_for(Request::LoadScene(name)),
             "exr" | "hdr" => {
                 let light =
                     Light { environment: Environment::File(name), constant: None, ..self.model.scene.light.clone() };
@@ -173,8 +214,11 @@ impl Handler {
     }
 }
 
-fn title(model: &Model) -> String {
-    format!("soapfilm – {}", model.name)
+/// A path as people type it, where `~` stands for their home.
+fn from_home(text: &str) -> PathBuf {
+    let text = text.trim();
+    let in_home = text.strip_prefix("~/").and_then(|rest| Some(std::env::home_dir()?.join(rest)));
+    in_home.unwrap_or_else(|| PathBuf::from(text))
 }
 
 /// A path that ends as its kind of file does, where the user gave no ending.
@@ -220,7 +264,10 @@ impl ApplicationHandler<Outside> for Handler {
         let Some(view) = &mut self.view else { return };
         match &event {
             WindowEvent::RedrawRequested => return self.redraw(event_loop),
-            WindowEvent::CloseRequested => return event_loop.exit(),
+            WindowEvent::CloseRequested => {
+                self.model.ask_for(Request::Quit);
+                return self.ask_for_redraw();
+            }
             WindowEvent::DroppedFile(path) => {
                 let path = path.clone();
                 self.open_file(&path);
@@ -241,6 +288,7 @@ impl ApplicationHandler<Outside> for Handler {
     }
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
+        self.keeper.close(&mut self.model, self.failure.is_none());
         // The surface must go before the display that it belongs to.
         self.view = None;
     }

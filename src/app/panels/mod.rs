@@ -10,6 +10,7 @@ mod motion;
 mod notices;
 mod picture;
 mod plots;
+mod question;
 #[cfg(test)]
 mod tests;
 mod tools;
@@ -42,7 +43,10 @@ pub struct Picture {
 
 /// Shows everything around the picture, obeys the keys, and returns where the picture stands.
 pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
-    let actions = keys::pressed(ui.ctx());
+    let (now_s, is_held) = ui.input(|input| (input.time, input.pointer.any_down()));
+    model.undo.pass(now_s, is_held);
+    // Who is asked a question answers it first.
+    let actions = if model.question.is_none() { keys::pressed(ui.ctx()) } else { Vec::new() };
     for action in &actions {
         model.act(*action);
     }
@@ -59,6 +63,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     picture.gesture.frame |= actions.contains(&Action::Frame);
     notices::show(ui.ctx(), picture.rect, model);
     help::show(ui.ctx(), &mut model.shows_help);
+    question::show(ui.ctx(), model);
     picture
 }
 
