@@ -10,7 +10,9 @@ use std::{
 };
 
 use super::{
-    model::{Model, Target},
+    model::Model,
+    request::{Question, Target},
+    storage::Unsaved,
     system,
 };
 use crate::{
@@ -24,9 +26,13 @@ use crate::{
 enum Outcome {
     Scene(Box<LoadedScene>),
     Light(Box<Light>, Resources, Vec<String>),
+    TakenUp(Box<LoadedScene>, Box<Unsaved>),
     Chosen(Target, PathBuf),
+    NoDialog(Target),
+    Saved(PathBuf, u64),
     Done(String),
     Failed(String),
+    NotSaved(String),
     Nothing,
 }
 
@@ -35,8 +41,14 @@ enum Outcome {
 pub enum Arrival {
     /// Another scene is in the model.
     Scene,
+    /// What an earlier window left is in the model.
+    TakenUp,
     /// A file was chosen.
     Chosen(Target, PathBuf),
+    /// The scene is in its file.
+    Saved,
+    /// The scene is not in its file: that failed, or its user thought better of it.
+    NotSaved,
 }
 
 /// The workers.
@@ -64,6 +76,15 @@ impl Files {
         });
     }
 
+    /// Loads what work names that an earlier window left.
+    pub fn take_up(&mut self, model: &mut Model, work: Unsaved) {
+        self.begin_load(model, &work.name);
+        self.run(move || match LoadedScene::from_toml(&work.scene, &work.name, &work.folder) {
+            Ok(loaded) => Outcome::TakenUp(loaded.into(), work.into()),
+            Err(error) => Outcome::Failed(error.to_string()),
+        });
+    }
+
     /// Loads the environment and illuminant that a light names; they and the light arrive together.
     pub fn load_light(&mut self, model: &mut Model, light: Light) {
         self.begin_load(model, "the light");
@@ -83,13 +104,14 @@ impl Files {
         model.loading = Some(what.to_owned());
     }
 
-    /// Saves a scene whose relative paths start from a folder. In another folder they still name the files that they do.
-    pub fn save_scene(&self, path: PathBuf, scene: Scene, folder: PathBuf) {
+    /// Saves the scene as it is now. Relative paths in it still name the files that they do.
+    pub fn save_scene(&self, path: PathBuf, model: &Model) {
+        let (scene, folder, state) = (Scene::clone(&model.scene), model.folder.clone(), model.undo.state());
         self.run(move || {
             let saved = moved(scene, &folder, path.parent().unwrap_or(Path::new("")));
             let written =
                 saved.and_then(|scene| write_text(&path, &scene.to_toml()).map_err(|error| error.to_string()));
-            written.map_or_else(Outcome::Failed, |()| Outcome::Done(format!("Saved {}", path.display())))
+            written.map_or_else(Outcome::NotSaved, |()| Outcome::Saved(path, state))
         });
     }
 
@@ -103,13 +125,12 @@ impl Files {
 
     /// Asks for a file.
     pub fn ask(&self, target: Target, model: &Model, window: &winit::window::Window) {
-        let stem = Path::new(&model.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
-        let tell = self.teller();
-        system::choose_file(target, &model.folder, stem, window, move |answer| {
+        let (tell, name) = (self.teller(), target.file_name(&model.name));
+        system::choose_file(target, &model.folder, name, window, move |answer| {
             tell(match answer {
                 Ok(Some(path)) => Outcome::Chosen(target, path),
                 Ok(None) => Outcome::Nothing,
-                Err(text) => Outcome::Failed(text),
+                Err(system::NoDialog) => Outcome::NoDialog(target),
             });
         });
     }
@@ -152,13 +173,27 @@ impl Files {
                 model.adopt_light(*light, resources);
                 notes.into_iter().for_each(|note| model.messages.remark(note));
             }
+            Outcome::TakenUp(loaded, work) if current => {
+                model.take_up(*loaded, *work);
+                return Some(Arrival::TakenUp);
+            }
             Outcome::Chosen(target, path) => return Some(Arrival::Chosen(target, path)),
+            Outcome::NoDialog(target) => model.question = Some(Question::path(target, &model.name, &model.folder)),
+            Outcome::Saved(path, state) => {
+                model.saved(path, state);
+                return Some(Arrival::Saved);
+            }
+            Outcome::NotSaved(text) => {
+                model.messages.problem(text);
+                return Some(Arrival::NotSaved);
+            }
             Outcome::Done(text) => model.messages.note(text),
             Outcome::Failed(text) => {
                 model.messages.problem(text);
                 model.loading = model.loading.take().filter(|_| !current);
             }
-            Outcome::Scene(_) | Outcome::Light(..) | Outcome::Nothing => {}
+            Outcome::Nothing => return Some(Arrival::NotSaved),
+            Outcome::Scene(_) | Outcome::TakenUp(..) | Outcome::Light(..) => {}
         }
         None
     }
@@ -166,10 +201,9 @@ impl Files {
 
 /// A scene whose relative paths start from another folder: they lead from there to the files inside it, and from the root to all others.
 fn moved(mut scene: Scene, from: &Path, to: &Path) -> Result<Scene, String> {
-    let absolute = |path: &Path| std::path::absolute(path).map_err(|error| format!("{}: {error}", path.display()));
     let current = PathBuf::from(".");
     let [from, to] = [from, to].map(|folder| if folder.as_os_str().is_empty() { &current } else { folder });
-    let [from, to] = [absolute(from)?, absolute(to)?];
+    let [from, to] = [from, to].map(|folder| system::whole_path(folder));
     if from == to {
         return Ok(scene);
     }
@@ -270,7 +304,8 @@ mod tests {
         let loaded = load_scene(old.join("scene.toml")).unwrap();
         let (files, arrived) = files();
         let saved = new.join("saved.toml");
-        files.save_scene(saved.clone(), loaded.scene.clone(), loaded.folder.clone());
+        let model = Model::new(loaded.clone());
+        files.save_scene(saved.clone(), &model);
         arrived.recv_timeout(PATIENCE).unwrap();
         let read = load_scene(&saved).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(read.resources.illuminant.spectrum(), loaded.resources.illuminant.spectrum());
@@ -280,11 +315,11 @@ mod tests {
         );
         assert_eq!(read.resources.liquids.len(), 1);
 
-        files.save_scene(old.join("again.toml"), loaded.scene.clone(), loaded.folder);
+        files.save_scene(old.join("again.toml"), &model);
         arrived.recv_timeout(PATIENCE).unwrap();
         assert_eq!(
             load_scene(old.join("again.toml")).unwrap().scene,
-            loaded.scene,
+            *model.scene,
             "in its own folder nothing changes"
         );
     }

@@ -11,9 +11,10 @@ use super::reload::ShaderWatch;
 use super::{
     capture::Capture,
     files::Files,
-    model::{Model, Request},
+    model::Model,
     paint::{Contents, Painted},
     panels,
+    request::Request,
     stage::Stage,
 };
 use crate::{
@@ -55,6 +56,7 @@ pub struct View {
     pub progress: Progress,
     /// Size of the picture, pixels.
     pub picture_size: [u32; 2],
+    title: String,
     info: ViewportInfo,
     captures: Vec<Capture>,
     last_redraw: Instant,
@@ -90,6 +92,7 @@ impl View {
             exposed: true,
             progress: Progress::Under,
             picture_size: [1, 1],
+            title: String::new(),
             info: ViewportInfo::default(),
             captures: Vec::new(),
             last_redraw: Instant::now(),
@@ -100,17 +103,13 @@ impl View {
     }
 
     /// Draws what has changed, and returns when there will be more to draw.
-    pub fn redraw(
-        &mut self,
-        event_loop: &ActiveEventLoop,
-        model: &mut Model,
-        files: &Files,
-    ) -> Option<Instant> {
+    pub fn redraw(&mut self, event_loop: &ActiveEventLoop, model: &mut Model, files: &Files) -> Option<Instant> {
         let size = <[u32; 2]>::from(self.window.inner_size());
         if size.contains(&0) {
             return None;
         }
         self.check(model);
+        self.tell_system(model);
         let mut due = Due { now: Instant::now(), at: None };
         let mut output = self.run_panels(event_loop, model, &mut due);
         // After the panels: what is changed there happens at the tick that its user sees.
@@ -121,6 +120,17 @@ impl View {
         let painted = self.paint(&mut output, size, moves);
         self.schedule(model, painted, moves, &mut due);
         due.at
+    }
+
+    /// The title follows the scene, and the settings the window's size.
+    fn tell_system(&mut self, model: &mut Model) {
+        let title = model.title();
+        if self.title != title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
+        let size = self.window.inner_size().to_logical::<f64>(self.window.scale_factor());
+        model.settings.window = [size.width, size.height];
     }
 
     /// Lets film time pass, unless the films are behind it; returns the tick before.
@@ -143,7 +153,7 @@ impl View {
         if let Some(root) = full.viewport_output.get_mut(&egui::ViewportId::ROOT) {
             let commands = std::mem::take(&mut root.commands);
             if commands.contains(&egui::ViewportCommand::Close) {
-                model.requests.push(Request::Quit);
+                model.ask_for(Request::Quit);
             }
             // Nothing here asks for screenshots or the clipboard, so no action comes back.
             egui_winit::process_viewport_commands(&ctx, &mut self.info, commands, &self.window, &mut Vec::new());

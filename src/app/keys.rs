@@ -21,10 +21,16 @@ pub enum Action {
     Panels,
     /// Shows or hides the help.
     Help,
+    /// Takes the last step back.
+    Undo,
+    /// Makes it again.
+    Redo,
     /// Opens a scene.
     Open,
-    /// Saves the scene.
+    /// Saves the scene to its file.
     Save,
+    /// Saves the scene to another file.
+    SaveAs,
     /// Saves the picture as PNG.
     SavePng,
     /// Saves the picture as EXR.
@@ -66,12 +72,20 @@ const fn command(key: Key, action: Action, help: &'static str) -> Binding {
 const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 /// All keys. Those with more modifiers stand first, for a shortcut also matches with more held than it asks for.
-pub const BINDINGS: [Binding; 23] = [
+pub const BINDINGS: [Binding; 27] = [
     Binding {
         shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::P),
         action: Action::SaveExr,
         help: "Save the picture's radiance as EXR",
     },
+    Binding {
+        shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::S),
+        action: Action::SaveAs,
+        help: "Save the scene to another file",
+    },
+    Binding { shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::Z), action: Action::Redo, help: "Redo" },
+    command(Key::Z, Action::Undo, "Undo"),
+    command(Key::Y, Action::Redo, "Redo"),
     command(Key::P, Action::SavePng, "Save the picture as PNG"),
     command(Key::O, Action::Open, "Open a scene"),
     command(Key::S, Action::Save, "Save the scene with its history"),

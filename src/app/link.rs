@@ -67,7 +67,9 @@ mod tests {
     #[test]
     fn base64url_is_that_of_the_standard() {
         // RFC 4648, section 10, and the two digits that differ from plain Base64.
-        for (bytes, text) in [("", ""), ("f", "Zg"), ("fo", "Zm8"), ("foo", "Zm9v"), ("foob", "Zm9vYg"), ("~~?", "fn4_")] {
+        for (bytes, text) in
+            [("", ""), ("f", "Zg"), ("fo", "Zm8"), ("foo", "Zm9v"), ("foob", "Zm9vYg"), ("~~?", "fn4_")]
+        {
             assert_eq!(to_base64url(bytes.as_bytes()), text);
             assert_eq!(from_base64url(text).as_deref(), Some(bytes.as_bytes()));
         }

@@ -5,8 +5,10 @@
 //! | [`model`] | the state: scene, clock, messages, requests; knows neither window nor GPU |
 //! | [`clock`], [`orbit`], [`history`] | time, camera and events as pure functions of the model |
 //! | [`panels`], [`keys`] | how people change the model |
-//! | [`files`] | dialogs, loading and saving on threads |
+//! | [`edit`], [`undo`] | the one gate for changes of the scene, and what takes them back |
+//! | [`files`], [`storage`], `keeper` | the system: dialogs, loading and saving; settings and unsaved work |
 //! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
+//! | [`request`] | what goes from the model to the system, and the questions that come before |
 //! | `window`, `frame` | the event loop, and one redraw |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
@@ -22,9 +24,13 @@ pub mod messages;
 pub mod model;
 pub mod orbit;
 pub mod panels;
+pub mod request;
+pub mod storage;
+pub mod undo;
 
 mod capture;
 pub(crate) mod frame;
+mod keeper;
 mod paint;
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 mod reload;

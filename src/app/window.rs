@@ -10,21 +10,24 @@ use std::{
 #[cfg(not(target_arch = "wasm32"))]
 use egui_winit::accesskit_winit;
 use web_time::Instant;
+#[cfg(not(target_arch = "wasm32"))]
+use winit::event_loop::EventLoop;
 use winit::{
     application::ApplicationHandler,
     event::{StartCause, WindowEvent},
     event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy},
     window::{Window, WindowAttributes, WindowId},
 };
-#[cfg(not(target_arch = "wasm32"))]
-use winit::{dpi::LogicalSize, event_loop::EventLoop};
 
 use super::{
     AppError,
     files::{Arrival, Files},
-    frame::{Progress, View},
-    model::{Model, Request, Target},
+    frame::View,
+    keeper::Keeper,
+    model::Model,
+    request::{Question, Request, Target},
     stage::Stage,
+    storage::Storage,
     style, system,
 };
 use crate::{
@@ -56,8 +59,8 @@ impl From<accesskit_winit::Event> for Outside {
 #[cfg(not(target_arch = "wasm32"))]
 pub fn run(model: Model, choice: &AdapterChoice) -> Result<(), AppError> {
     let event_loop = EventLoop::with_user_event().build()?;
-    let attributes = Window::default_attributes().with_inner_size(LogicalSize::new(1280, 800)).with_visible(false);
-    let mut handler = Handler::new(model, choice.clone(), event_loop.create_proxy(), attributes);
+    let attributes = Window::default_attributes().with_visible(false);
+    let mut handler = Handler::new(model, Storage::of_user(), choice.clone(), event_loop.create_proxy(), attributes);
     event_loop.run_app(&mut handler)?;
     handler.failure.map_or(Ok(()), Err)
 }
@@ -66,8 +69,8 @@ pub fn run(model: Model, choice: &AdapterChoice) -> Result<(), AppError> {
 pub struct Handler {
     /// What is shown.
     pub model: Model,
-    /// The workers.
-    pub files: Files,
+    files: Files,
+    keeper: Keeper,
     choice: AdapterChoice,
     proxy: EventLoopProxy<Outside>,
     attributes: WindowAttributes,
@@ -93,7 +96,8 @@ struct Bare {
 impl Handler {
     /// A window that is opened when the loop runs.
     pub fn new(
-        model: Model,
+        mut model: Model,
+        storage: Storage,
         choice: AdapterChoice,
         proxy: EventLoopProxy<Outside>,
         attributes: WindowAttributes,
@@ -101,15 +105,16 @@ impl Handler {
         let waker = proxy.clone();
         // A loop that has ended needs no waking.
         let files = Files::new(move || drop(waker.send_event(Outside::Arrival)));
-        let (arriving, attributes) = (Rc::default(), attributes.with_title(title(&model)));
+        let keeper = Keeper::new(storage, &mut model);
         Self {
             model,
             files,
+            keeper,
             choice,
             proxy,
             attributes,
             bare: None,
-            arriving,
+            arriving: Rc::default(),
             view: None,
             next: None,
             asked: false,
@@ -118,7 +123,8 @@ impl Handler {
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), AppError> {
-        let window = Arc::new(event_loop.create_window(self.attributes.clone())?);
+        let attributes = self.attributes.clone().with_title(self.model.title());
+        let window = Arc::new(event_loop.create_window(system::sized(attributes, self.model.settings.window))?);
         let ctx = egui::Context::default();
         style::apply(&ctx);
         let scale = Some(window.scale_factor() as f32);
@@ -169,7 +175,8 @@ impl Handler {
 
     /// How far the picture is that the model asks for.
     #[cfg(target_arch = "wasm32")]
-    pub fn progress(&self) -> Progress {
+    pub fn progress(&self) -> super::frame::Progress {
+        use super::frame::Progress;
         match (&self.failure, &self.view) {
             (Some(error), _) => Progress::Failed(error.to_string()),
             (None, Some(view)) if self.model.loading.is_none() => view.progress.clone(),
@@ -205,6 +212,8 @@ impl Handler {
         // A redraw that the program did not request comes from the system, which has lost the contents of the window.
         view.exposed |= !std::mem::take(&mut self.asked);
         self.next = view.redraw(event_loop, &mut self.model, &self.files);
+        let kept = self.keeper.keep(&mut self.model, Instant::now());
+        self.next = [self.next, kept].into_iter().flatten().min();
         for request in std::mem::take(&mut self.model.requests) {
             self.serve(event_loop, request);
         }
@@ -212,7 +221,7 @@ impl Handler {
 
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: AppError) {
         self.failure = Some(error);
-        event_loop.exit();
+        system::end(event_loop);
     }
 
     fn serve(&mut self, event_loop: &ActiveEventLoop, request: Request) {
@@ -226,35 +235,55 @@ impl Handler {
                 Ok(()) => self.model.messages.note("The link is on the clipboard"),
                 Err(text) => self.model.messages.problem(text),
             },
-            // A browser closes its pages itself.
-            Request::Quit if cfg!(target_arch = "wasm32") => {}
-            Request::Quit => event_loop.exit(),
+            Request::Save => self.model.file.iter().for_each(|file| self.files.save_scene(file.clone(), &self.model)),
+            Request::Typed(target, text) => self.typed(target, text),
+            Request::Left(fate) => {
+                if let Some(work) = self.keeper.decide(fate) {
+                    self.files.take_up(&mut self.model, work);
+                }
+            }
+            Request::Quit => system::end(event_loop),
         }
         self.ask_for_redraw();
     }
 
     fn arrive(&mut self) {
         for arrival in self.files.collect(&mut self.model) {
-            let Some(view) = &mut self.view else { return };
             match arrival {
-                Arrival::Scene => view.window.set_title(&title(&self.model)),
-                Arrival::Chosen(Target::SaveScene, path) => {
-                    self.files.save_scene(
-                        with_ending(path, "toml"),
-                        self.model.scene.clone(),
-                        self.model.folder.clone(),
-                    );
+                Arrival::Scene => {
+                    let path =
+                        self.model.file.as_ref().filter(|_| system::FILES_LAST).map(|file| system::whole_path(file));
+                    path.iter().for_each(|path| self.model.settings.remember(&path.display().to_string()));
                 }
-                Arrival::Chosen(Target::SavePng, path) => {
-                    view.capture(&mut self.model, false, with_ending(path, "png"));
-                }
-                Arrival::Chosen(Target::SaveExr, path) => {
-                    view.capture(&mut self.model, true, with_ending(path, "exr"));
-                }
-                Arrival::Chosen(Target::OpenScene | Target::OpenEnvironment, path) => self.open_file(&path),
+                Arrival::TakenUp => self.keeper.taken_up(&mut self.model),
+                Arrival::Saved => {}
+                Arrival::NotSaved => self.model.once_saved = None,
+                Arrival::Chosen(target, path) => self.chosen(target, path),
             }
         }
         self.ask_for_redraw();
+    }
+
+    fn chosen(&mut self, target: Target, path: PathBuf) {
+        let Some(view) = &mut self.view else { return };
+        match target {
+            Target::SaveScene => self.files.save_scene(with_ending(path, "toml"), &self.model),
+            Target::SavePng => view.capture(&mut self.model, false, with_ending(path, "png")),
+            Target::SaveExr => view.capture(&mut self.model, true, with_ending(path, "exr")),
+            Target::OpenScene | Target::OpenEnvironment => self.open_file(&path),
+        }
+    }
+
+    /// Takes a typed path; one that would replace a file must be typed twice, as the dialogs of systems ask too.
+    fn typed(&mut self, target: Target, text: String) {
+        let path = with_ending(from_home(&text), target.file_type().1[0]);
+        let replaces = format!("{} is there already; Enter replaces it", path.display());
+        let wrong = match (target.is_read(), path.exists(), self.model.question.take()) {
+            (true, false, _) => format!("there is no file {}", path.display()),
+            (false, true, Some(Question::Path(_, _, wrong))) if wrong.as_ref() != Some(&replaces) => replaces,
+            _ => return self.chosen(target, path),
+        };
+        self.model.question = Some(Question::Path(target, text, Some(wrong)));
     }
 
     /// Opens a file that was chosen or dropped, by its ending.
@@ -264,7 +293,7 @@ impl Handler {
             return self.model.messages.problem(format!("{}: this file name is not UTF-8; rename it", path.display()));
         };
         match ending.as_str() {
-            "toml" => self.files.load_scene(&mut self.model, name),
+            "toml" => self.model.ask_for(Request::LoadScene(name)),
             "exr" | "hdr" => {
                 let light =
                     Light { environment: Environment::File(name), constant: None, ..self.model.scene.light.clone() };
@@ -278,8 +307,11 @@ impl Handler {
     }
 }
 
-fn title(model: &Model) -> String {
-    format!("soapfilm – {}", model.name)
+/// A path as people type it, where `~` stands for their home.
+fn from_home(text: &str) -> PathBuf {
+    let text = text.trim();
+    let in_home = text.strip_prefix("~/").and_then(|rest| Some(std::env::home_dir()?.join(rest)));
+    in_home.unwrap_or_else(|| PathBuf::from(text))
 }
 
 /// A path that ends as its kind of file does, where the user gave no ending.
@@ -329,7 +361,10 @@ impl ApplicationHandler<Outside> for Handler {
         let Some(view) = &mut self.view else { return };
         match &event {
             WindowEvent::RedrawRequested => return self.redraw(event_loop),
-            WindowEvent::CloseRequested => return event_loop.exit(),
+            WindowEvent::CloseRequested => {
+                self.model.ask_for(Request::Quit);
+                return self.ask_for_redraw();
+            }
             WindowEvent::DroppedFile(path) => {
                 let path = path.clone();
                 self.open_file(&path);
@@ -350,6 +385,7 @@ impl ApplicationHandler<Outside> for Handler {
     }
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
+        self.keeper.close(&mut self.model, self.failure.is_none());
         // The surface must go before the display that it belongs to.
         self.view = None;
     }

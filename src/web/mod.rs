@@ -12,7 +12,7 @@ use web_sys::HtmlCanvasElement;
 
 use self::page::{Bubble, add};
 use crate::{
-    app::model::{Model, Request},
+    app::{model::Model, request::Request},
     input::load_scene,
 };
 
@@ -54,7 +54,7 @@ pub struct SoapBubble {
 
 #[wasm_bindgen]
 impl SoapBubble {
-    /// Shows a scene, by a preset's or a kept file's name, on a canvas, with or without panels. `told` is called with `loading`, `ready` or
+    /// Shows a scene, by a preset's or a kept file's name, on a canvas, with the panels around it or without. `told` is called with `loading`, `ready` or
     /// `error`, and the error's text, whenever that changes: the picture is ready once all that it consists of is drawn.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl SoapBubble {
         told: js_sys::Function,
     ) -> Result<SoapBubble, JsError> {
         let mut model = Model::new(load_scene(scene)?);
-        model.shows_panels = panels;
+        model.stands_alone = !panels;
         Ok(Self { bubble: add(model, canvas, told)? })
     }
 

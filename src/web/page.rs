@@ -25,6 +25,7 @@ use crate::{
     app::{
         frame::Progress,
         model::Model,
+        storage::Storage,
         window::{Handler, Outside},
     },
     gpu::AdapterChoice,
@@ -49,7 +50,9 @@ thread_local! {
 pub fn add(model: Model, canvas: HtmlCanvasElement, told: js_sys::Function) -> Result<Rc<RefCell<Bubble>>, JsError> {
     let (proxy, bubbles) = page()?;
     let attributes = Window::default_attributes().with_canvas(Some(canvas));
-    let handler = Handler::new(model, AdapterChoice::default(), proxy.clone(), attributes);
+    // Pictures in other people's pages leave nothing behind.
+    let storage = if model.stands_alone { Storage::default() } else { Storage::of_user() };
+    let handler = Handler::new(model, storage, AdapterChoice::default(), proxy.clone(), attributes);
     let bubble = Rc::new(RefCell::new(Bubble { handler, told, progress: Progress::Under, drawn: None }));
     bubbles.borrow_mut().push(bubble.clone());
     // Only the loop itself can open a window.

@@ -10,13 +10,14 @@ mod motion;
 mod notices;
 mod picture;
 mod plots;
+mod question;
 #[cfg(test)]
 mod tests;
 mod tools;
 mod view;
 mod widgets;
 
-use egui::{CollapsingHeader, Panel, Rect, ScrollArea, Ui};
+use egui::{CollapsingHeader, Context, Panel, Rect, ScrollArea, Ui};
 use glam::DVec2;
 
 use super::{
@@ -42,11 +43,15 @@ pub struct Picture {
 
 /// Shows everything around the picture, obeys the keys, and returns where the picture stands.
 pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
-    let actions = keys::pressed(ui.ctx());
+    let (now_s, is_held) = ui.input(|input| (input.time, input.pointer.any_down()));
+    model.undo.pass(now_s, is_held);
+    // Who is asked a question answers it first.
+    let obeys_keys = model.question.is_none() && !model.stands_alone;
+    let actions = if obeys_keys { keys::pressed(ui.ctx()) } else { Vec::new() };
     for action in &actions {
         model.act(*action);
     }
-    if model.shows_panels {
+    if model.shows_panels && !model.stands_alone {
         // A window narrower than the panel is all panel; `H` hides it.
         let width = WIDTH.min(ui.available_width());
         Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
@@ -55,11 +60,19 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     if model.touch(picture.pressed) {
         picture.gesture.turn = DVec2::ZERO;
     }
-    tools::show(ui.ctx(), picture.rect, model);
     picture.gesture.frame |= actions.contains(&Action::Frame);
-    notices::show(ui.ctx(), picture.rect, model);
-    help::show(ui.ctx(), &mut model.shows_help);
+    if !model.stands_alone {
+        over_picture(ui.ctx(), picture.rect, model);
+    }
     picture
+}
+
+/// Shows what lies over the picture.
+fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
+    tools::show(ctx, picture, model);
+    notices::show(ctx, picture, model);
+    help::show(ctx, &mut model.shows_help);
+    question::show(ctx, model);
 }
 
 fn sections(ui: &mut Ui, model: &mut Model) {

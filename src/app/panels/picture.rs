@@ -46,7 +46,7 @@ fn gesture(ui: &Ui, response: &Response, follow_deg: f64) -> Gesture {
     if response.hovered() && !ui.input(|input| input.pointer.any_down()) {
         let moved = ui.input(|input| input.pointer.delta());
         // The eye goes where the pointer goes; a drag pulls what one sees.
-        gesture.turn -= follow_deg / TURN_DEG * DVec2::new(moved.x.into(), moved.y.into()) / height;
+        gesture.follow = -follow_deg / TURN_DEG * DVec2::new(moved.x.into(), moved.y.into()) / height;
     }
     if response.contains_pointer() {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));

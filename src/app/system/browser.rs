@@ -9,9 +9,13 @@ use std::{
 use wasm_bindgen::{JsCast, JsValue, closure::Closure};
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{File, HtmlInputElement};
+use winit::{
+    event_loop::ActiveEventLoop,
+    window::{Window, WindowAttributes},
+};
 
 use crate::{
-    app::{link::fragment, model::Target},
+    app::{link::fragment, request::Target},
     gpu::{AdapterChoice, Gpu, GpuError},
     input::keep_file,
 };
@@ -60,6 +64,14 @@ pub fn copy_link(toml: &str) -> Result<(), String> {
     Ok(())
 }
 
+/// The page gives its canvas a size.
+pub fn sized(attributes: WindowAttributes, _: [f64; 2]) -> WindowAttributes {
+    attributes
+}
+
+/// Leaves the end to the browser, which closes its pages itself.
+pub fn end(_: &ActiveEventLoop) {}
+
 /// Goes on when a device that is being opened is there.
 pub fn finish(opening: impl Future<Output = ()> + 'static) {
     spawn_local(opening);
@@ -70,33 +82,38 @@ pub fn spawn(job: impl FnOnce() + 'static) -> io::Result<()> {
     let refused = |reason: JsValue| io::Error::other(format!("{reason:?}"));
     let window = web_sys::window().ok_or_else(|| io::Error::other("there is no page"))?;
     let task = Closure::once_into_js(job);
-    window
-        .set_timeout_with_callback_and_timeout_and_arguments_0(task.unchecked_ref(), 50)
-        .map(|_| ())
-        .map_err(refused)
+    window.set_timeout_with_callback_and_timeout_and_arguments_0(task.unchecked_ref(), 50).map(|_| ()).map_err(refused)
 }
+
+/// A page forgets its files.
+pub const FILES_LAST: bool = false;
 
 /// Pages know files by their names alone.
 pub fn whole_path(path: &Path) -> PathBuf {
     path.to_owned()
 }
 
-/// Asks for a file: `answer` gets its name, or why there is no dialog. Files that are written are downloads, which the browser asks for itself.
+/// The system has no dialog for files; all browsers have one.
+pub struct NoDialog;
+
+/// Asks for a file: `answer` gets its name, or none if the user wants none. A file that is written is a download, which the browser asks for itself.
 pub fn choose_file(
     target: Target,
     _: &Path,
-    stem: &str,
-    _: &winit::window::Window,
-    answer: impl FnOnce(Result<Option<PathBuf>, String>) + 'static,
+    name: String,
+    _: &Window,
+    answer: impl FnOnce(Result<Option<PathBuf>, NoDialog>) + 'static,
 ) {
-    let (_, endings) = target.file_type();
     if !target.is_read() {
-        return answer(Ok(Some(format!("{stem}.{}", endings[0]).into())));
+        return answer(Ok(Some(name.into())));
     }
-    let accepted: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
+    let accepted: Vec<String> = target.file_type().1.iter().map(|ending| format!(".{ending}")).collect();
     spawn_local(async move {
         let kept = pick(&accepted.join(",")).await;
-        answer(kept.map_err(|reason| format!("the browser opens no file: {reason:?}")));
+        answer(Ok(kept.unwrap_or_else(|reason| {
+            log::error!("the browser opens no file: {reason:?}");
+            None
+        })));
     });
 }
 

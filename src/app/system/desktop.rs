@@ -6,8 +6,14 @@ use std::{
     time::{Duration, Instant},
 };
 
+use winit::{
+    dpi::LogicalSize,
+    event_loop::ActiveEventLoop,
+    window::{Window, WindowAttributes},
+};
+
 use crate::{
-    app::model::Target,
+    app::request::Target,
     gpu::{AdapterChoice, Gpu, GpuError},
 };
 
@@ -23,6 +29,16 @@ pub async fn device(
     Gpu::on_instance(instance, choice, Some(surface)).await
 }
 
+/// A window of a size in points.
+pub fn sized(attributes: WindowAttributes, [width, height]: [f64; 2]) -> WindowAttributes {
+    attributes.with_inner_size(LogicalSize::new(width, height)).with_min_inner_size(LogicalSize::new(320, 240))
+}
+
+/// Ends the program.
+pub fn end(event_loop: &ActiveEventLoop) {
+    event_loop.exit();
+}
+
 /// Waits for a device that is being opened.
 pub fn finish(opening: impl Future<Output = ()>) {
     pollster::block_on(opening);
@@ -33,43 +49,45 @@ pub fn spawn(job: impl FnOnce() + Send + 'static) -> io::Result<()> {
     std::thread::Builder::new().name("soapfilm files".to_owned()).spawn(job).map(|_| ())
 }
 
+/// Whether a file can be opened another time.
+pub const FILES_LAST: bool = true;
+
 /// The path from the root.
 pub fn whole_path(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// Asks for a file: `answer` gets its path, none if the user wants none, or why there is no dialog. The dialog is made here, on the window's
+/// The system has no dialog for files.
+pub struct NoDialog;
+
+/// Asks for a file: `answer` gets its path, or none if the user wants none. `name` is what a new file is called at first. The dialog is made here, on the window's
 /// thread, as macOS demands, and waited for on another.
 pub fn choose_file(
     target: Target,
     folder: &Path,
-    stem: &str,
-    window: &winit::window::Window,
-    answer: impl FnOnce(Result<Option<PathBuf>, String>) + Send + 'static,
+    name: String,
+    window: &Window,
+    answer: impl FnOnce(Result<Option<PathBuf>, NoDialog>) + Send + 'static,
 ) {
     let dialog = rfd::AsyncFileDialog::new().set_parent(window).set_directory(folder);
-    let (name, endings) = target.file_type();
-    let dialog = dialog.add_filter(name, endings);
+    let (kind, endings) = target.file_type();
+    let dialog = dialog.add_filter(kind, endings);
     if target.is_read() {
         wait_for(dialog.pick_file(), answer);
     } else {
-        wait_for(dialog.set_file_name(format!("{stem}.{}", endings[0])).save_file(), answer);
+        wait_for(dialog.set_file_name(name).save_file(), answer);
     }
 }
 
 fn wait_for(
     chosen: impl Future<Output = Option<rfd::FileHandle>> + Send + 'static,
-    answer: impl FnOnce(Result<Option<PathBuf>, String>) + Send + 'static,
+    answer: impl FnOnce(Result<Option<PathBuf>, NoDialog>) + Send + 'static,
 ) {
     let asked = Instant::now();
     let job = move || {
         let file = pollster::block_on(chosen);
-        answer(if file.is_none() && asked.elapsed() < UNSEEN {
-            let advice = "no file dialog could be opened: install xdg-desktop-portal or zenity, or drop files on the window";
-            Err(advice.to_owned())
-        } else {
-            Ok(file.map(|file| file.path().to_owned()))
-        });
+        let is_unseen = file.is_none() && asked.elapsed() < UNSEEN;
+        answer(if is_unseen { Err(NoDialog) } else { Ok(file.map(|file| file.path().to_owned())) });
     };
     if let Err(error) = spawn(job) {
         log::error!("no thread could be started: {error}");
