@@ -194,7 +194,7 @@ impl View {
             Ok((request, plan)) => {
                 hold_clock(model, &request, self.stage.renderer.state(), first_tick);
                 self.account(model, &plan, due);
-                let is_done = plan.complete && model.behind_ticks == 0;
+                let is_done = is_done(&request, &plan, model.clock.running) && model.behind_ticks == 0;
                 self.progress = if is_done { Progress::Done } else { Progress::Under };
                 !plan.is_empty()
             }
@@ -322,6 +322,13 @@ fn pixel_rect(rect: Rect, pixels_per_point: f32, max: u32) -> (Rect, [u32; 2]) {
     let size = [pixels(rect.max.x) - min[0], pixels(rect.max.y) - min[1]].map(|size| size.max(1.0));
     let points = |pixels: [f32; 2]| egui::vec2(pixels[0], pixels[1]) / pixels_per_point;
     (Rect::from_min_size(points(min).to_pos2(), points(size)), size.map(|size| size as u32))
+}
+
+/// Whether a picture is the requested one after a plan. Films that cannot keep up with a running clock make it no other picture: it stands still
+/// until they have come.
+fn is_done(request: &FrameRequest, plan: &Plan, runs: bool) -> bool {
+    let made = plan.after.picture.as_ref();
+    plan.complete || runs && made.is_some_and(|made| made.draw.lights().eq(request.picture.draw.lights()))
 }
 
 /// Takes back the ticks of this frame that the films did not reach, and notes how far they are behind an edited history.

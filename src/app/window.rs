@@ -155,7 +155,9 @@ impl Handler {
     fn take_device(&mut self) -> Result<(), AppError> {
         let Some(stage) = self.arriving.borrow_mut().take() else { return Ok(()) };
         let (stage, Some(Bare { window, mut egui })) = (stage?, self.bare.take()) else { return Ok(()) };
-        let gpu = &stage.renderer.gpu;
+        let (gpu, proxy) = (&stage.renderer.gpu, self.proxy.clone());
+        // A loop that has ended needs no waking.
+        gpu.when_lost(move || drop(proxy.send_event(Outside::Arrival)));
         self.model.costs.adapter = format!("{}, {}", gpu.adapter_name(), gpu.driver());
         tell(format_args!("adapter: {}", self.model.costs.adapter));
         egui.set_max_texture_side(gpu.device.limits().max_texture_dimension_2d as usize);
@@ -396,10 +398,17 @@ impl Handler {
     /// Debug builds lose the device at F12, so that people and tests can see it come back.
     fn try_recovery(&mut self, event: &WindowEvent) {
         use winit::keyboard::{Key, NamedKey};
-        if let (Some(view), WindowEvent::KeyboardInput { event, .. }) = (&self.view, event)
+        if let WindowEvent::KeyboardInput { event, .. } = event
             && event.logical_key == Key::Named(NamedKey::F12)
             && event.state.is_pressed()
         {
+            self.lose_device();
+        }
+    }
+
+    /// Loses the device.
+    pub fn lose_device(&mut self) {
+        if let Some(view) = &self.view {
             view.lose_device();
             self.ask_for_redraw();
         }

@@ -108,6 +108,20 @@ impl SoapBubble {
         self.bubble.borrow().handler.model.scene.to_toml()
     }
 
+    /// The fragment of an address that holds the scene with its history: see `sceneOfLink`.
+    #[wasm_bindgen(getter)]
+    #[must_use]
+    pub fn fragment(&self) -> String {
+        crate::app::link::fragment(&self.to_toml())
+    }
+
+    /// Debug builds lose the device, so that tests can see it come back.
+    #[cfg(debug_assertions)]
+    #[wasm_bindgen(js_name = loseDevice)]
+    pub fn lose_device(&self) {
+        self.bubble.borrow_mut().handler.lose_device();
+    }
+
     /// Takes the scene off its canvas.
     pub fn remove(&self) {
         page::remove(&self.bubble);
