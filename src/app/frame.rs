@@ -6,6 +6,7 @@ use std::{
 };
 
 use egui::{Rect, ViewportInfo};
+use glam::DVec2;
 use winit::{event_loop::ActiveEventLoop, window::Window};
 
 #[cfg(debug_assertions)]
@@ -14,16 +15,20 @@ use super::{
     AppError,
     capture::Capture,
     files::Files,
+    film_reader::FilmReader,
+    input,
     model::Model,
     paint::{Contents, Painted},
     panels,
+    probe::Reading,
     request::Request,
     stage::Stage,
 };
 use crate::{
     gpu::AdapterChoice,
     physics::colour::Gamut,
-    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
+    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
+    studio::walls_in_sight,
 };
 
 /// Time between two looks at the clock while nothing but its reading changes.
@@ -51,6 +56,9 @@ pub struct View {
     choice: AdapterChoice,
     info: ViewportInfo,
     captures: Vec<Capture>,
+    reader: FilmReader,
+    /// What the picture shows.
+    shown: Option<DrawKey>,
     last_redraw: Instant,
     rests_until: Option<Instant>,
     #[cfg(debug_assertions)]
@@ -87,6 +95,8 @@ impl View {
             choice,
             info: ViewportInfo::default(),
             captures: Vec::new(),
+            reader: FilmReader::default(),
+            shown: None,
             last_redraw: Instant::now(),
             rests_until: None,
             #[cfg(debug_assertions)]
@@ -112,6 +122,7 @@ impl View {
         // After the panels: what is changed there happens at the tick that its user sees.
         let first_tick = self.pass_time(model, due.now);
         let moves = self.draw_picture(model, first_tick, &mut due);
+        self.probe(model, &mut due);
         self.fetch(model, files, &mut due);
         self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
         let painted = self.paint(&mut output, size, moves);
@@ -126,25 +137,31 @@ impl View {
             self.window.set_title(&title);
             self.title = title;
         }
-        let size = self.window.inner_size().to_logical::<f64>(self.window.scale_factor());
-        model.settings.window = [size.width, size.height];
+        if !model.presents {
+            let size = self.window.inner_size().to_logical::<f64>(self.window.scale_factor());
+            model.settings.window = [size.width, size.height];
+        }
     }
 
     /// Lets film time pass, unless the films are behind it; returns the tick before.
     fn pass_time(&mut self, model: &mut Model, now: Instant) -> u64 {
         let wall_s = now.duration_since(std::mem::replace(&mut self.last_redraw, now)).as_secs_f64();
         let first_tick = model.clock.tick;
-        if model.behind_ticks == 0 {
-            model.clock.advance(wall_s, &model.scene.motion);
-        }
+        model.advance(wall_s);
         first_tick
     }
 
     fn run_panels(&mut self, event_loop: &ActiveEventLoop, model: &mut Model, due: &mut Due) -> Output {
-        let input = self.egui.take_egui_input(&self.window);
         let ctx = self.egui.egui_ctx().clone();
-        let mut picture = None;
-        let mut full = ctx.run_ui(input, |ui| picture = Some(panels::show(ui, model)));
+        let mut full = egui::FullOutput::default();
+        let mut rect = Rect::NOTHING;
+        for input in input::one_by_one(self.egui.take_egui_input(&self.window)) {
+            full.append(ctx.run_ui(input, |ui| {
+                let picture = panels::show(ui, model);
+                rect = picture.rect;
+                model.move_camera(&picture.gesture, f64::from(rect.aspect_ratio().max(0.01)));
+            }));
+        }
         let platform = std::mem::take(&mut full.platform_output);
         self.egui.handle_platform_output_with_event_loop(&self.window, event_loop, platform);
         if let Some(root) = full.viewport_output.get_mut(&egui::ViewportId::ROOT) {
@@ -156,13 +173,9 @@ impl View {
             egui_winit::process_viewport_commands(&ctx, &mut self.info, commands, &self.window, &mut Vec::new());
             due.after(root.repaint_delay);
         }
-        let rect = picture.map_or(Rect::NOTHING, |picture| picture.rect);
         let (rect, size) =
             pixel_rect(rect, full.pixels_per_point, self.stage.renderer.gpu.device.limits().max_texture_dimension_2d);
         self.picture_size = size;
-        if let Some(picture) = picture {
-            model.move_camera(&picture.gesture, f64::from(size[0]) / f64::from(size[1]));
-        }
         Output { full, rect }
     }
 
@@ -190,6 +203,7 @@ impl View {
         match brought {
             Ok((request, plan)) => {
                 hold_clock(model, &request, self.stage.renderer.state(), first_tick);
+                self.shown = Some(request.picture.draw);
                 self.account(model, &plan, due);
                 !plan.is_empty()
             }
@@ -200,6 +214,30 @@ impl View {
                 due.after(Duration::ZERO);
                 false
             }
+        }
+    }
+
+    /// Reads the film under the pointer, if the pointer asks.
+    fn probe(&mut self, model: &mut Model, due: &mut Due) {
+        let (Some(place), Some(draw)) = (model.probe.asked(), &self.shown) else { return };
+        let [width, height] = draw.size.map(f64::from);
+        let position = 0.5 * DVec2::new(width, height) + height * DVec2::new(place.x, -place.y);
+        let walls = walls_in_sight(draw, self.reader.films(), position);
+        let is_read = walls.first().is_none_or(|wall| {
+            self.reader.read(&self.stage.renderer, wall.film, due.now).unwrap_or_else(|error| {
+                model.messages.problem(format!("the film cannot be read: {error}"));
+                true
+            })
+        });
+        // What arrived just now counts.
+        let walls = walls_in_sight(draw, self.reader.films(), position);
+        let time_s = model.clock.time_s(&model.scene.motion);
+        let is_new = model.probe.answer(Reading::new(&walls, time_s, model.scene.bubbles.len()), is_read);
+        if !is_read {
+            due.after(FETCH);
+        } else if is_new {
+            // The panels have not shown it yet.
+            due.after(Duration::ZERO);
         }
     }
 
@@ -271,6 +309,7 @@ impl View {
         if self.stage.renderer.gpu.is_lost() {
             log::warn!("recreating everything on the graphics device");
             self.captures.clear();
+            self.reader = FilmReader::default();
             let instance = self.stage.renderer.gpu.instance.clone();
             self.stage = Stage::new(instance, &self.choice, &self.window, self.egui.egui_ctx())?;
             self.exposed = true;

@@ -45,6 +45,12 @@ pub enum Action {
     TiltAway,
     /// Tilts gravity towards it.
     TiltBack,
+    /// Plays the length of the time line again and again, or once.
+    Loop,
+    /// Removes the event that is selected on the time line.
+    RemoveEvent,
+    /// Shows the picture alone on the whole screen, or no longer.
+    Present,
     /// Takes messages and help away.
     Dismiss,
     /// Ends the program.
@@ -72,7 +78,7 @@ const fn command(key: Key, action: Action, help: &'static str) -> Binding {
 const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 /// All keys. Those with more modifiers stand first, for a shortcut also matches with more held than it asks for.
-pub const BINDINGS: [Binding; 27] = [
+pub const BINDINGS: [Binding; 31] = [
     Binding {
         shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::P),
         action: Action::SaveExr,
@@ -100,6 +106,10 @@ pub const BINDINGS: [Binding; 27] = [
     bare(Key::Num3, Action::Take(Tool::Blow), "The pointer blows at a film"),
     bare(Key::Num4, Action::Take(Tool::Drag), "The pointer moves a bubble"),
     bare(Key::Num5, Action::Take(Tool::Prick), "The pointer bursts a bubble"),
+    bare(Key::Num6, Action::Take(Tool::Probe), "The pointer measures a film"),
+    bare(Key::L, Action::Loop, "Play in a loop"),
+    bare(Key::Delete, Action::RemoveEvent, "Remove the event that is selected on the time line"),
+    bare(Key::F11, Action::Present, "The picture alone, on the whole screen"),
     bare(Key::ArrowRight, Action::TiltRight, "Tilt gravity to the right"),
     bare(Key::ArrowLeft, Action::TiltLeft, "Tilt gravity to the left"),
     bare(Key::ArrowUp, Action::TiltAway, "Tilt gravity away from the camera"),

@@ -5,14 +5,16 @@ use std::path::PathBuf;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    clock::Clock,
+    clock::{Clock, Rate},
     costs::Costs,
     edit::{Edit, begins_anew, new_seed},
     keys::Action,
     messages::Messages,
     orbit,
+    probe::Probe,
     request::{Question, Request, Target},
     storage::{Settings, Unsaved},
+    time_line::TimeLine,
     tools::{self, Hand, Press, Tool},
     undo::{Step, Undo},
 };
@@ -41,6 +43,12 @@ pub struct Model {
     pub undo: Undo,
     /// Film time.
     pub clock: Clock,
+    /// How fast it passes.
+    pub rate: Rate,
+    /// How the time line is used.
+    pub time_line: TimeLine,
+    /// What is measured under the pointer.
+    pub probe: Probe,
     /// Index of the bubble that the film panel edits.
     pub selected: usize,
     /// Index of the generator that its panel edits.
@@ -55,6 +63,8 @@ pub struct Model {
     pub hand: Hand,
     /// Whether the panels are there.
     pub shows_panels: bool,
+    /// Whether the picture is alone on the screen.
+    pub presents: bool,
     /// Whether the help is there.
     pub shows_help: bool,
     /// What is being loaded.
@@ -92,6 +102,9 @@ impl Model {
             folder: loaded.folder,
             undo: Undo::default(),
             clock: Clock::default(),
+            rate: Rate::default(),
+            time_line: TimeLine::default(),
+            probe: Probe::default(),
             selected: 0,
             selected_generator: 0,
             furthest_tick: 0,
@@ -99,6 +112,7 @@ impl Model {
             tool: Tool::default(),
             hand: Hand::default(),
             shows_panels: true,
+            presents: false,
             shows_help: false,
             loading: None,
             behind_ticks: 0,
@@ -123,6 +137,8 @@ impl Model {
         self.undo = Undo::default();
         self.clock.reset();
         self.furthest_tick = 0;
+        self.time_line.selected = None;
+        self.probe = Probe::default();
         (self.selected, self.selected_generator) = (0, 0);
         self.motion_draft = None;
         // What the hand held is gone.
@@ -159,6 +175,35 @@ impl Model {
             self.undo.record_whole("Light", vec![back], Some(before));
         }
         self.loading = None;
+    }
+
+    /// Lets wall time pass, unless the films are behind the clock.
+    pub fn advance(&mut self, wall_s: f64) {
+        let motion = &self.scene.motion;
+        if self.behind_ticks == 0 {
+            self.clock.advance(wall_s, motion);
+        }
+        let time_s = self.clock.time_s(motion);
+        if !self.clock.running || self.behind_ticks > 0 {
+            self.rate.restart(time_s);
+        } else if self.time_line.loops && time_s >= self.time_line.length_s {
+            self.clock.reset();
+            self.rate.restart(0.0);
+        } else {
+            self.rate.note(wall_s, time_s);
+        }
+    }
+
+    /// Moves an event to another tick.
+    pub fn move_event(&mut self, index: usize, tick: u64) {
+        let mut events = self.scene.events.clone();
+        let Some(event) = events.get_mut(index).filter(|event| event.tick != tick) else { return };
+        event.tick = tick;
+        let moved = event.clone();
+        // Events stand in the order of their ticks; those of one tick keep theirs.
+        events.sort_by_key(|event| event.tick);
+        self.time_line.selected = events.iter().position(|event| *event == moved);
+        self.edit(Edit::History(self.scene.motion.clone().into(), events));
     }
 
     /// The motion that is in force now.
@@ -228,6 +273,13 @@ impl Model {
         // What a slider or the hand holds is of another scene.
         (self.motion_draft, self.hand) = (None, Hand::default());
         step
+    }
+
+    /// Removes the event that is selected on the time line.
+    pub fn remove_event(&mut self) {
+        if let Some(index) = self.time_line.selected.take().filter(|index| *index < self.scene.events.len()) {
+            self.edit(Edit::Forget(index));
+        }
     }
 
     /// Blows every film again, with a new seed for film and flow.
@@ -310,10 +362,15 @@ impl Model {
             Action::Step => self.clock.step(),
             Action::Reset => self.clock.reset(),
             Action::NewSeed => self.new_seeds(),
+            Action::Loop => self.time_line.loops = !self.time_line.loops,
+            Action::RemoveEvent => self.remove_event(),
+            Action::Present => self.presents = !self.presents,
             Action::Panels => self.shows_panels = !self.shows_panels,
             Action::Help => self.shows_help = !self.shows_help,
             Action::Dismiss => {
-                self.shows_help = false;
+                (self.shows_help, self.presents) = (false, false);
+                self.probe.pinned = None;
+                self.time_line.selected = None;
                 self.messages.clear();
             }
             Action::Undo => self.undo(),

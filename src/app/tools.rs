@@ -21,11 +21,21 @@ pub enum Tool {
     Drag,
     /// It bursts the bubble.
     Prick,
+    /// It measures the film; a drag moves the camera.
+    Probe,
 }
 
 impl Tool {
-    /// All tools, each with its name and what it does, in the order of the keys 1 to 5.
-    pub const ALL: [(Self, &str, &str); 5] = [
+    /// Whether it acts on films.
+    #[must_use]
+    pub fn acts(self) -> bool {
+        !matches!(self, Self::Orbit | Self::Probe)
+    }
+}
+
+impl Tool {
+    /// All tools, each with its name and what it does, in the order of the keys 1 to 6.
+    pub const ALL: [(Self, &str, &str); 6] = [
         (Self::Orbit, "Orbit", "Drag to turn around the bubble (1)"),
         (Self::Stir, "Stir", "Drag over a film to stir it (2)"),
         (
@@ -35,6 +45,7 @@ impl Tool {
         ),
         (Self::Drag, "Move", "Drag a bubble: its film stays behind (4)"),
         (Self::Prick, "Prick", "Click to burst a bubble there (5)"),
+        (Self::Probe, "Probe", "Point at a film to measure it; click to keep the numbers and see spectra (6)"),
     ];
 }
 
@@ -112,7 +123,7 @@ impl Aim {
 pub fn touch(hand: &mut Hand, tool: Tool, story: &Story, tick: u64, pressed: Option<Press>) -> Option<Change> {
     match (&mut *hand, pressed) {
         (Hand::Free, Some(press)) => {
-            let aim = (tool != Tool::Orbit).then(|| aim(story, tick, press.from)).flatten();
+            let aim = tool.acts().then(|| aim(story, tick, press.from)).flatten();
             let prick = aim.as_ref().filter(|_| tool == Tool::Prick).map(prick);
             *hand = aim.map_or(Hand::Camera, |aim| Hand::Film(Grip::new(tool, story, tick, &aim, press.at)));
             prick
@@ -174,7 +185,7 @@ impl Grip {
         match self.tool {
             Tool::Stir => stroke(self.bubble, before, self.at, radius_m / (ticks as f64 * tick_s), ticks),
             Tool::Blow => Some(jet(&aim, ticks)),
-            Tool::Orbit | Tool::Drag | Tool::Prick => None,
+            Tool::Orbit | Tool::Drag | Tool::Prick | Tool::Probe => None,
         }
     }
 }

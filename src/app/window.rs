@@ -94,6 +94,7 @@ impl Handler {
         let window = Arc::new(event_loop.create_window(attributes)?);
         let ctx = egui::Context::default();
         style::apply(&ctx);
+        ctx.set_zoom_factor(self.model.settings.zoom.clamp(0.5, 4.0));
         let scale = Some(window.scale_factor() as f32);
         let root = egui::ViewportId::ROOT;
         let mut egui = egui_winit::State::new(ctx, root, &window, scale, window.theme(), None);
@@ -177,6 +178,10 @@ impl Handler {
             Target::SaveScene => self.files.save_scene(with_ending(path, "toml"), &self.model),
             Target::SavePng => view.capture(&mut self.model, false, with_ending(path, "png")),
             Target::SaveExr => view.capture(&mut self.model, true, with_ending(path, "exr")),
+            Target::SaveCsv => {
+                let csv = self.model.probe.pinned.as_ref().map(|(reading, _)| reading.csv());
+                csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
+            }
             Target::OpenScene | Target::OpenEnvironment => self.open_file(&path),
         }
     }

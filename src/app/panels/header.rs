@@ -2,6 +2,7 @@
 
 use egui::Ui;
 
+use super::window;
 use crate::{
     app::{
         model::Model,
@@ -27,6 +28,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
                 ask(&mut model.requests, Target::SaveExr);
             }
         });
+        ui.menu_button("Window", |ui| window::menu(ui, model));
         if ui.button("?").on_hover_text("Keys and pointer (F1)").clicked() {
             model.shows_help = !model.shows_help;
         }

@@ -5,26 +5,30 @@ mod film;
 mod generators;
 mod header;
 mod help;
+mod hints;
 mod light;
 mod motion;
 mod notices;
 mod picture;
 mod plots;
+mod probe;
 mod question;
 #[cfg(test)]
 mod tests;
+mod time_line;
 mod tools;
 mod view;
 mod widgets;
+mod window;
 
-use egui::{CollapsingHeader, Panel, Rect, ScrollArea, Ui};
+use egui::{CollapsingHeader, Context, Panel, Rect, ScrollArea, Ui};
 use glam::DVec2;
 
 use super::{
     keys::{self, Action},
     model::Model,
     orbit::Gesture,
-    tools::Press,
+    tools::{Press, Tool},
 };
 
 /// Width of the panels, points.
@@ -39,6 +43,10 @@ pub struct Picture {
     pub gesture: Gesture,
     /// The pointer, if it is pressed there.
     pub pressed: Option<Press>,
+    /// Where the pointer is there: right and up from the picture's middle, in heights of the picture.
+    pub hovered: Option<DVec2>,
+    /// Whether it has clicked there.
+    pub clicked: bool,
 }
 
 /// Shows everything around the picture, obeys the keys, and returns where the picture stands.
@@ -50,21 +58,36 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     for action in &actions {
         model.act(*action);
     }
-    if model.shows_panels {
-        // A window narrower than the panel is all panel; `H` hides it.
-        let width = WIDTH.min(ui.available_width());
-        Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
+    if !model.presents {
+        time_line::show(ui, model);
+        if model.shows_panels {
+            // A window narrower than the panel is all panel; `H` hides it.
+            let width = WIDTH.min(ui.available_width());
+            Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
+        }
     }
     let mut picture = picture::show(ui, model.scene.camera.follow_deg);
+    picture.gesture.frame |= actions.contains(&Action::Frame);
     if model.touch(picture.pressed) {
         picture.gesture.turn = DVec2::ZERO;
     }
-    tools::show(ui.ctx(), picture.rect, model);
-    picture.gesture.frame |= actions.contains(&Action::Frame);
-    notices::show(ui.ctx(), picture.rect, model);
-    help::show(ui.ctx(), &mut model.shows_help);
-    question::show(ui.ctx(), model);
+    let probes = model.tool == Tool::Probe;
+    model.probe.point(picture.hovered.filter(|_| probes), picture.clicked && probes);
+    over_picture(ui.ctx(), picture.rect, model);
     picture
+}
+
+/// What stands over the picture, and the questions over everything.
+fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
+    if !model.presents {
+        tools::show(ctx, picture, model);
+        hints::show(ctx, picture, model);
+    }
+    probe::show(ctx, picture, model);
+    notices::show(ctx, picture, model);
+    help::show(ctx, &mut model.shows_help);
+    question::show(ctx, model);
+    window::show(ctx, model);
 }
 
 fn sections(ui: &mut Ui, model: &mut Model) {
