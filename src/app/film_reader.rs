@@ -44,15 +44,21 @@ impl FilmReader {
         &self.films
     }
 
-    /// Reads a film if it has changed since; returns whether what is here is what the picture shows.
+    /// The moment of a film that was read.
+    pub fn moment(&self, film: usize) -> Option<Moment> {
+        self.moments.get(&film).copied()
+    }
+
+    /// Reads a film if it has changed since; returns whether what is here is what the picture shows, or has just arrived: a film that moves is
+    /// always a little ahead.
     ///
     /// # Errors
     /// The device is lost, or refused a command.
     pub fn read(&mut self, renderer: &Renderer, film: usize, now: Instant) -> Result<bool, GpuError> {
-        self.collect(renderer)?;
+        let arrived = self.collect(renderer)?;
         let Some(Some(field)) = renderer.state().fields.get(film) else { return Ok(true) };
         let moment = field.shown.unwrap_or(field.key.moment);
-        if self.moments.get(&film) == Some(&moment) {
+        if arrived == Some(film) || self.moments.get(&film) == Some(&moment) {
             return Ok(true);
         }
         if self.pending.is_none() && self.next.is_none_or(|next| now >= next) {
@@ -69,26 +75,28 @@ impl FilmReader {
         Ok(())
     }
 
-    fn collect(&mut self, renderer: &Renderer) -> Result<(), GpuError> {
-        let Some(pending) = &mut self.pending else { return Ok(()) };
+    /// Takes what has arrived; returns its film.
+    fn collect(&mut self, renderer: &Renderer) -> Result<Option<usize>, GpuError> {
+        let Some(pending) = &mut self.pending else { return Ok(None) };
         renderer.gpu.device.poll(wgpu::PollType::Poll).map_err(|error| GpuError::Lost(error.to_string()))?;
         if pending.thickness_nm.is_none() {
             pending.thickness_nm = pending.thickness.try_take().transpose()?;
         }
         if pending.thickness_nm.is_none() {
-            return Ok(());
+            return Ok(None);
         }
         let velocity = match &pending.flow {
             None => None,
             Some((grid, readback)) => match readback.try_take().transpose()? {
-                None => return Ok(()),
+                None => return Ok(None),
                 Some(bytes) => Some((*grid, bytes)),
             },
         };
-        if let Some(pending) = self.pending.take() {
+        Ok(self.pending.take().map(|pending| {
+            let film = pending.film;
             self.put(pending, velocity);
-        }
-        Ok(())
+            film
+        }))
     }
 
     fn put(&mut self, pending: Pending, velocity: Option<(CubedSphere, Vec<u8>)>) {

@@ -231,7 +231,9 @@ impl View {
         });
         // What arrived just now counts.
         let walls = walls_in_sight(draw, self.reader.films(), position);
-        let time_s = model.clock.time_s(&model.scene.motion);
+        let moment = walls.first().and_then(|wall| self.reader.moment(wall.film));
+        let moment = moment.unwrap_or(model.clock.moment(&model.scene.motion));
+        let time_s = moment.ticks() * model.scene.motion.tick_s;
         let is_new = model.probe.answer(Reading::new(&walls, time_s, model.scene.bubbles.len()), is_read);
         if !is_read {
             due.after(FETCH);
@@ -312,6 +314,7 @@ impl View {
             self.reader = FilmReader::default();
             let instance = self.stage.renderer.gpu.instance.clone();
             self.stage = Stage::new(instance, &self.choice, &self.window, self.egui.egui_ctx())?;
+            panels::gallery::forget(self.egui.egui_ctx());
             self.exposed = true;
             model.messages.note("The graphics device was lost and has been reopened");
         }

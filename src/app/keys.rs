@@ -25,6 +25,8 @@ pub enum Action {
     Undo,
     /// Makes it again.
     Redo,
+    /// Adds a bubble like the selected one.
+    Duplicate,
     /// Opens a scene.
     Open,
     /// Saves the scene to its file.
@@ -78,7 +80,7 @@ const fn command(key: Key, action: Action, help: &'static str) -> Binding {
 const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 /// All keys. Those with more modifiers stand first, for a shortcut also matches with more held than it asks for.
-pub const BINDINGS: [Binding; 31] = [
+pub const BINDINGS: [Binding; 32] = [
     Binding {
         shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::P),
         action: Action::SaveExr,
@@ -92,6 +94,7 @@ pub const BINDINGS: [Binding; 31] = [
     Binding { shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::Z), action: Action::Redo, help: "Redo" },
     command(Key::Z, Action::Undo, "Undo"),
     command(Key::Y, Action::Redo, "Redo"),
+    command(Key::D, Action::Duplicate, "Add a bubble like the selected one"),
     command(Key::P, Action::SavePng, "Save the picture as PNG"),
     command(Key::O, Action::Open, "Open a scene"),
     command(Key::S, Action::Save, "Save the scene with its history"),
@@ -121,8 +124,9 @@ pub const BINDINGS: [Binding; 31] = [
 ];
 
 /// What the pointer does, for the help.
-pub const POINTER: [(&str, &str); 5] = [
+pub const POINTER: [(&str, &str); 6] = [
     ("Drag", "Turn around the bubble"),
+    ("Click", "Select a bubble"),
     ("Drag with a tool", "Stir, blow at or move a bubble; beside it, turn the view"),
     ("Right or Shift drag", "Shift the view"),
     ("Wheel, pinch", "Zoom, also into the bubble"),

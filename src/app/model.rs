@@ -8,6 +8,7 @@ use super::{
     clock::{Clock, Rate},
     costs::Costs,
     edit::{Edit, begins_anew, new_seed},
+    history,
     keys::Action,
     messages::Messages,
     orbit,
@@ -21,7 +22,7 @@ use super::{
 use crate::{
     input::LoadedScene,
     plan::{Resources, Story, film_owners, settle_detail},
-    scene::{Light, Motion, MotionChange, preset_toml},
+    scene::{Bubble, Light, Motion, MotionChange, preset_toml},
 };
 
 /// How far a key tilts gravity, degrees.
@@ -51,6 +52,8 @@ pub struct Model {
     pub probe: Probe,
     /// Index of the bubble that the film panel edits.
     pub selected: usize,
+    /// Whether it is outlined in the picture, because it was clicked there.
+    pub outlines: bool,
     /// Index of the generator that its panel edits.
     pub selected_generator: usize,
     /// The last tick that was ever shown of this history: how far its time line reaches.
@@ -65,6 +68,8 @@ pub struct Model {
     pub shows_panels: bool,
     /// Whether the picture is alone on the screen.
     pub presents: bool,
+    /// Whether the presets are there to choose from.
+    pub shows_gallery: bool,
     /// Whether the help is there.
     pub shows_help: bool,
     /// What is being loaded.
@@ -106,6 +111,7 @@ impl Model {
             time_line: TimeLine::default(),
             probe: Probe::default(),
             selected: 0,
+            outlines: false,
             selected_generator: 0,
             furthest_tick: 0,
             motion_draft: None,
@@ -113,6 +119,7 @@ impl Model {
             hand: Hand::default(),
             shows_panels: true,
             presents: false,
+            shows_gallery: false,
             shows_help: false,
             loading: None,
             behind_ticks: 0,
@@ -322,6 +329,42 @@ impl Model {
         format!("soapfilm – {}{edited}", self.name)
     }
 
+    /// Selects the bubble at a place in the picture, right and up from its middle in heights of it; beside all bubbles, none is outlined.
+    pub fn select(&mut self, place: DVec2) {
+        let bubble = tools::bubble_at(&self.scene, self.clock.tick, place);
+        self.outlines = bubble.is_some();
+        self.selected = bubble.unwrap_or(self.selected);
+    }
+
+    /// Adds a copy of a bubble to the right of the selected one, and selects it.
+    pub fn add_bubble(&mut self, mut bubble: Bubble) {
+        let (mut bubbles, generators) = (self.scene.bubbles.clone(), self.scene.generators.clone());
+        if let Some(beside) = bubbles.get(self.selected) {
+            let gap_m = 1.1e-3 * (beside.radius_mm + bubble.radius_mm);
+            let place = DVec3::from(beside.center_m) + gap_m * self.scene.camera.right();
+            bubble.center_m = place.to_array().map(|part| (part * 1e4).round() / 1e4);
+        }
+        bubbles.push(bubble);
+        let last = bubbles.len() - 1;
+        if self.edit(Edit::Films(bubbles, generators)) {
+            (self.selected, self.outlines) = (last, true);
+        }
+    }
+
+    /// Deletes the selected bubble; what would have happened to it is forgotten, and what happens to others stays.
+    pub fn delete_bubble(&mut self) {
+        let (mut bubbles, generators) = (self.scene.bubbles.clone(), self.scene.generators.clone());
+        if self.selected >= bubbles.len() {
+            return;
+        }
+        bubbles.remove(self.selected);
+        let events = history::without_bubble(&self.scene.events, self.selected);
+        let back = [Edit::History(self.scene.motion.clone().into(), events), Edit::Films(bubbles, generators)];
+        let back = back.into_iter().filter_map(|edit| self.apply(edit)).collect();
+        self.undo.record_whole("Delete bubble", back, None);
+        (self.selected, self.outlines) = (self.selected.saturating_sub(1), false);
+    }
+
     /// Lets the pointer, pressed or not, use its tool. Tells whether the camera shall stand.
     pub fn touch(&mut self, pressed: Option<Press>) -> bool {
         if let Some(change) = tools::touch(&mut self.hand, self.tool, &self.scene, self.clock.tick, pressed) {
@@ -372,6 +415,10 @@ impl Model {
                 self.probe.pinned = None;
                 self.time_line.selected = None;
                 self.messages.clear();
+            }
+            Action::Duplicate => {
+                let like = self.scene.bubbles.get(self.selected).cloned();
+                like.into_iter().for_each(|bubble| self.add_bubble(bubble));
             }
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),

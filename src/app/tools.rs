@@ -232,6 +232,26 @@ fn ray(scene: &Scene, place: DVec2) -> DVec3 {
     (camera.forward() + height * (place.x * camera.right() + place.y * camera.up())).normalize()
 }
 
+/// The bubble that is met first in the line of sight through a place in the picture.
+pub fn bubble_at(story: &Story, tick: u64, place: DVec2) -> Option<usize> {
+    aim(story, tick, place).map(|aim| aim.bubble)
+}
+
+/// The outline of a bubble in the picture, right and up from its middle in heights of it: the middle and the radius of a circle. `None` for one
+/// behind the eye or around it.
+pub fn outline(story: &Story, tick: u64, bubble: usize) -> Option<(DVec2, f64)> {
+    let (camera, radius_m) = (&story.camera, 1e-3 * story.bubbles.get(bubble)?.radius_mm);
+    let to_center = story.center_m(bubble, tick as f64 * story.motion.tick_s) - camera.eye();
+    let (depth, distance) = (to_center.dot(camera.forward()), to_center.length());
+    if depth <= 0.0 || distance <= radius_m {
+        return None;
+    }
+    let height = 2.0 * (0.5 * camera.fov_y_deg.to_radians()).tan();
+    let middle = DVec2::new(to_center.dot(camera.right()), to_center.dot(camera.up())) / (depth * height);
+    // As of a sphere straight ahead: off the axis its outline is an ellipse, a little longer.
+    Some((middle, radius_m / (distance * distance - radius_m * radius_m).sqrt() / height))
+}
+
 /// The film that is met first in the line of sight through a place in the picture; from inside a bubble that is its wall.
 fn aim(story: &Story, tick: u64, place: DVec2) -> Option<Aim> {
     let (eye, ray) = (story.camera.eye(), ray(story, place));
@@ -290,6 +310,17 @@ mod tests {
         let across_m = 0.012 * 2.0 * 15f64.to_radians().tan() * (0.24 - 0.05);
         assert!((first.velocity_m_s[1] - across_m / 0.1).abs() < 0.02 * across_m / 0.1, "{first:?}");
         assert!(first.at[0] > 0.99 && first.ticks == 6, "{first:?}");
+    }
+
+    #[test]
+    fn an_outline_is_where_the_bubble_is_met() {
+        let mut scene = seen_from_x();
+        scene.bubbles[0].center_m = [0.01, 0.02, 0.01];
+        let story = Story::new(scene);
+        let (middle, radius) = outline(&story, 0, 0).unwrap();
+        assert!(middle.x > 0.05 && middle.y > 0.02, "{middle}");
+        let at = |part: f64| bubble_at(&story, 0, middle - DVec2::new(part * radius, 0.0));
+        assert_eq!([at(0.0), at(0.97), at(1.05)], [Some(0), Some(0), None]);
     }
 
     #[test]

@@ -1,7 +1,9 @@
 //! The panels: each a small function of the model. They touch neither window nor GPU, so tests drive them without either.
 
+mod all_keys;
 mod costs;
 mod film;
+pub mod gallery;
 mod generators;
 mod header;
 mod help;
@@ -71,6 +73,9 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     if model.touch(picture.pressed) {
         picture.gesture.turn = DVec2::ZERO;
     }
+    if let Some(place) = picture.hovered.filter(|_| picture.clicked && model.tool == Tool::Orbit) {
+        model.select(place);
+    }
     let probes = model.tool == Tool::Probe;
     model.probe.point(picture.hovered.filter(|_| probes), picture.clicked && probes);
     over_picture(ui.ctx(), picture.rect, model);
@@ -80,12 +85,14 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
 /// What stands over the picture, and the questions over everything.
 fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
     if !model.presents {
+        picture::outline(ctx, picture, model);
         tools::show(ctx, picture, model);
         hints::show(ctx, picture, model);
     }
     probe::show(ctx, picture, model);
     notices::show(ctx, picture, model);
     help::show(ctx, &mut model.shows_help);
+    gallery::show(ctx, model);
     question::show(ctx, model);
     window::show(ctx, model);
 }
@@ -100,6 +107,7 @@ fn sections(ui: &mut Ui, model: &mut Model) {
         section(ui, "Motion", true, |ui| motion::show(ui, model));
         section(ui, "Light", true, |ui| light::show(ui, model));
         section(ui, "View", true, |ui| view::show(ui, model));
+        section(ui, "All keys", false, |ui| all_keys::show(ui, model));
         section(ui, "Costs", false, |ui| costs::show(ui, model));
     });
 }

@@ -1,12 +1,15 @@
 //! The picture's place in the window, and what the pointer does there.
 
-use egui::{CentralPanel, Frame, PointerButton, Pos2, Rect, Response, Sense, Ui};
+use egui::{
+    CentralPanel, Color32, Context, Frame, LayerId, PointerButton, Pos2, Rect, Response, Sense, Stroke, Ui, vec2,
+};
 use glam::DVec2;
 
 use super::Picture;
 use crate::app::{
+    model::Model,
     orbit::{Gesture, TURN_DEG},
-    tools::Press,
+    tools::{self, Press},
 };
 
 /// Natural logarithm of the magnification for a point of scrolling: a notch of a wheel is 40 points.
@@ -43,6 +46,20 @@ fn pressed(ui: &Ui, response: &Response) -> Option<Press> {
 fn place(picture: Rect, at: Pos2) -> DVec2 {
     let from_middle = (at - picture.center()) / picture.height().max(1.0);
     DVec2::new(from_middle.x.into(), (-from_middle.y).into())
+}
+
+/// Outlines the selected bubble, if it was clicked.
+pub fn outline(ctx: &Context, picture: Rect, model: &Model) {
+    let outline = tools::outline(&model.scene, model.clock.tick, model.selected);
+    if let Some((middle, radius)) = outline.filter(|_| model.outlines) {
+        let at = picture.center() + picture.height() * vec2(middle.x as f32, -middle.y as f32);
+        let painter = ctx.layer_painter(LayerId::background()).with_clip_rect(picture);
+        painter.circle_stroke(
+            at,
+            picture.height() * radius as f32 + 2.0,
+            Stroke::new(1.0, Color32::from_white_alpha(150)),
+        );
+    }
 }
 
 fn gesture(ui: &Ui, response: &Response, follow_deg: f64) -> Gesture {

@@ -1,7 +1,7 @@
 //! The probe's numbers: a card beside the pointer, and a window with spectra for what was clicked.
 
 use egui::{Align2, Area, Color32, Context, Frame, Grid, Id, Rect, Sense, Ui, Window, vec2};
-use egui_plot::{Legend, Line, Plot, PlotPoints};
+use egui_plot::{Line, Plot, PlotPoints};
 
 use crate::app::{
     model::Model,
@@ -75,27 +75,37 @@ fn pinned(ctx: &Context, picture: Rect, model: &mut Model) {
     }
 }
 
+/// A curve of the plot: its name, its colour, and its value in a row.
+type Curve = (&'static str, Color32, fn(&SpectrumRow) -> f64);
+
+/// The curves, that of both walls last.
+const CURVES: [Curve; 4] = [
+    ("R, s", Color32::from_rgb(90, 160, 230), |row| row.r.s),
+    ("R, p", Color32::from_rgb(230, 150, 80), |row| row.r.p),
+    ("R", Color32::from_rgb(110, 190, 110), |row| row.r.mean()),
+    ("R of both walls", Color32::from_rgb(200, 120, 200), |row| row.both[0]),
+];
+const LIGHT: Color32 = Color32::from_gray(125);
+
 /// Reflectance and transmittance against wavelength, over the light's spectrum.
 fn spectra(ui: &mut Ui, rows: &[SpectrumRow], two_walls: bool, picture: Rect) {
+    let curves = &CURVES[..CURVES.len() - usize::from(!two_walls)];
+    let brightest = rows.iter().map(|row| row.both[0].max(row.r.s)).fold(0.01, f64::max);
     let line = |name: &str, colour: Color32, value: &dyn Fn(&SpectrumRow) -> f64| {
         let points: PlotPoints<'_> = rows.iter().map(|row| [row.wavelength_nm, value(row)]).collect();
         Line::new(name, points).color(colour)
     };
-    let brightest = rows.iter().map(|row| row.both[0].max(row.r.s)).fold(0.01, f64::max);
-    let grey = Color32::from_gray(110);
-    let plot =
-        Plot::new("spectra").width(300.0).height((0.3 * picture.height()).clamp(70.0, 150.0)).legend(Legend::default());
-    let plot = plot.allow_drag(false).allow_zoom(false).allow_scroll(false).allow_boxed_zoom(false).include_y(0.0);
-    plot.x_axis_label("wavelength, nm").show(ui, |plot| {
+    let plot = Plot::new("spectra").width(320.0).height((0.28 * picture.height()).clamp(70.0, 150.0)).include_y(0.0);
+    plot.allow_drag(false).allow_zoom(false).allow_scroll(false).allow_boxed_zoom(false).show(ui, |plot| {
         // The light in the scale of the reflectances: only its shape counts.
-        plot.line(line("light", grey, &|row| brightest * row.light).fill(0.0));
-        plot.line(line("R, s", Color32::from_rgb(90, 160, 230), &|row| row.r.s));
-        plot.line(line("R, p", Color32::from_rgb(230, 150, 80), &|row| row.r.p));
-        plot.line(line("R", Color32::from_rgb(120, 200, 120), &|row| row.r.mean()));
-        if two_walls {
-            plot.line(line("R, both walls", Color32::from_rgb(200, 120, 200), &|row| row.both[0]));
-        }
+        plot.line(line("light", LIGHT, &|row| brightest * row.light).fill(0.0));
+        curves.iter().for_each(|(name, colour, value)| plot.line(line(name, *colour, value)));
+    });
+    ui.horizontal(|ui| {
+        curves.iter().for_each(|(name, colour, _)| drop(ui.colored_label(*colour, *name)));
+        ui.colored_label(LIGHT, "light, over nm");
     });
     let middle = &rows[rows.len() / 2];
-    ui.weak(format!("T at {:.0} nm: {:.4}, through both walls {:.4}", middle.wavelength_nm, middle.t, middle.both[1]));
+    let both = if two_walls { format!(", through both walls {:.4}", middle.both[1]) } else { String::new() };
+    ui.weak(format!("T at {:.0} nm: {:.4}{both}", middle.wavelength_nm, middle.t));
 }

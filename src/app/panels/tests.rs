@@ -269,6 +269,54 @@ fn the_probe_shows_its_numbers_and_keeps_what_was_clicked() {
 }
 
 #[test]
+fn all_keys_have_rows_and_can_be_set_back() {
+    let mut window = window();
+    click(&mut window, "All keys");
+    let before = Scene::clone(&window.state().model.scene);
+    window.state_mut().model.scene.change(|scene| scene.camera.azimuth_deg = 77.0);
+    window.run();
+    for label in ["Azimuth", "Target", "Center", "Film seed"] {
+        assert!(window.query_all_by_label(label).next().is_some(), "{label}");
+    }
+    let resets: Vec<_> = window.query_all_by_label("⟲").map(|reset| reset.rect().center().y).collect();
+    let azimuth = window.query_all_by_label("Azimuth").next().unwrap().rect().center().y;
+    let nearest =
+        (0..resets.len()).min_by(|a, b| (resets[*a] - azimuth).abs().total_cmp(&(resets[*b] - azimuth).abs()));
+    window.query_all_by_label("⟲").nth(nearest.unwrap()).unwrap().click();
+    window.run();
+    assert_eq!(window.state().model.scene.camera.azimuth_deg, 20.0, "its normal value");
+    assert_eq!(window.state().model.scene.bubbles, before.bubbles, "other keys stay");
+}
+
+#[test]
+fn bubbles_are_selected_added_and_deleted() {
+    let mut window = harness(Model::new(crate::input::load_scene("trio").unwrap()), vec2(1280.0, 1000.0));
+    window.state_mut().model.clock.running = false;
+    window.run();
+    let before = Scene::clone(&window.state().model.scene);
+    let rect = window.state().picture.unwrap().rect;
+    for bubble in 0..3 {
+        let (middle, _) = crate::app::tools::outline(&window.state().model.scene, 0, bubble).unwrap();
+        let at = rect.center() + rect.height() * vec2(middle.x as f32, -middle.y as f32);
+        window.drag_at(at);
+        window.drop_at(at);
+        window.run();
+        assert_eq!((window.state().model.selected, window.state().model.outlines), (bubble, true));
+    }
+    click(&mut window, "Duplicate");
+    let scene = &window.state().model.scene;
+    assert_eq!((scene.bubbles.len(), window.state().model.selected), (4, 3));
+    assert_eq!(scene.bubbles[3].film, before.bubbles[2].film);
+    assert_ne!(scene.bubbles[3].center_m, before.bubbles[2].center_m);
+    click(&mut window, "Delete");
+    assert_eq!(window.state().model.scene.bubbles, before.bubbles);
+    click(&mut window, "Add");
+    assert_eq!(window.state().model.undo.last_name(), Some("Add bubble"));
+    (0..3).for_each(|_| press(&mut window, Modifiers::COMMAND, Key::Z));
+    assert_eq!(*window.state().model.scene, before);
+}
+
+#[test]
 fn a_change_after_going_back_stands_before_what_came_later() {
     let mut window = window();
     window.state_mut().model.clock.tick = 300;
@@ -338,7 +386,10 @@ fn files_and_lights_are_asked_for() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::P);
     window.run();
     click(&mut window, "Presets");
-    click(&mut window, "lamplight");
+    window.get_by_label_contains("lamplight: ");
+    window.get_by_role_and_label(Role::Button, "lamplight").click();
+    window.run();
+    assert!(!window.state().model.shows_gallery);
     let requests = std::mem::take(&mut window.state_mut().model.requests);
     assert_eq!(requests.len(), 5, "{requests:?}");
     assert_eq!(requests[0], Request::Ask(Target::SaveScene));

@@ -16,7 +16,7 @@ const REACH: f32 = 6.0;
 /// Shows the time line along the bottom of the window.
 pub fn show(ui: &mut Ui, model: &mut Model) {
     model.furthest_tick = model.furthest_tick.max(model.clock.tick);
-    Panel::bottom("time line").resizable(false).show(ui, |ui| {
+    Panel::bottom("time line").resizable(false).default_size(64.0).show(ui, |ui| {
         ui.add_space(2.0);
         ui.horizontal_wrapped(|ui| {
             clock(ui, model);
@@ -81,7 +81,8 @@ fn told(ui: &mut Ui, model: &mut Model) {
     }
     let wanted = model.scene.motion.speed;
     if let Some(rate) = model.rate.latest().filter(|rate| model.clock.running && *rate < 0.95 * wanted) {
-        ui.weak(format!("{rate:.1} × real time"))
+        let digits = if rate < 0.1 { 2 } else { 1 };
+        ui.weak(format!("{rate:.digits$} × real time"))
             .on_hover_text("This machine moves the film more slowly than the scene asks");
     }
 }
