@@ -44,8 +44,20 @@ pub mod plan;
 pub mod scene;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod studio;
+/// In a browser, what the probe reads.
+#[cfg(target_arch = "wasm32")]
+pub mod studio {
+    mod sight;
+
+    pub use sight::{FilmsRead, WallInSight, walls_in_sight};
+}
 #[cfg(not(target_arch = "wasm32"))]
 pub mod verify;
+/// In a browser, what the probe reads.
+#[cfg(target_arch = "wasm32")]
+pub mod verify {
+    pub mod reference;
+}
 #[cfg(all(feature = "gui", target_arch = "wasm32"))]
 pub mod web;
 mod words;

@@ -115,6 +115,14 @@ impl Files {
         });
     }
 
+    /// Saves a text.
+    pub fn save_text(&self, path: PathBuf, text: String) {
+        self.run(move || match write_text(&path, &text) {
+            Ok(()) => Outcome::Done(format!("Saved {}", path.display())),
+            Err(error) => Outcome::Failed(error.to_string()),
+        });
+    }
+
     /// Saves a picture.
     pub fn save_picture(&self, path: PathBuf, metadata: Metadata, picture: impl FnOnce() -> Picture + Send + 'static) {
         self.run(move || match picture().save(&path, &metadata) {

@@ -3,6 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use egui::{Rect, ViewportInfo};
+use glam::DVec2;
 use web_time::Instant;
 use winit::{event_loop::ActiveEventLoop, window::Window};
 
@@ -11,15 +12,19 @@ use super::reload::ShaderWatch;
 use super::{
     capture::Capture,
     files::Files,
+    film_reader::FilmReader,
+    input,
     model::Model,
     paint::{Contents, Painted},
     panels,
+    probe::Reading,
     request::Request,
     stage::Stage,
 };
 use crate::{
     physics::colour::Gamut,
-    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
+    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
+    studio::walls_in_sight,
 };
 
 /// Time between two looks at the clock while nothing but its reading changes.
@@ -59,6 +64,9 @@ pub struct View {
     title: String,
     info: ViewportInfo,
     captures: Vec<Capture>,
+    reader: FilmReader,
+    /// What the picture shows.
+    shown: Option<DrawKey>,
     last_redraw: Instant,
     rests_until: Option<Instant>,
     #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
@@ -95,6 +103,8 @@ impl View {
             title: String::new(),
             info: ViewportInfo::default(),
             captures: Vec::new(),
+            reader: FilmReader::default(),
+            shown: None,
             last_redraw: Instant::now(),
             rests_until: None,
             #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
@@ -115,6 +125,7 @@ impl View {
         // After the panels: what is changed there happens at the tick that its user sees.
         let first_tick = self.pass_time(model, due.now);
         let moves = self.draw_picture(model, first_tick, &mut due);
+        self.probe(model, &mut due);
         self.fetch(model, files, &mut due);
         self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
         let painted = self.paint(&mut output, size, moves);
@@ -129,25 +140,31 @@ impl View {
             self.window.set_title(&title);
             self.title = title;
         }
-        let size = self.window.inner_size().to_logical::<f64>(self.window.scale_factor());
-        model.settings.window = [size.width, size.height];
+        if !model.presents {
+            let size = self.window.inner_size().to_logical::<f64>(self.window.scale_factor());
+            model.settings.window = [size.width, size.height];
+        }
     }
 
     /// Lets film time pass, unless the films are behind it; returns the tick before.
     fn pass_time(&mut self, model: &mut Model, now: Instant) -> u64 {
         let wall_s = now.duration_since(std::mem::replace(&mut self.last_redraw, now)).as_secs_f64();
         let first_tick = model.clock.tick;
-        if model.behind_ticks == 0 {
-            model.clock.advance(wall_s, &model.scene.motion);
-        }
+        model.advance(wall_s);
         first_tick
     }
 
     fn run_panels(&mut self, event_loop: &ActiveEventLoop, model: &mut Model, due: &mut Due) -> Output {
-        let input = self.egui.take_egui_input(&self.window);
         let ctx = self.egui.egui_ctx().clone();
-        let mut picture = None;
-        let mut full = ctx.run_ui(input, |ui| picture = Some(panels::show(ui, model)));
+        let mut full = egui::FullOutput::default();
+        let mut rect = Rect::NOTHING;
+        for input in input::one_by_one(self.egui.take_egui_input(&self.window)) {
+            full.append(ctx.run_ui(input, |ui| {
+                let picture = panels::show(ui, model);
+                rect = picture.rect;
+                model.move_camera(&picture.gesture, f64::from(rect.aspect_ratio().max(0.01)));
+            }));
+        }
         let platform = std::mem::take(&mut full.platform_output);
         self.egui.handle_platform_output_with_event_loop(&self.window, event_loop, platform);
         if let Some(root) = full.viewport_output.get_mut(&egui::ViewportId::ROOT) {
@@ -159,13 +176,9 @@ impl View {
             egui_winit::process_viewport_commands(&ctx, &mut self.info, commands, &self.window, &mut Vec::new());
             due.after(root.repaint_delay);
         }
-        let rect = picture.map_or(Rect::NOTHING, |picture| picture.rect);
         let (rect, size) =
             pixel_rect(rect, full.pixels_per_point, self.stage.renderer.gpu.device.limits().max_texture_dimension_2d);
         self.picture_size = size;
-        if let Some(picture) = picture {
-            model.move_camera(&picture.gesture, f64::from(size[0]) / f64::from(size[1]));
-        }
         Output { full, rect }
     }
 
@@ -196,6 +209,7 @@ impl View {
                 self.account(model, &plan, due);
                 let is_done = is_done(&request, &plan, model.clock.running) && model.behind_ticks == 0;
                 self.progress = if is_done { Progress::Done } else { Progress::Under };
+                self.shown = Some(request.picture.draw);
                 !plan.is_empty()
             }
             Err(text) => {
@@ -206,6 +220,32 @@ impl View {
                 due.after(Duration::ZERO);
                 false
             }
+        }
+    }
+
+    /// Reads the film under the pointer, if the pointer asks.
+    fn probe(&mut self, model: &mut Model, due: &mut Due) {
+        let (Some(place), Some(draw)) = (model.probe.asked(), &self.shown) else { return };
+        let [width, height] = draw.size.map(f64::from);
+        let position = 0.5 * DVec2::new(width, height) + height * DVec2::new(place.x, -place.y);
+        let walls = walls_in_sight(draw, self.reader.films(), position);
+        let is_read = walls.first().is_none_or(|wall| {
+            self.reader.read(&self.stage.renderer, wall.film, due.now).unwrap_or_else(|error| {
+                model.messages.problem(format!("the film cannot be read: {error}"));
+                true
+            })
+        });
+        // What arrived just now counts.
+        let walls = walls_in_sight(draw, self.reader.films(), position);
+        let moment = walls.first().and_then(|wall| self.reader.moment(wall.film));
+        let moment = moment.unwrap_or(model.clock.moment(&model.scene.motion));
+        let time_s = moment.ticks() * model.scene.motion.tick_s;
+        let is_new = model.probe.answer(Reading::new(&walls, time_s, model.scene.bubbles.len()), is_read);
+        if !is_read {
+            due.after(FETCH);
+        } else if is_new {
+            // The panels have not shown it yet.
+            due.after(Duration::ZERO);
         }
     }
 

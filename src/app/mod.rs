@@ -3,13 +3,14 @@
 //! | module | does |
 //! |---|---|
 //! | [`model`] | the state: scene, clock, messages, requests; knows neither window nor GPU |
-//! | [`clock`], [`orbit`], [`history`] | time, camera and events as pure functions of the model |
+//! | [`clock`], [`time_line`], [`orbit`], [`history`] | time, camera and events as pure functions of the model |
 //! | [`panels`], [`keys`] | how people change the model |
 //! | [`edit`], [`undo`] | the one gate for changes of the scene, and what takes them back |
 //! | [`files`], [`storage`], `keeper` | the system: dialogs, loading and saving; settings and unsaved work |
 //! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
 //! | [`request`] | what goes from the model to the system, and the questions that come before |
-//! | `window`, `frame` | the event loop, and one redraw |
+//! | [`probe`], `film_reader` | numbers of the film under the pointer |
+//! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
 pub mod clock;
@@ -24,12 +25,16 @@ pub mod messages;
 pub mod model;
 pub mod orbit;
 pub mod panels;
+pub mod probe;
 pub mod request;
 pub mod storage;
+pub mod time_line;
 pub mod undo;
 
 mod capture;
+mod film_reader;
 pub(crate) mod frame;
+mod input;
 mod keeper;
 mod paint;
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]

@@ -5,21 +5,24 @@ use std::path::PathBuf;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    clock::Clock,
+    clock::{Clock, Rate},
     costs::Costs,
     edit::{Edit, begins_anew, new_seed},
+    history,
     keys::Action,
     messages::Messages,
     orbit,
+    probe::Probe,
     request::{Question, Request, Target},
     storage::{Settings, Unsaved},
+    time_line::TimeLine,
     tools::{self, Hand, Press, Tool},
     undo::{Step, Undo},
 };
 use crate::{
     input::LoadedScene,
     plan::{Resources, Story, film_owners, settle_detail},
-    scene::{Light, Motion, MotionChange, preset_toml},
+    scene::{Bubble, Light, Motion, MotionChange, preset_toml},
 };
 
 /// How far a key tilts gravity, degrees.
@@ -41,8 +44,16 @@ pub struct Model {
     pub undo: Undo,
     /// Film time.
     pub clock: Clock,
+    /// How fast it passes.
+    pub rate: Rate,
+    /// How the time line is used.
+    pub time_line: TimeLine,
+    /// What is measured under the pointer.
+    pub probe: Probe,
     /// Index of the bubble that the film panel edits.
     pub selected: usize,
+    /// Whether it is outlined in the picture, because it was clicked there.
+    pub outlines: bool,
     /// Index of the generator that its panel edits.
     pub selected_generator: usize,
     /// The last tick that was ever shown of this history: how far its time line reaches.
@@ -57,6 +68,10 @@ pub struct Model {
     pub stands_alone: bool,
     /// Whether the panels are there.
     pub shows_panels: bool,
+    /// Whether the picture is alone on the screen.
+    pub presents: bool,
+    /// Whether the presets are there to choose from.
+    pub shows_gallery: bool,
     /// Whether the help is there.
     pub shows_help: bool,
     /// What is being loaded.
@@ -94,7 +109,11 @@ impl Model {
             folder: loaded.folder,
             undo: Undo::default(),
             clock: Clock::default(),
+            rate: Rate::default(),
+            time_line: TimeLine::default(),
+            probe: Probe::default(),
             selected: 0,
+            outlines: false,
             selected_generator: 0,
             furthest_tick: 0,
             motion_draft: None,
@@ -102,6 +121,8 @@ impl Model {
             hand: Hand::default(),
             stands_alone: false,
             shows_panels: true,
+            presents: false,
+            shows_gallery: false,
             shows_help: false,
             loading: None,
             behind_ticks: 0,
@@ -126,6 +147,8 @@ impl Model {
         self.undo = Undo::default();
         self.clock.reset();
         self.furthest_tick = 0;
+        self.time_line.selected = None;
+        self.probe = Probe::default();
         (self.selected, self.selected_generator) = (0, 0);
         self.motion_draft = None;
         // What the hand held is gone.
@@ -162,6 +185,35 @@ impl Model {
             self.undo.record_whole("Light", vec![back], Some(before));
         }
         self.loading = None;
+    }
+
+    /// Lets wall time pass, unless the films are behind the clock.
+    pub fn advance(&mut self, wall_s: f64) {
+        let motion = &self.scene.motion;
+        if self.behind_ticks == 0 {
+            self.clock.advance(wall_s, motion);
+        }
+        let time_s = self.clock.time_s(motion);
+        if !self.clock.running || self.behind_ticks > 0 {
+            self.rate.restart(time_s);
+        } else if self.time_line.loops && time_s >= self.time_line.length_s {
+            self.clock.reset();
+            self.rate.restart(0.0);
+        } else {
+            self.rate.note(wall_s, time_s);
+        }
+    }
+
+    /// Moves an event to another tick.
+    pub fn move_event(&mut self, index: usize, tick: u64) {
+        let mut events = self.scene.events.clone();
+        let Some(event) = events.get_mut(index).filter(|event| event.tick != tick) else { return };
+        event.tick = tick;
+        let moved = event.clone();
+        // Events stand in the order of their ticks; those of one tick keep theirs.
+        events.sort_by_key(|event| event.tick);
+        self.time_line.selected = events.iter().position(|event| *event == moved);
+        self.edit(Edit::History(self.scene.motion.clone().into(), events));
     }
 
     /// The motion that is in force now.
@@ -233,6 +285,13 @@ impl Model {
         step
     }
 
+    /// Removes the event that is selected on the time line.
+    pub fn remove_event(&mut self) {
+        if let Some(index) = self.time_line.selected.take().filter(|index| *index < self.scene.events.len()) {
+            self.edit(Edit::Forget(index));
+        }
+    }
+
     /// Blows every film again, with a new seed for film and flow.
     pub fn new_seeds(&mut self) {
         self.clock.reset();
@@ -271,6 +330,42 @@ impl Model {
     pub fn title(&self) -> String {
         let edited = if self.undo.is_dirty() { " (edited)" } else { "" };
         format!("soapfilm – {}{edited}", self.name)
+    }
+
+    /// Selects the bubble at a place in the picture, right and up from its middle in heights of it; beside all bubbles, none is outlined.
+    pub fn select(&mut self, place: DVec2) {
+        let bubble = tools::bubble_at(&self.scene, self.clock.tick, place);
+        self.outlines = bubble.is_some();
+        self.selected = bubble.unwrap_or(self.selected);
+    }
+
+    /// Adds a copy of a bubble to the right of the selected one, and selects it.
+    pub fn add_bubble(&mut self, mut bubble: Bubble) {
+        let (mut bubbles, generators) = (self.scene.bubbles.clone(), self.scene.generators.clone());
+        if let Some(beside) = bubbles.get(self.selected) {
+            let gap_m = 1.1e-3 * (beside.radius_mm + bubble.radius_mm);
+            let place = DVec3::from(beside.center_m) + gap_m * self.scene.camera.right();
+            bubble.center_m = place.to_array().map(|part| (part * 1e4).round() / 1e4);
+        }
+        bubbles.push(bubble);
+        let last = bubbles.len() - 1;
+        if self.edit(Edit::Films(bubbles, generators)) {
+            (self.selected, self.outlines) = (last, true);
+        }
+    }
+
+    /// Deletes the selected bubble; what would have happened to it is forgotten, and what happens to others stays.
+    pub fn delete_bubble(&mut self) {
+        let (mut bubbles, generators) = (self.scene.bubbles.clone(), self.scene.generators.clone());
+        if self.selected >= bubbles.len() {
+            return;
+        }
+        bubbles.remove(self.selected);
+        let events = history::without_bubble(&self.scene.events, self.selected);
+        let back = [Edit::History(self.scene.motion.clone().into(), events), Edit::Films(bubbles, generators)];
+        let back = back.into_iter().filter_map(|edit| self.apply(edit)).collect();
+        self.undo.record_whole("Delete bubble", back, None);
+        (self.selected, self.outlines) = (self.selected.saturating_sub(1), false);
     }
 
     /// Lets the pointer, pressed or not, use its tool. Tells whether the camera shall stand.
@@ -313,11 +408,20 @@ impl Model {
             Action::Step => self.clock.step(),
             Action::Reset => self.clock.reset(),
             Action::NewSeed => self.new_seeds(),
+            Action::Loop => self.time_line.loops = !self.time_line.loops,
+            Action::RemoveEvent => self.remove_event(),
+            Action::Present => self.presents = !self.presents,
             Action::Panels => self.shows_panels = !self.shows_panels,
             Action::Help => self.shows_help = !self.shows_help,
             Action::Dismiss => {
-                self.shows_help = false;
+                (self.shows_help, self.presents) = (false, false);
+                self.probe.pinned = None;
+                self.time_line.selected = None;
                 self.messages.clear();
+            }
+            Action::Duplicate => {
+                let like = self.scene.bubbles.get(self.selected).cloned();
+                like.into_iter().for_each(|bubble| self.add_bubble(bubble));
             }
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),

@@ -17,6 +17,8 @@ pub enum Target {
     SavePng,
     /// Where the picture's radiance goes.
     SaveExr,
+    /// Where the numbers and spectra of the probe go.
+    SaveCsv,
 }
 
 impl Target {
@@ -28,6 +30,7 @@ impl Target {
             Self::OpenEnvironment => ("Environment", &["exr", "hdr"]),
             Self::SavePng => ("PNG picture", &["png"]),
             Self::SaveExr => ("OpenEXR picture", &["exr"]),
+            Self::SaveCsv => ("Table", &["csv"]),
         }
     }
 

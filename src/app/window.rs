@@ -25,6 +25,7 @@ use super::{
     frame::View,
     keeper::Keeper,
     model::Model,
+    panels,
     request::{Question, Request, Target},
     stage::Stage,
     storage::Storage,
@@ -127,6 +128,7 @@ impl Handler {
         let window = Arc::new(event_loop.create_window(system::sized(attributes, self.model.settings.window))?);
         let ctx = egui::Context::default();
         style::apply(&ctx);
+        ctx.set_zoom_factor(self.model.settings.zoom.clamp(0.5, 4.0));
         let scale = Some(window.scale_factor() as f32);
         let root = egui::ViewportId::ROOT;
         #[cfg_attr(target_arch = "wasm32", allow(unused_mut, reason = "screen readers see a canvas there"))]
@@ -171,6 +173,7 @@ impl Handler {
         let Some(view) = self.view.take_if(|view| view.is_lost()) else { return };
         log::warn!("recreating everything on the graphics device");
         let instance = view.stage.renderer.gpu.instance.clone();
+        panels::gallery::forget(view.egui.egui_ctx());
         self.open_device(instance, Bare { window: view.window, egui: view.egui });
         self.model.messages.note("The graphics device was lost and has been reopened");
     }
@@ -272,6 +275,10 @@ impl Handler {
             Target::SaveScene => self.files.save_scene(with_ending(path, "toml"), &self.model),
             Target::SavePng => view.capture(&mut self.model, false, with_ending(path, "png")),
             Target::SaveExr => view.capture(&mut self.model, true, with_ending(path, "exr")),
+            Target::SaveCsv => {
+                let csv = self.model.probe.pinned.as_ref().map(|(reading, _)| reading.csv());
+                csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
+            }
             Target::OpenScene | Target::OpenEnvironment => self.open_file(&path),
         }
     }

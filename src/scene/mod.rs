@@ -39,7 +39,7 @@ pub use light::{
     Backdrop, Environment, Light, LightKeys, LightPatch, LightPatchKeys, MAX_PATCHES, Quality, View, ViewKeys,
 };
 pub use motion::{Motion, MotionChange, MotionKeys};
-pub use preset::{preset, preset_names, preset_sentence, preset_toml};
+pub use preset::{PRESET_GROUPS, TEST_PRESETS, preset, preset_names, preset_sentence, preset_toml};
 pub use section::{Key, Range};
 pub use setting::Setting;
 pub use source::SceneSource;

@@ -14,6 +14,7 @@ mod colour;
 mod error;
 mod film;
 mod picture;
+mod sight;
 #[cfg(test)]
 mod tests;
 
@@ -21,6 +22,7 @@ pub use colour::{Colour, colour};
 pub use error::Error;
 pub use film::{FilmCell, reference_film};
 pub use picture::{Picture, Radiance};
+pub use sight::{FilmsRead, WallInSight, walls_in_sight};
 
 use crate::{
     gpu::{AdapterChoice, Gpu, Renderer, readback::Readback},

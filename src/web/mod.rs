@@ -67,7 +67,7 @@ impl SoapBubble {
         told: js_sys::Function,
     ) -> Result<SoapBubble, JsError> {
         let mut model = Model::new(load_scene(scene)?);
-        model.stands_alone = !panels;
+        (model.stands_alone, model.presents) = (!panels, !panels);
         Ok(Self { bubble: add(model, canvas, told)? })
     }
 

@@ -8,6 +8,8 @@ mod files;
 mod film;
 mod lut;
 mod mistakes;
+#[cfg(feature = "gui")]
+mod probe;
 mod sequence;
 #[cfg(unix)]
 mod streams;

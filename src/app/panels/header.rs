@@ -2,12 +2,10 @@
 
 use egui::Ui;
 
-use crate::{
-    app::{
-        model::Model,
-        request::{Request, Target},
-    },
-    scene::preset_names,
+use super::window;
+use crate::app::{
+    model::Model,
+    request::{Request, Target},
 };
 
 /// Shows the scene's name and what can be done with it.
@@ -17,7 +15,9 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     ui.add(egui::Label::new(name).truncate()).on_hover_text(&model.name);
     ui.horizontal(|ui| {
         let ask = |requests: &mut Vec<Request>, target| requests.push(Request::Ask(target));
-        ui.menu_button("Presets", |ui| presets(ui, model)).response.on_hover_text("Built-in scenes");
+        if ui.button("Presets").on_hover_text("Built-in scenes").clicked() {
+            model.shows_gallery = true;
+        }
         ui.menu_button("File", |ui| file(ui, model)).response.on_hover_text("Scene files; or drop one on the window");
         ui.menu_button("Picture", |ui| {
             if ui.button("PNG…").on_hover_text("Save the picture as the window shows it (Ctrl+P)").clicked() {
@@ -31,6 +31,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         if ui.button("Link").on_hover_text("Copy a link to this page that holds the scene with its history").clicked() {
             model.requests.push(Request::CopyLink);
         }
+        ui.menu_button("Window", |ui| window::menu(ui, model));
         if ui.button("?").on_hover_text("Keys and pointer (F1)").clicked() {
             model.shows_help = !model.shows_help;
         }
@@ -83,12 +84,4 @@ fn file(ui: &mut Ui, model: &mut Model) {
 /// The last part of a path.
 pub fn file_name(path: &str) -> &str {
     std::path::Path::new(path).file_name().and_then(|name| name.to_str()).unwrap_or(path)
-}
-
-fn presets(ui: &mut Ui, model: &mut Model) {
-    for name in preset_names() {
-        if ui.button(name).clicked() {
-            model.ask_for(Request::LoadScene(name.to_owned()));
-        }
-    }
 }

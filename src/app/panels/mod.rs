@@ -1,21 +1,27 @@
 //! The panels: each a small function of the model. They touch neither window nor GPU, so tests drive them without either.
 
+mod all_keys;
 mod costs;
 mod film;
+pub mod gallery;
 mod generators;
 mod header;
 mod help;
+mod hints;
 mod light;
 mod motion;
 mod notices;
 mod picture;
 mod plots;
+mod probe;
 mod question;
 #[cfg(test)]
 mod tests;
+mod time_line;
 mod tools;
 mod view;
 mod widgets;
+mod window;
 
 use egui::{CollapsingHeader, Context, Panel, Rect, ScrollArea, Ui};
 use glam::DVec2;
@@ -24,7 +30,7 @@ use super::{
     keys::{self, Action},
     model::Model,
     orbit::Gesture,
-    tools::Press,
+    tools::{Press, Tool},
 };
 
 /// Width of the panels, points.
@@ -39,6 +45,10 @@ pub struct Picture {
     pub gesture: Gesture,
     /// The pointer, if it is pressed there.
     pub pressed: Option<Press>,
+    /// Where the pointer is there: right and up from the picture's middle, in heights of the picture.
+    pub hovered: Option<DVec2>,
+    /// Whether it has clicked there.
+    pub clicked: bool,
 }
 
 /// Shows everything around the picture, obeys the keys, and returns where the picture stands.
@@ -51,28 +61,43 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     for action in &actions {
         model.act(*action);
     }
-    if model.shows_panels && !model.stands_alone {
-        // A window narrower than the panel is all panel; `H` hides it.
-        let width = WIDTH.min(ui.available_width());
-        Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
+    if !model.presents {
+        time_line::show(ui, model);
+        if model.shows_panels {
+            // A window narrower than the panel is all panel; `H` hides it.
+            let width = WIDTH.min(ui.available_width());
+            Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
+        }
     }
     let mut picture = picture::show(ui, model.scene.camera.follow_deg);
+    picture.gesture.frame |= actions.contains(&Action::Frame);
     if model.touch(picture.pressed) {
         picture.gesture.turn = DVec2::ZERO;
     }
-    picture.gesture.frame |= actions.contains(&Action::Frame);
+    if let Some(place) = picture.hovered.filter(|_| picture.clicked && model.tool == Tool::Orbit) {
+        model.select(place);
+    }
+    let probes = model.tool == Tool::Probe;
+    model.probe.point(picture.hovered.filter(|_| probes), picture.clicked && probes);
     if !model.stands_alone {
         over_picture(ui.ctx(), picture.rect, model);
     }
     picture
 }
 
-/// Shows what lies over the picture.
+/// What stands over the picture, and the questions over everything.
 fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
-    tools::show(ctx, picture, model);
+    if !model.presents {
+        picture::outline(ctx, picture, model);
+        tools::show(ctx, picture, model);
+        hints::show(ctx, picture, model);
+    }
+    probe::show(ctx, picture, model);
     notices::show(ctx, picture, model);
     help::show(ctx, &mut model.shows_help);
+    gallery::show(ctx, model);
     question::show(ctx, model);
+    window::show(ctx, model);
 }
 
 fn sections(ui: &mut Ui, model: &mut Model) {
@@ -85,6 +110,7 @@ fn sections(ui: &mut Ui, model: &mut Model) {
         section(ui, "Motion", true, |ui| motion::show(ui, model));
         section(ui, "Light", true, |ui| light::show(ui, model));
         section(ui, "View", true, |ui| view::show(ui, model));
+        section(ui, "All keys", false, |ui| all_keys::show(ui, model));
         section(ui, "Costs", false, |ui| costs::show(ui, model));
     });
 }

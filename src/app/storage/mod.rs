@@ -23,13 +23,15 @@ pub struct Settings {
     pub zoom: f32,
     /// Whether panels are light rather than dark.
     pub is_light: bool,
+    /// Whether the hints have done their work.
+    pub knows_hints: bool,
     /// Scene files opened or saved lately, the last one first.
     pub recent: Vec<String>,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { window: [1280.0, 800.0], zoom: 1.0, is_light: false, recent: Vec::new() }
+        Self { window: [1280.0, 800.0], zoom: 1.0, is_light: false, knows_hints: false, recent: Vec::new() }
     }
 }
 

@@ -37,6 +37,7 @@ use rayon::prelude::*;
 use super::colour::{ColourWeights, FilmOptics};
 use light_path::LightPath;
 pub use view::PictureCamera;
+pub use walls::{Line, Surface, Wall};
 
 /// A bubble.
 pub struct FilmSphere<'a> {
