@@ -40,7 +40,7 @@ cells = 64
 
 // Pages that only this test has.
 const PAGES = {
-  "/npm/two.html": `<!doctype html><script type="module" src="./soap-bubble.js"></script>
+  "/npm/two.html": `<!doctype html><link rel="icon" href="data:," /><script type="module" src="./soap-bubble.js"></script>
     <soap-bubble scene="furnace" controls></soap-bubble><soap-bubble scene="./quiet.toml" paused></soap-bubble>`,
   "/npm/quiet.toml": SCENE,
 };
@@ -173,7 +173,9 @@ const TESTS = {
     await settle(page);
     await page.keyboard.press("Control+z");
     await until(page, `(toml) => toml === ${JSON.stringify(before)}`);
+    // Only liquid that time passes for can be stirred.
     await page.keyboard.press("2");
+    await page.keyboard.press("Space");
     await settle(page);
     await drag(page, [300, 300], [120, 0]);
     await until(page, '(toml) => toml.includes("[[event]]")');
