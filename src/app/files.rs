@@ -211,7 +211,7 @@ impl Files {
 fn moved(mut scene: Scene, from: &Path, to: &Path) -> Result<Scene, String> {
     let current = PathBuf::from(".");
     let [from, to] = [from, to].map(|folder| if folder.as_os_str().is_empty() { &current } else { folder });
-    let [from, to] = [from, to].map(|folder| system::whole_path(folder));
+    let [from, to] = [from, to].map(system::whole_path);
     if from == to {
         return Ok(scene);
     }

@@ -50,8 +50,17 @@ pub enum GpuError {
     #[error("unknown graphics backend `{0}`: use vulkan, metal, dx12 or gl")]
     UnknownBackend(String),
     /// No driver at all.
-    #[error(
-        "no graphics adapter found{0}: install a Vulkan, Metal, DX12 or OpenGL ES driver (on Linux without a GPU: Mesa's lavapipe)"
+    #[cfg_attr(
+        not(target_arch = "wasm32"),
+        error(
+            "no graphics adapter found{0}: install a Vulkan, Metal, DX12 or OpenGL ES driver (on Linux without a GPU: Mesa's lavapipe)"
+        )
+    )]
+    #[cfg_attr(
+        target_arch = "wasm32",
+        error(
+            "the browser gives no graphics adapter{0}: switch hardware acceleration on in its settings, and load the page again"
+        )
     )]
     NoAdapter(String),
     /// An adapter was named, and is not there.
