@@ -14,6 +14,7 @@ use super::reload::ShaderWatch;
 use super::{
     AppError,
     capture::Capture,
+    compare::{Pixels, Want},
     files::Files,
     film_reader::FilmReader,
     input,
@@ -25,7 +26,7 @@ use super::{
     stage::Stage,
 };
 use crate::{
-    gpu::AdapterChoice,
+    gpu::{AdapterChoice, readback::Readback},
     physics::colour::Gamut,
     plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
     studio::walls_in_sight,
@@ -57,6 +58,8 @@ pub struct View {
     info: ViewportInfo,
     captures: Vec<Capture>,
     reader: FilmReader,
+    /// The shown picture on its way back, what for, and its size.
+    compared: Option<(Want, [u32; 2], Readback)>,
     /// What the picture shows.
     shown: Option<DrawKey>,
     last_redraw: Instant,
@@ -96,6 +99,7 @@ impl View {
             info: ViewportInfo::default(),
             captures: Vec::new(),
             reader: FilmReader::default(),
+            compared: None,
             shown: None,
             last_redraw: Instant::now(),
             rests_until: None,
@@ -123,6 +127,7 @@ impl View {
         let first_tick = self.pass_time(model, due.now);
         let moves = self.draw_picture(model, first_tick, &mut due);
         self.probe(model, &mut due);
+        self.compare(model, files, &mut due);
         self.fetch(model, files, &mut due);
         self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
         let painted = self.paint(&mut output, size, moves);
@@ -243,6 +248,25 @@ impl View {
         }
     }
 
+    /// Reads the shown picture back, to keep it or to compare it.
+    fn compare(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
+        let renderer = &self.stage.renderer;
+        if let (Some(want), Some(draw)) = (model.compare.wants.take(), &self.shown) {
+            self.compared = renderer.read_picture().map(|readback| (want, draw.size, readback));
+        }
+        let Some((want, size, readback)) = &self.compared else { return };
+        // A loss is told elsewhere.
+        let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
+        let (want, size) = (*want, *size);
+        let Some(bytes) = readback.try_take() else { return due.after(FETCH) };
+        self.compared = None;
+        match bytes {
+            Ok(rgba) => files.compare(model, want, Pixels { size, rgba: Arc::new(rgba) }),
+            Err(error) => model.messages.problem(format!("the picture cannot be read: {error}")),
+        }
+        due.after(Duration::ZERO);
+    }
+
     fn account(&mut self, model: &mut Model, plan: &Plan, due: &mut Due) {
         if !plan.complete {
             due.after(Duration::ZERO);
@@ -312,6 +336,8 @@ impl View {
             log::warn!("recreating everything on the graphics device");
             self.captures.clear();
             self.reader = FilmReader::default();
+            self.compared = None;
+            panels::compare::forget(self.egui.egui_ctx());
             let instance = self.stage.renderer.gpu.instance.clone();
             self.stage = Stage::new(instance, &self.choice, &self.window, self.egui.egui_ctx())?;
             panels::gallery::forget(self.egui.egui_ctx());

@@ -6,6 +6,7 @@ use egui_kittest::{Harness, kittest::Queryable};
 use super::Picture;
 use crate::{
     app::{
+        compare::{Map, Pixels, Want},
         edit::Edit,
         model::{Model, tests::model},
         request::{Fate, Question, Request, Target},
@@ -270,7 +271,10 @@ fn the_probe_shows_its_numbers_and_keeps_what_was_clicked() {
 
 #[test]
 fn all_keys_have_rows_and_can_be_set_back() {
-    let mut window = window();
+    let mut model = model();
+    model.clock.running = false;
+    let mut window = harness(model, vec2(1280.0, 4000.0));
+    window.run();
     click(&mut window, "All keys");
     let before = Scene::clone(&window.state().model.scene);
     window.state_mut().model.scene.change(|scene| scene.camera.azimuth_deg = 77.0);
@@ -314,6 +318,34 @@ fn bubbles_are_selected_added_and_deleted() {
     assert_eq!(window.state().model.undo.last_name(), Some("Add bubble"));
     (0..3).for_each(|_| press(&mut window, Modifiers::COMMAND, Key::Z));
     assert_eq!(*window.state().model.scene, before);
+}
+
+#[test]
+fn a_kept_picture_is_compared() {
+    let mut window = window();
+    press(&mut window, Modifiers::NONE, Key::K);
+    assert_eq!(window.state_mut().model.compare.wants.take(), Some(Want::Keep));
+    let pixels = |grey: u8| Pixels { size: [2, 2], rgba: vec![grey; 16].into() };
+    window.state_mut().model.compare.keep(pixels(90), "furnace at 0.00 s".to_owned());
+    window.run();
+    let line = window.get_by_role_and_label(Role::Slider, "Split").rect().center();
+    window.drag_at(line);
+    window.step();
+    window.hover_at(line + vec2(30.0, 0.0));
+    window.step();
+    window.hover_at(line + vec2(200.0, 0.0));
+    window.step();
+    window.drop_at(line + vec2(200.0, 0.0));
+    window.run();
+    assert!(window.state().model.compare.split > 0.6, "{}", window.state().model.compare.split);
+    click(&mut window, "ΔE map");
+    assert_eq!(window.state_mut().model.compare.wants.take(), Some(Want::Map));
+    window.state_mut().model.compare.map = Some(Map::new(&pixels(90), &pixels(90)));
+    window.run();
+    window.get_by_label_contains("mean 0.000");
+    click(&mut window, "Split");
+    click(&mut window, "Close");
+    assert_eq!(window.state().model.compare.kept, None);
 }
 
 #[test]
@@ -387,7 +419,7 @@ fn files_and_lights_are_asked_for() {
     window.run();
     click(&mut window, "Presets");
     window.get_by_label_contains("lamplight: ");
-    window.get_by_role_and_label(Role::Button, "lamplight").click();
+    window.get_by_role_and_label(Role::Button, "lamplight").click_accesskit();
     window.run();
     assert!(!window.state().model.shows_gallery);
     let requests = std::mem::take(&mut window.state_mut().model.requests);
