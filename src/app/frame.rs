@@ -36,6 +36,11 @@ use crate::{
 const READING: Duration = Duration::from_millis(400);
 /// Time until a surface that had no frame is asked again.
 const ASK_AGAIN: Duration = Duration::from_millis(50);
+/// Redraws of the panels alone that come before the first picture, which may take long: a window must not stay black. Panels know their sizes from
+/// the second one on.
+const PANELS_FIRST: u32 = 2;
+/// What is loaded meanwhile, for people.
+const FIRST_PICTURE: &str = "the first picture";
 /// Time between two polls of a picture that is being read back.
 const FETCH: Duration = Duration::from_millis(8);
 /// Time that a picture rests after it failed: nothing is gained by failing at every frame.
@@ -54,6 +59,8 @@ pub struct View {
     /// Size of the picture, pixels.
     pub picture_size: [u32; 2],
     title: String,
+    /// Redraws so far, as far as the first picture.
+    redraws: u32,
     choice: AdapterChoice,
     info: ViewportInfo,
     captures: Vec<Capture>,
@@ -95,6 +102,7 @@ impl View {
             exposed: true,
             picture_size: [1, 1],
             title: String::new(),
+            redraws: 0,
             choice,
             info: ViewportInfo::default(),
             captures: Vec::new(),
@@ -191,6 +199,15 @@ impl View {
             return false;
         }
         self.rests_until = None;
+        if self.redraws < PANELS_FIRST {
+            self.redraws += 1;
+            model.loading = Some(FIRST_PICTURE.to_owned());
+            due.after(Duration::ZERO);
+            return false;
+        }
+        if model.loading.take_if(|loading| loading == FIRST_PICTURE).is_some() {
+            due.after(Duration::ZERO);
+        }
         let moment = model.clock.moment(&model.scene.motion);
         let shot = Shot {
             size: self.picture_size,

@@ -220,7 +220,7 @@ fn the_picture_can_stand_alone() {
     let mut window = window();
     press(&mut window, Modifiers::NONE, Key::F11);
     let rect = window.state().picture.unwrap().rect;
-    assert_eq!(rect.size(), vec2(1280.0, 1200.0));
+    assert!(rect.width() > 1260.0 && rect.height() > 1180.0, "{rect}");
     assert!(window.query_by_label("Play").is_none() && window.query_by_label("Orbit").is_none());
     press(&mut window, Modifiers::NONE, Key::Escape);
     window.get_by_label("Play");
@@ -234,7 +234,7 @@ fn nothing_is_clipped_in_a_small_window() {
     window.step();
     let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, vec2(640.0, 480.0)).expand(1.0);
     for name in
-        ["Play", "Step", "Reset", "Loop", "Length", "Time", "Orbit", "Probe", "Presets", "File", "Window", "Undo"]
+        ["Pause", "Step", "Reset", "Loop", "Length", "Time", "Orbit", "Probe", "Presets", "File", "Window", "Undo"]
     {
         let rect = window.get_by_label(name).rect();
         assert!(screen.contains_rect(rect), "{name}: {rect}");
@@ -282,11 +282,11 @@ fn all_keys_have_rows_and_can_be_set_back() {
     for label in ["Azimuth", "Target", "Center", "Film seed"] {
         assert!(window.query_all_by_label(label).next().is_some(), "{label}");
     }
-    let resets: Vec<_> = window.query_all_by_label("⟲").map(|reset| reset.rect().center().y).collect();
+    let resets: Vec<_> = window.query_all_by_label("reset").map(|reset| reset.rect().center().y).collect();
     let azimuth = window.query_all_by_label("Azimuth").next().unwrap().rect().center().y;
     let nearest =
         (0..resets.len()).min_by(|a, b| (resets[*a] - azimuth).abs().total_cmp(&(resets[*b] - azimuth).abs()));
-    window.query_all_by_label("⟲").nth(nearest.unwrap()).unwrap().click();
+    window.query_all_by_label("reset").nth(nearest.unwrap()).unwrap().click();
     window.run();
     assert_eq!(window.state().model.scene.camera.azimuth_deg, 20.0, "its normal value");
     assert_eq!(window.state().model.scene.bubbles, before.bubbles, "other keys stay");
