@@ -44,11 +44,13 @@ pub mod plan;
 pub mod scene;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod studio;
-/// In a browser, what the probe reads.
+/// In a browser, what the window reads of films and pictures.
 #[cfg(target_arch = "wasm32")]
 pub mod studio {
+    mod difference;
     mod sight;
 
+    pub use difference::{Difference, difference};
     pub use sight::{FilmsRead, WallInSight, walls_in_sight};
 }
 #[cfg(not(target_arch = "wasm32"))]

@@ -10,6 +10,7 @@ use std::{
 };
 
 use super::{
+    compare::{Map, Pixels, Want},
     model::Model,
     request::{Question, Target},
     storage::Unsaved,
@@ -30,6 +31,7 @@ enum Outcome {
     Chosen(Target, PathBuf),
     NoDialog(Target),
     Saved(PathBuf, u64),
+    Map(Map),
     Done(String),
     Failed(String),
     NotSaved(String),
@@ -115,6 +117,20 @@ impl Files {
         });
     }
 
+    /// Keeps a picture, or finds out how far it is from the one that is kept.
+    pub fn compare(&self, model: &mut Model, want: Want, shown: Pixels) {
+        match (want, model.compare.kept.clone()) {
+            (Want::Map, Some((kept, _))) if kept.size == shown.size => {
+                self.run(move || Outcome::Map(Map::new(&kept, &shown)));
+            }
+            (Want::Map, Some(_)) => model.messages.note("A has another size than the picture has now: keep it again"),
+            _ => {
+                let name = format!("{} at {:.2} s", model.name, model.clock.time_s(&model.scene.motion));
+                model.compare.keep(shown, name);
+            }
+        }
+    }
+
     /// Saves a text.
     pub fn save_text(&self, path: PathBuf, text: String) {
         self.run(move || match write_text(&path, &text) {
@@ -195,6 +211,7 @@ impl Files {
                 model.messages.problem(text);
                 return Some(Arrival::NotSaved);
             }
+            Outcome::Map(map) => model.compare.map = model.compare.kept.as_ref().map(|_| map),
             Outcome::Done(text) => model.messages.note(text),
             Outcome::Failed(text) => {
                 model.messages.problem(text);

@@ -11,6 +11,7 @@ use winit::{event_loop::ActiveEventLoop, window::Window};
 use super::reload::ShaderWatch;
 use super::{
     capture::Capture,
+    compare::{Pixels, Want},
     files::Files,
     film_reader::FilmReader,
     input,
@@ -22,6 +23,7 @@ use super::{
     stage::Stage,
 };
 use crate::{
+    gpu::readback::Readback,
     physics::colour::Gamut,
     plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
     studio::walls_in_sight,
@@ -31,6 +33,11 @@ use crate::{
 const READING: Duration = Duration::from_millis(400);
 /// Time until a surface that had no frame is asked again.
 const ASK_AGAIN: Duration = Duration::from_millis(50);
+/// Redraws of the panels alone that come before the first picture, which may take long: a window must not stay black. Panels know their sizes from
+/// the second one on.
+const PANELS_FIRST: u32 = 2;
+/// What is loaded meanwhile, for people.
+const FIRST_PICTURE: &str = "the first picture";
 /// Time between two polls of a picture that is being read back.
 const FETCH: Duration = Duration::from_millis(8);
 /// Time that a picture rests after it failed: nothing is gained by failing at every frame.
@@ -62,9 +69,13 @@ pub struct View {
     /// Size of the picture, pixels.
     pub picture_size: [u32; 2],
     title: String,
+    /// Redraws so far, as far as the first picture.
+    redraws: u32,
     info: ViewportInfo,
     captures: Vec<Capture>,
     reader: FilmReader,
+    /// The shown picture on its way back, what for, and its size.
+    compared: Option<(Want, [u32; 2], Readback)>,
     /// What the picture shows.
     shown: Option<DrawKey>,
     last_redraw: Instant,
@@ -101,9 +112,11 @@ impl View {
             progress: Progress::Under,
             picture_size: [1, 1],
             title: String::new(),
+            redraws: 0,
             info: ViewportInfo::default(),
             captures: Vec::new(),
             reader: FilmReader::default(),
+            compared: None,
             shown: None,
             last_redraw: Instant::now(),
             rests_until: None,
@@ -126,6 +139,7 @@ impl View {
         let first_tick = self.pass_time(model, due.now);
         let moves = self.draw_picture(model, first_tick, &mut due);
         self.probe(model, &mut due);
+        self.compare(model, files, &mut due);
         self.fetch(model, files, &mut due);
         self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
         let painted = self.paint(&mut output, size, moves);
@@ -189,6 +203,15 @@ impl View {
             return false;
         }
         self.rests_until = None;
+        if self.redraws < PANELS_FIRST {
+            self.redraws += 1;
+            model.loading = Some(FIRST_PICTURE.to_owned());
+            due.after(Duration::ZERO);
+            return false;
+        }
+        if model.loading.take_if(|loading| loading == FIRST_PICTURE).is_some() {
+            due.after(Duration::ZERO);
+        }
         let moment = model.clock.moment(&model.scene.motion);
         let shot = Shot {
             size: self.picture_size,
@@ -247,6 +270,25 @@ impl View {
             // The panels have not shown it yet.
             due.after(Duration::ZERO);
         }
+    }
+
+    /// Reads the shown picture back, to keep it or to compare it.
+    fn compare(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
+        let renderer = &self.stage.renderer;
+        if let (Some(want), Some(draw)) = (model.compare.wants.take(), &self.shown) {
+            self.compared = renderer.read_picture().map(|readback| (want, draw.size, readback));
+        }
+        let Some((want, size, readback)) = &self.compared else { return };
+        // A loss is told elsewhere.
+        let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
+        let (want, size) = (*want, *size);
+        let Some(bytes) = readback.try_take() else { return due.after(FETCH) };
+        self.compared = None;
+        match bytes {
+            Ok(rgba) => files.compare(model, want, Pixels { size, rgba: Arc::new(rgba) }),
+            Err(error) => model.messages.problem(format!("the picture cannot be read: {error}")),
+        }
+        due.after(Duration::ZERO);
     }
 
     fn account(&mut self, model: &mut Model, plan: &Plan, due: &mut Due) {

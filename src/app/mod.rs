@@ -9,11 +9,13 @@
 //! | [`files`], [`storage`], `keeper` | the system: dialogs, loading and saving; settings and unsaved work |
 //! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
 //! | [`request`] | what goes from the model to the system, and the questions that come before |
+//! | [`compare`] | a kept picture beside the one that is shown |
 //! | [`probe`], `film_reader` | numbers of the film under the pointer |
 //! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
 pub mod clock;
+pub mod compare;
 pub mod costs;
 mod edit;
 pub mod files;

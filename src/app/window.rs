@@ -174,6 +174,7 @@ impl Handler {
         log::warn!("recreating everything on the graphics device");
         let instance = view.stage.renderer.gpu.instance.clone();
         panels::gallery::forget(view.egui.egui_ctx());
+        panels::compare::forget(view.egui.egui_ctx());
         self.open_device(instance, Bare { window: view.window, egui: view.egui });
         self.model.messages.note("The graphics device was lost and has been reopened");
     }

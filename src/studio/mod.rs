@@ -11,6 +11,7 @@
 //! [`plan::request`](crate::plan::request()) and [`gpu::Renderer`](crate::gpu::Renderer).
 
 mod colour;
+mod difference;
 mod error;
 mod film;
 mod picture;
@@ -19,6 +20,7 @@ mod sight;
 mod tests;
 
 pub use colour::{Colour, colour};
+pub use difference::{Difference, difference};
 pub use error::Error;
 pub use film::{FilmCell, reference_film};
 pub use picture::{Picture, Radiance};

@@ -283,6 +283,65 @@ fn a_film_is_stirred_and_a_bubble_is_moved() {
     screen.ends_well();
 }
 
+/// A few large bubbles of a generator, all alike, and a camera that follows the pointer.
+const FOLLOWED: &str = "version = 1
+bubble = []
+[[generator]]
+count = 5
+films = 1
+radius_mm = 30
+size_m = [0.3, 0.3, 0.3]
+film.state = \"uniform\"
+[camera]
+distance_m = 0.8
+follow_deg = 60
+[view]
+dither = false
+";
+
+#[test]
+fn a_camera_follows_the_pointer_and_generators_have_a_panel() {
+    if !tools_are_there() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("followed.toml");
+    std::fs::write(&scene, FOLLOWED).unwrap();
+    let mut screen = Screen::open(&["app", scene.to_str().unwrap()]);
+    screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 1.0).then_some(()));
+    screen.press("space");
+    let go = |screen: &Screen, x: i32| screen.act(&["mousemove", &x.to_string(), "400"]);
+    go(&screen, 480);
+    sleep(Duration::from_secs(2));
+    let before = screen.shot();
+    screen.wait_for("a camera that follows", |screen| {
+        (0..5).for_each(|step| go(screen, 480 + 60 * step));
+        sleep(Duration::from_secs(1));
+        (difference(MIDDLE, &before, &screen.shot()) > 1.0).then_some(())
+    });
+    assert!(!screen.title().ends_with("(edited)"), "looking around changes no work");
+
+    // The title of the panel, which folds it away.
+    let panel = [980, 150, 290, 500];
+    go(&screen, 600);
+    sleep(Duration::from_secs(2));
+    let open = screen.shot();
+    let title = generators_title(&open);
+    screen.act(&["mousemove", "1020", &title.to_string()]);
+    screen.act(&["click", "1"]);
+    screen.wait_for("a folded panel", |screen| (difference(panel, &open, &screen.shot()) > 2.0).then_some(()));
+    screen.press("ctrl+q");
+    screen.ends_well();
+}
+
+/// The height of the second of the panels' titles: the second line with the triangle that folds a panel.
+fn generators_title(shot: &RgbImage) -> u32 {
+    let is_bright = |y: u32| (986..994).filter(|x| shot.get_pixel(*x, y).0[0] > 140).count() >= 5;
+    let lines: Vec<u32> = (90..500).filter(|y| is_bright(*y)).collect();
+    let first = lines[0];
+    *lines.iter().find(|y| **y > first + 15).unwrap_or(&first)
+}
+
 #[test]
 fn work_survives_a_crash_and_is_saved_by_its_path() {
     if !tools_are_there() {

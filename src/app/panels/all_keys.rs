@@ -73,7 +73,7 @@ fn row(ui: &mut Ui, key: &Key, now: &mut Value, normal: Option<&Value>) {
     let label = ui.label(key.label).on_hover_text(format!("`{}`: {}", key.name, tooltip(key.help)));
     ui.horizontal(|ui| field(ui, key, now, &label));
     if let Some(normal) = normal.filter(|normal| *normal != now) {
-        let reset = ui.small_button("⟲").on_hover_text(format!("Set {} back to {normal}", key.label));
+        let reset = ui.small_button("reset").on_hover_text(format!("Set {} back to {normal}", key.label));
         if reset.clicked() {
             *now = normal.clone();
         }

@@ -29,8 +29,8 @@ pub fn show(ctx: &Context, model: &mut Model) {
     let (pictures, room) = (pictures(ctx), ctx.content_rect().size());
     let mut chosen = None;
     let modal = Modal::new(Id::unique("gallery")).show(ctx, |ui| {
-        ui.set_width((room.x - 60.0).min(940.0));
-        ScrollArea::vertical().max_height(room.y - 90.0).show(ui, |ui| {
+        ui.set_width((room.x - 60.0).clamp(60.0, 940.0));
+        ScrollArea::vertical().max_height((room.y - 90.0).max(60.0)).show(ui, |ui| {
             let tests = [("To test with", &TEST_PRESETS[..])];
             for (title, names) in PRESET_GROUPS.iter().chain(&tests) {
                 ui.heading(*title);

@@ -15,9 +15,10 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
     let edge = picture.center_bottom() + vec2(0.0, -10.0);
     Area::new(Id::unique("hints")).fixed_pos(edge).pivot(Align2::CENTER_BOTTOM).constrain_to(picture).show(ctx, |ui| {
         Frame::popup(ui.style()).show(ui, |ui| {
-            ui.set_max_width(picture.width() - 40.0);
+            ui.set_max_width((picture.width() - 40.0).max(60.0));
             ui.horizontal(|ui| {
-                model.settings.knows_hints = ui.small_button("×").on_hover_text("Do not show hints again").clicked();
+                model.settings.knows_hints =
+                    ui.small_button("Got it").on_hover_text("Do not show hints again").clicked();
                 ui.add(egui::Label::new(HINTS).wrap());
             });
         });

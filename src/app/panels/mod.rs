@@ -1,6 +1,7 @@
 //! The panels: each a small function of the model. They touch neither window nor GPU, so tests drive them without either.
 
 mod all_keys;
+pub mod compare;
 mod costs;
 mod film;
 pub mod gallery;
@@ -92,6 +93,7 @@ fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
         tools::show(ctx, picture, model);
         hints::show(ctx, picture, model);
     }
+    compare::show(ctx, picture, model);
     probe::show(ctx, picture, model);
     notices::show(ctx, picture, model);
     help::show(ctx, &mut model.shows_help);

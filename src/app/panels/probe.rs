@@ -58,7 +58,9 @@ fn pinned(ctx: &Context, picture: Rect, model: &mut Model) {
     let mut is_open = true;
     let corner = picture.left_top() + vec2(10.0, 52.0);
     let window = Window::new("Probe").id(Id::unique("probe")).open(&mut is_open).resizable(false).default_pos(corner);
-    window.constrain_to(picture).show(ctx, |ui| {
+    // The tools stand above.
+    let room = Rect::from_min_max(picture.min + vec2(0.0, 46.0), picture.max);
+    window.constrain_to(room).show(ctx, |ui| {
         numbers(ui, reading);
         spectra(ui, spectrum, reading.walls.len() > 1, picture);
         ui.horizontal(|ui| {

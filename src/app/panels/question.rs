@@ -65,7 +65,7 @@ fn path(ctx: &Context, model: &mut Model, target: Target, mut text: String, wron
 /// Shows a question with its answers; returns the number of the one that was given.
 fn ask(ctx: &Context, question: &str, answers: &[&str], more: impl FnOnce(&mut Ui)) -> Option<usize> {
     let modal = Modal::new(Id::unique("question")).show(ctx, |ui| {
-        ui.set_width(420.0_f32.min(ctx.content_rect().width() - 40.0));
+        ui.set_width((ctx.content_rect().width() - 40.0).clamp(60.0, 420.0));
         ui.add(egui::Label::new(egui::RichText::new(question).strong()).wrap());
         ui.add_space(6.0);
         more(ui);

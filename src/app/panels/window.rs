@@ -1,6 +1,6 @@
 //! The window itself: its look, the size of its letters, and whether it fills the screen.
 
-use egui::{Context, Theme, Ui, ViewportCommand};
+use egui::{Context, Id, Theme, Ui, ViewportCommand};
 
 use crate::app::model::Model;
 
@@ -17,8 +17,11 @@ pub fn show(ctx: &Context, model: &mut Model) {
     if ctx.zoom_factor() != model.settings.zoom {
         model.settings.zoom = ctx.zoom_factor();
     }
-    let fills = ctx.input(|input| input.viewport().fullscreen.unwrap_or_default());
+    // Told once: a system may refuse, or have none to tell.
+    let told = Id::unique("fills the screen");
+    let fills: bool = ctx.data(|data| data.get_temp(told).unwrap_or_default());
     if fills != model.presents {
+        ctx.data_mut(|data| data.insert_temp(told, model.presents));
         ctx.send_viewport_cmd(ViewportCommand::Fullscreen(model.presents));
     }
 }

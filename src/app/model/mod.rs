@@ -1,14 +1,18 @@
 //! What the window shows and what its user has changed: everything that needs neither a window nor a GPU.
 
+mod bubbles;
+mod steps;
+mod time;
+
 use std::path::PathBuf;
 
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     clock::{Clock, Rate},
+    compare::{Compare, Want},
     costs::Costs,
-    edit::{Edit, begins_anew, new_seed},
-    history,
+    edit::Edit,
     keys::Action,
     messages::Messages,
     orbit,
@@ -17,12 +21,12 @@ use super::{
     storage::{Settings, Unsaved},
     time_line::TimeLine,
     tools::{self, Hand, Press, Tool},
-    undo::{Step, Undo},
+    undo::Undo,
 };
 use crate::{
     input::LoadedScene,
-    plan::{Resources, Story, film_owners, settle_detail},
-    scene::{Bubble, Light, Motion, MotionChange, preset_toml},
+    plan::{Resources, Story, settle_detail},
+    scene::{Light, Motion, MotionChange, preset_toml},
 };
 
 /// How far a key tilts gravity, degrees.
@@ -48,6 +52,8 @@ pub struct Model {
     pub rate: Rate,
     /// How the time line is used.
     pub time_line: TimeLine,
+    /// A kept picture beside the one that is shown.
+    pub compare: Compare,
     /// What is measured under the pointer.
     pub probe: Probe,
     /// Index of the bubble that the film panel edits.
@@ -111,6 +117,7 @@ impl Model {
             clock: Clock::default(),
             rate: Rate::default(),
             time_line: TimeLine::default(),
+            compare: Compare::default(),
             probe: Probe::default(),
             selected: 0,
             outlines: false,
@@ -187,35 +194,6 @@ impl Model {
         self.loading = None;
     }
 
-    /// Lets wall time pass, unless the films are behind the clock.
-    pub fn advance(&mut self, wall_s: f64) {
-        let motion = &self.scene.motion;
-        if self.behind_ticks == 0 {
-            self.clock.advance(wall_s, motion);
-        }
-        let time_s = self.clock.time_s(motion);
-        if !self.clock.running || self.behind_ticks > 0 {
-            self.rate.restart(time_s);
-        } else if self.time_line.loops && time_s >= self.time_line.length_s {
-            self.clock.reset();
-            self.rate.restart(0.0);
-        } else {
-            self.rate.note(wall_s, time_s);
-        }
-    }
-
-    /// Moves an event to another tick.
-    pub fn move_event(&mut self, index: usize, tick: u64) {
-        let mut events = self.scene.events.clone();
-        let Some(event) = events.get_mut(index).filter(|event| event.tick != tick) else { return };
-        event.tick = tick;
-        let moved = event.clone();
-        // Events stand in the order of their ticks; those of one tick keep theirs.
-        events.sort_by_key(|event| event.tick);
-        self.time_line.selected = events.iter().position(|event| *event == moved);
-        self.edit(Edit::History(self.scene.motion.clone().into(), events));
-    }
-
     /// The motion that is in force now.
     #[must_use]
     pub fn motion(&self) -> Motion {
@@ -227,78 +205,6 @@ impl Model {
     pub fn last_tick(&self) -> u64 {
         let last_event = self.scene.events.last().map_or(0, |event| event.tick);
         self.furthest_tick.max(self.clock.tick).max(last_event)
-    }
-
-    /// Makes a change of the scene that can be taken back, or reports why it is not valid; returns whether it was made. The only way to change
-    /// a scene, but for a camera that follows the pointer.
-    pub fn edit(&mut self, edit: Edit) -> bool {
-        let back = self.apply(edit);
-        let is_made = back.is_some();
-        back.into_iter().for_each(|back| self.undo.record(back, &self.scene));
-        is_made
-    }
-
-    /// Makes a change of the scene, and returns what takes it back, or reports why it is not valid.
-    fn apply(&mut self, edit: Edit) -> Option<Edit> {
-        let tick = self.clock.tick;
-        let back = self.scene.change(|scene| edit.apply(scene, tick));
-        if let Err(error) = self.scene.validate() {
-            self.scene.change(|scene| back.apply(scene, tick));
-            self.messages.problem(error.to_string());
-            return None;
-        }
-        if let Edit::Films(bubbles, generators) = &back
-            && begins_anew(&film_owners(bubbles, generators), self.scene.owners())
-        {
-            self.clock.reset();
-        }
-        Some(back)
-    }
-
-    /// Takes the last step back.
-    pub fn undo(&mut self) {
-        let Some(step) = self.undo.last() else { return };
-        let step = self.reverse(step);
-        self.messages.note(format!("Undone: {}", step.name));
-        self.undo.undone(step);
-    }
-
-    /// Makes the step again that was taken back last.
-    pub fn redo(&mut self) {
-        let Some(step) = self.undo.next() else { return };
-        let step = self.reverse(step);
-        self.messages.note(format!("Redone: {}", step.name));
-        self.undo.redone(step);
-    }
-
-    /// Takes a step back, and returns the one that makes it again.
-    fn reverse(&mut self, mut step: Step) -> Step {
-        let (owners, tick) = (self.scene.owners().to_vec(), self.clock.tick);
-        let edits = std::mem::take(&mut step.back).into_iter().rev();
-        step.back = self.scene.change(|scene| edits.map(|edit| edit.apply(scene, tick)).collect());
-        step.resources = step.resources.map(|before| std::mem::replace(&mut self.resources, before));
-        if begins_anew(&owners, self.scene.owners()) {
-            self.clock.reset();
-        }
-        // What a slider or the hand holds is of another scene.
-        (self.motion_draft, self.hand) = (None, Hand::default());
-        step
-    }
-
-    /// Removes the event that is selected on the time line.
-    pub fn remove_event(&mut self) {
-        if let Some(index) = self.time_line.selected.take().filter(|index| *index < self.scene.events.len()) {
-            self.edit(Edit::Forget(index));
-        }
-    }
-
-    /// Blows every film again, with a new seed for film and flow.
-    pub fn new_seeds(&mut self) {
-        self.clock.reset();
-        let motion = Motion { seed: new_seed(), ..self.motion() };
-        let back = [Edit::Motion(motion.into()), Edit::Reseed].into_iter().filter_map(|edit| self.apply(edit));
-        let back = back.collect();
-        self.undo.record_whole("New seeds", back, None);
     }
 
     /// Asks for something, and first what shall become of work that is not saved, if it would be lost.
@@ -330,42 +236,6 @@ impl Model {
     pub fn title(&self) -> String {
         let edited = if self.undo.is_dirty() { " (edited)" } else { "" };
         format!("soapfilm – {}{edited}", self.name)
-    }
-
-    /// Selects the bubble at a place in the picture, right and up from its middle in heights of it; beside all bubbles, none is outlined.
-    pub fn select(&mut self, place: DVec2) {
-        let bubble = tools::bubble_at(&self.scene, self.clock.tick, place);
-        self.outlines = bubble.is_some();
-        self.selected = bubble.unwrap_or(self.selected);
-    }
-
-    /// Adds a copy of a bubble to the right of the selected one, and selects it.
-    pub fn add_bubble(&mut self, mut bubble: Bubble) {
-        let (mut bubbles, generators) = (self.scene.bubbles.clone(), self.scene.generators.clone());
-        if let Some(beside) = bubbles.get(self.selected) {
-            let gap_m = 1.1e-3 * (beside.radius_mm + bubble.radius_mm);
-            let place = DVec3::from(beside.center_m) + gap_m * self.scene.camera.right();
-            bubble.center_m = place.to_array().map(|part| (part * 1e4).round() / 1e4);
-        }
-        bubbles.push(bubble);
-        let last = bubbles.len() - 1;
-        if self.edit(Edit::Films(bubbles, generators)) {
-            (self.selected, self.outlines) = (last, true);
-        }
-    }
-
-    /// Deletes the selected bubble; what would have happened to it is forgotten, and what happens to others stays.
-    pub fn delete_bubble(&mut self) {
-        let (mut bubbles, generators) = (self.scene.bubbles.clone(), self.scene.generators.clone());
-        if self.selected >= bubbles.len() {
-            return;
-        }
-        bubbles.remove(self.selected);
-        let events = history::without_bubble(&self.scene.events, self.selected);
-        let back = [Edit::History(self.scene.motion.clone().into(), events), Edit::Films(bubbles, generators)];
-        let back = back.into_iter().filter_map(|edit| self.apply(edit)).collect();
-        self.undo.record_whole("Delete bubble", back, None);
-        (self.selected, self.outlines) = (self.selected.saturating_sub(1), false);
     }
 
     /// Lets the pointer, pressed or not, use its tool. Tells whether the camera shall stand.
@@ -423,6 +293,7 @@ impl Model {
                 let like = self.scene.bubbles.get(self.selected).cloned();
                 like.into_iter().for_each(|bubble| self.add_bubble(bubble));
             }
+            Action::Keep => self.compare.wants = Some(Want::Keep),
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Open => self.requests.push(Request::Ask(Target::OpenScene)),
@@ -456,6 +327,7 @@ fn warn(messages: &mut Messages, loaded: &LoadedScene) {
 pub(super) mod tests {
     use super::*;
     use crate::{
+        app::edit::new_seed,
         input::load_scene,
         plan::film_grids,
         scene::{Change, Event, FilmIndexName, Flow, Scene},
