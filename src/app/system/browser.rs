@@ -20,9 +20,15 @@ use crate::{
     input::keep_file,
 };
 
+/// The device that all canvases of a page share.
+struct Shared {
+    device: Option<Result<Gpu, GpuError>>,
+    /// Fulfilled once the device is there.
+    opening: Option<js_sys::Promise>,
+}
+
 thread_local! {
-    /// The page's device, and what is fulfilled once it is there.
-    static DEVICE: RefCell<(Option<Result<Gpu, GpuError>>, Option<js_sys::Promise>)> = const { RefCell::new((None, None)) };
+    static SHARED: RefCell<Shared> = const { RefCell::new(Shared { device: None, opening: None }) };
 }
 
 /// The device for a canvas: all canvases of a page share one, until it is lost.
@@ -31,22 +37,21 @@ pub async fn device(
     choice: &AdapterChoice,
     surface: &wgpu::Surface<'_>,
 ) -> Result<Gpu, GpuError> {
-    let is_gone = |device: &Option<Result<Gpu, GpuError>>| !matches!(device, Some(Ok(gpu)) if !gpu.is_lost());
-    let opening = DEVICE.with_borrow(|(device, opening)| opening.clone().filter(|_| device.is_none()));
-    match opening {
-        Some(opening) => drop(JsFuture::from(opening).await),
-        None if DEVICE.with_borrow(|(device, _)| is_gone(device)) => {
-            // Others that come meanwhile wait for this one.
-            let mut opened = None;
-            let promise = js_sys::Promise::new(&mut |resolve, _| opened = Some(resolve));
-            DEVICE.set((None, Some(promise)));
-            let device = Gpu::on_instance(instance, choice, Some(surface)).await;
-            DEVICE.with_borrow_mut(|slot| slot.0 = Some(device));
-            let _ = opened.map(|opened| opened.call0(&JsValue::NULL));
-        }
-        None => {}
+    let is_there = || SHARED.with_borrow(|shared| matches!(&shared.device, Some(Ok(gpu)) if !gpu.is_lost()));
+    let opening = SHARED.with_borrow(|shared| shared.opening.clone().filter(|_| shared.device.is_none()));
+    if let Some(opening) = opening {
+        // Without its answer: what was opened, or why nothing could be, is kept.
+        let _ = JsFuture::from(opening).await;
+    } else if !is_there() {
+        let mut opened = None;
+        let opening = js_sys::Promise::new(&mut |resolve, _| opened = Some(resolve));
+        SHARED.set(Shared { device: None, opening: Some(opening) });
+        let device = Gpu::on_instance(instance, choice, Some(surface)).await;
+        SHARED.with_borrow_mut(|shared| shared.device = Some(device));
+        let _ = opened.map(|opened| opened.call0(&JsValue::NULL));
     }
-    DEVICE.with_borrow(|(device, _)| device.clone()).unwrap_or_else(|| Err(GpuError::NoAdapter(String::new())))
+    let device = SHARED.with_borrow(|shared| shared.device.clone());
+    device.unwrap_or_else(|| Err(GpuError::NoAdapter(String::new())))
 }
 
 /// Puts a link to this page that shows a scene on the clipboard.
