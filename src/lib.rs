@@ -18,6 +18,7 @@
 //!
 //! | module | question it answers | knows nothing of |
 //! |---|---|---|
+//! | `web` | who asks in a browser: the page around the window; on `wasm32` alone | the command line |
 //! | [`cli`], [`app`] | who asks: the command line, and the window | each other |
 //! | [`studio`] | the library's front door: a picture, a film or a colour in a few lines | the command line, windows |
 //! | [`output`], [`input`] | files: pictures, tables and reports out; environments and spectra in | windows, GPUs |
@@ -31,27 +32,40 @@
 // They panic where a stream is closed or full: `output::print` and `output::tell` do not.
 #![cfg_attr(not(test), warn(clippy::print_stdout, clippy::print_stderr))]
 
-#[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
+#[cfg(feature = "gui")]
 pub mod app;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;
 pub mod gpu;
-#[cfg(not(target_arch = "wasm32"))]
 pub mod input;
-#[cfg(not(target_arch = "wasm32"))]
 pub mod output;
 pub mod physics;
 pub mod plan;
 pub mod scene;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod studio;
+/// In a browser, what the window reads of films and pictures.
+#[cfg(target_arch = "wasm32")]
+pub mod studio {
+    mod difference;
+    mod sight;
+
+    pub use difference::{Difference, difference};
+    pub use sight::{FilmsRead, WallInSight, walls_in_sight};
+}
 #[cfg(not(target_arch = "wasm32"))]
 pub mod verify;
+/// In a browser, what the probe reads.
+#[cfg(target_arch = "wasm32")]
+pub mod verify {
+    pub mod reference;
+}
+#[cfg(all(feature = "gui", target_arch = "wasm32"))]
+pub mod web;
 mod words;
 
 pub use glam;
 pub use gpu::AdapterChoice;
-#[cfg(not(target_arch = "wasm32"))]
 pub use input::{LoadedScene, load_scene};
 pub use physics::environment::CubeMap;
 pub use scene::Scene;

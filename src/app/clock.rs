@@ -86,9 +86,50 @@ impl Clock {
     }
 }
 
+/// How fast film time passes, measured over a second of wall time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rate {
+    wall_s: f64,
+    since_s: f64,
+    latest: Option<f64>,
+}
+
+impl Rate {
+    /// Notes the film's time, a wall time after the last note.
+    pub fn note(&mut self, wall_s: f64, film_s: f64) {
+        self.wall_s += wall_s;
+        if film_s < self.since_s {
+            // It was set back.
+            *self = Self { since_s: film_s, ..Self::default() };
+        } else if self.wall_s >= 1.0 {
+            *self = Self { wall_s: 0.0, since_s: film_s, latest: Some((film_s - self.since_s) / self.wall_s) };
+        }
+    }
+
+    /// Begins anew, because time stands or was moved.
+    pub fn restart(&mut self, film_s: f64) {
+        *self = Self { since_s: film_s, ..Self::default() };
+    }
+
+    /// Film time over wall time, once it is known.
+    #[must_use]
+    pub fn latest(&self) -> Option<f64> {
+        self.latest
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_rate_is_that_of_the_last_second() {
+        let mut rate = Rate::default();
+        (1..=20).for_each(|k| rate.note(0.1, 0.03 * f64::from(k)));
+        assert!(rate.latest().is_some_and(|rate| (rate - 0.3).abs() < 0.02), "{rate:?}");
+        rate.note(0.1, 0.0);
+        assert_eq!(rate.latest(), None, "time was set back");
+    }
 
     fn motion(tick_s: f64, speed: f64) -> Motion {
         Motion { tick_s, speed, ..Motion::default() }

@@ -1,17 +1,21 @@
 //! Work that takes long, on threads of its own, so that the window never freezes: dialogs, loading, saving.
 
 use std::{
-    future::Future,
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
     sync::{
         Arc,
         mpsc::{Receiver, Sender, channel},
     },
-    time::{Duration, Instant},
 };
 
-use super::model::{Model, Target};
+use super::{
+    compare::{Map, Pixels, Want},
+    model::Model,
+    request::{Question, Target},
+    storage::Unsaved,
+    system,
+};
 use crate::{
     input::{LoadError, LoadedScene, load_environment, load_illuminant, load_scene},
     output::{Metadata, Picture, write_text},
@@ -19,16 +23,18 @@ use crate::{
     scene::{Light, Scene},
 };
 
-/// A dialog that ends sooner than this without an answer was never seen.
-const UNSEEN: Duration = Duration::from_millis(250);
-
 /// What came of a piece of work.
 enum Outcome {
     Scene(Box<LoadedScene>),
     Light(Box<Light>, Resources, Vec<String>),
+    TakenUp(Box<LoadedScene>, Box<Unsaved>),
     Chosen(Target, PathBuf),
+    NoDialog(Target),
+    Saved(PathBuf, u64),
+    Map(Map),
     Done(String),
     Failed(String),
+    NotSaved(String),
     Nothing,
 }
 
@@ -37,8 +43,14 @@ enum Outcome {
 pub enum Arrival {
     /// Another scene is in the model.
     Scene,
+    /// What an earlier window left is in the model.
+    TakenUp,
     /// A file was chosen.
     Chosen(Target, PathBuf),
+    /// The scene is in its file.
+    Saved,
+    /// The scene is not in its file: that failed, or its user thought better of it.
+    NotSaved,
 }
 
 /// The workers.
@@ -66,6 +78,15 @@ impl Files {
         });
     }
 
+    /// Loads what work names that an earlier window left.
+    pub fn take_up(&mut self, model: &mut Model, work: Unsaved) {
+        self.begin_load(model, &work.name);
+        self.run(move || match LoadedScene::from_toml(&work.scene, &work.name, &work.folder) {
+            Ok(loaded) => Outcome::TakenUp(loaded.into(), work.into()),
+            Err(error) => Outcome::Failed(error.to_string()),
+        });
+    }
+
     /// Loads the environment and illuminant that a light names; they and the light arrive together.
     pub fn load_light(&mut self, model: &mut Model, light: Light) {
         self.begin_load(model, "the light");
@@ -85,13 +106,36 @@ impl Files {
         model.loading = Some(what.to_owned());
     }
 
-    /// Saves a scene whose relative paths start from a folder. In another folder they still name the files that they do.
-    pub fn save_scene(&self, path: PathBuf, scene: Scene, folder: PathBuf) {
+    /// Saves the scene as it is now. Relative paths in it still name the files that they do.
+    pub fn save_scene(&self, path: PathBuf, model: &Model) {
+        let (scene, folder, state) = (Scene::clone(&model.scene), model.folder.clone(), model.undo.state());
         self.run(move || {
             let saved = moved(scene, &folder, path.parent().unwrap_or(Path::new("")));
             let written =
                 saved.and_then(|scene| write_text(&path, &scene.to_toml()).map_err(|error| error.to_string()));
-            written.map_or_else(Outcome::Failed, |()| Outcome::Done(format!("Saved {}", path.display())))
+            written.map_or_else(Outcome::NotSaved, |()| Outcome::Saved(path, state))
+        });
+    }
+
+    /// Keeps a picture, or finds out how far it is from the one that is kept.
+    pub fn compare(&self, model: &mut Model, want: Want, shown: Pixels) {
+        match (want, model.compare.kept.clone()) {
+            (Want::Map, Some((kept, _))) if kept.size == shown.size => {
+                self.run(move || Outcome::Map(Map::new(&kept, &shown)));
+            }
+            (Want::Map, Some(_)) => model.messages.note("A has another size than the picture has now: keep it again"),
+            _ => {
+                let name = format!("{} at {:.2} s", model.name, model.clock.time_s(&model.scene.motion));
+                model.compare.keep(shown, name);
+            }
+        }
+    }
+
+    /// Saves a text.
+    pub fn save_text(&self, path: PathBuf, text: String) {
+        self.run(move || match write_text(&path, &text) {
+            Ok(()) => Outcome::Done(format!("Saved {}", path.display())),
+            Err(error) => Outcome::Failed(error.to_string()),
         });
     }
 
@@ -103,44 +147,37 @@ impl Files {
         });
     }
 
-    /// Asks for a file. The dialog is made here, on the window's thread, as macOS demands, and waited for on another.
+    /// Asks for a file.
     pub fn ask(&self, target: Target, model: &Model, window: &winit::window::Window) {
-        let dialog = rfd::AsyncFileDialog::new().set_parent(window).set_directory(model.folder.as_path());
-        let (name, endings) = target.file_type();
-        let dialog = dialog.add_filter(name, endings);
-        if target.is_read() {
-            self.wait_for(target, dialog.pick_file());
-        } else {
-            let stem = Path::new(&model.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
-            self.wait_for(target, dialog.set_file_name(format!("{stem}.{}", endings[0])).save_file());
-        }
-    }
-
-    fn wait_for(&self, target: Target, answer: impl Future<Output = Option<rfd::FileHandle>> + Send + 'static) {
-        let asked = Instant::now();
-        self.run(move || match pollster::block_on(answer) {
-            Some(file) => Outcome::Chosen(target, file.path().to_owned()),
-            None if asked.elapsed() < UNSEEN => Outcome::Failed(
-                "no file dialog could be opened: install xdg-desktop-portal or zenity, or drop files on the window"
-                    .to_owned(),
-            ),
-            None => Outcome::Nothing,
+        let (tell, name) = (self.teller(), target.file_name(&model.name));
+        system::choose_file(target, &model.folder, name, window, move |answer| {
+            tell(match answer {
+                Ok(Some(path)) => Outcome::Chosen(target, path),
+                Ok(None) => Outcome::Nothing,
+                Err(system::NoDialog) => Outcome::NoDialog(target),
+            });
         });
     }
 
-    fn run(&self, work: impl FnOnce() -> Outcome + Send + 'static) {
+    /// Tells the window of an outcome, from any thread.
+    fn teller(&self) -> impl Fn(Outcome) + Clone + Send + 'static {
         let (wake, sender, load) = (self.wake.clone(), self.sender.clone(), self.load);
-        let job = move || {
-            let broken = |_| Outcome::Failed("an internal error stopped the work: please report it".to_owned());
-            let outcome = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(broken);
+        move |outcome| {
             // Nobody listens any more once the window is gone.
             let _ = sender.send((load, outcome));
             wake();
+        }
+    }
+
+    fn run(&self, work: impl FnOnce() -> Outcome + Send + 'static) {
+        let tell = self.teller();
+        let told = tell.clone();
+        let job = move || {
+            let broken = |_| Outcome::Failed("an internal error stopped the work: please report it".to_owned());
+            tell(catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(broken));
         };
-        if let Err(error) = std::thread::Builder::new().name("soapfilm files".to_owned()).spawn(job) {
-            let failed = Outcome::Failed(format!("no thread could be started: {error}"));
-            let _ = self.sender.send((self.load, failed));
-            (self.wake)();
+        if let Err(error) = system::spawn(job) {
+            told(Outcome::Failed(format!("no thread could be started: {error}")));
         }
     }
 
@@ -160,13 +197,28 @@ impl Files {
                 model.adopt_light(*light, resources);
                 notes.into_iter().for_each(|note| model.messages.remark(note));
             }
+            Outcome::TakenUp(loaded, work) if current => {
+                model.take_up(*loaded, *work);
+                return Some(Arrival::TakenUp);
+            }
             Outcome::Chosen(target, path) => return Some(Arrival::Chosen(target, path)),
+            Outcome::NoDialog(target) => model.question = Some(Question::path(target, &model.name, &model.folder)),
+            Outcome::Saved(path, state) => {
+                model.saved(path, state);
+                return Some(Arrival::Saved);
+            }
+            Outcome::NotSaved(text) => {
+                model.messages.problem(text);
+                return Some(Arrival::NotSaved);
+            }
+            Outcome::Map(map) => model.compare.map = model.compare.kept.as_ref().map(|_| map),
             Outcome::Done(text) => model.messages.note(text),
             Outcome::Failed(text) => {
                 model.messages.problem(text);
                 model.loading = model.loading.take().filter(|_| !current);
             }
-            Outcome::Scene(_) | Outcome::Light(..) | Outcome::Nothing => {}
+            Outcome::Nothing => return Some(Arrival::NotSaved),
+            Outcome::Scene(_) | Outcome::TakenUp(..) | Outcome::Light(..) => {}
         }
         None
     }
@@ -174,10 +226,9 @@ impl Files {
 
 /// A scene whose relative paths start from another folder: they lead from there to the files inside it, and from the root to all others.
 fn moved(mut scene: Scene, from: &Path, to: &Path) -> Result<Scene, String> {
-    let absolute = |path: &Path| std::path::absolute(path).map_err(|error| format!("{}: {error}", path.display()));
     let current = PathBuf::from(".");
     let [from, to] = [from, to].map(|folder| if folder.as_os_str().is_empty() { &current } else { folder });
-    let [from, to] = [absolute(from)?, absolute(to)?];
+    let [from, to] = [from, to].map(system::whole_path);
     if from == to {
         return Ok(scene);
     }
@@ -210,6 +261,8 @@ fn load_light(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::time::Duration;
+
     use crate::{
         app::model::tests::model,
         scene::{Environment, Scene},
@@ -278,7 +331,8 @@ mod tests {
         let loaded = load_scene(old.join("scene.toml")).unwrap();
         let (files, arrived) = files();
         let saved = new.join("saved.toml");
-        files.save_scene(saved.clone(), loaded.scene.clone(), loaded.folder.clone());
+        let model = Model::new(loaded.clone());
+        files.save_scene(saved.clone(), &model);
         arrived.recv_timeout(PATIENCE).unwrap();
         let read = load_scene(&saved).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(read.resources.illuminant.spectrum(), loaded.resources.illuminant.spectrum());
@@ -290,11 +344,11 @@ mod tests {
         assert_eq!(read.resources.plate, loaded.resources.plate);
         assert!(read.resources.plate.is_some());
 
-        files.save_scene(old.join("again.toml"), loaded.scene.clone(), loaded.folder);
+        files.save_scene(old.join("again.toml"), &model);
         arrived.recv_timeout(PATIENCE).unwrap();
         assert_eq!(
             load_scene(old.join("again.toml")).unwrap().scene,
-            loaded.scene,
+            *model.scene,
             "in its own folder nothing changes"
         );
     }

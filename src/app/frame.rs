@@ -1,38 +1,58 @@
 //! One redraw: time, panels, picture, window, and when the next one is due.
 
-use std::{
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{sync::Arc, time::Duration};
 
 use egui::{Rect, ViewportInfo};
+use glam::DVec2;
+use web_time::Instant;
 use winit::{event_loop::ActiveEventLoop, window::Window};
 
-#[cfg(debug_assertions)]
+#[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 use super::reload::ShaderWatch;
 use super::{
-    AppError,
     capture::Capture,
+    compare::{Pixels, Want},
     files::Files,
-    model::{Model, Request},
+    film_reader::FilmReader,
+    input,
+    model::Model,
     paint::{Contents, Painted},
     panels,
+    probe::Reading,
+    request::Request,
     stage::Stage,
 };
 use crate::{
-    gpu::AdapterChoice,
+    gpu::readback::Readback,
     physics::colour::Gamut,
-    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
+    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
+    studio::walls_in_sight,
 };
 
 /// Time between two looks at the clock while nothing but its reading changes.
 const READING: Duration = Duration::from_millis(400);
 /// Time until a surface that had no frame is asked again.
 const ASK_AGAIN: Duration = Duration::from_millis(50);
+/// Redraws of the panels alone that come before the first picture, which may take long: a window must not stay black. Panels know their sizes from
+/// the second one on.
+const PANELS_FIRST: u32 = 2;
+/// What is loaded meanwhile, for people.
+const FIRST_PICTURE: &str = "the first picture";
 /// Time between two polls of a picture that is being read back.
 const FETCH: Duration = Duration::from_millis(8);
 /// Time that a picture rests after it failed: nothing is gained by failing at every frame.
 const REST: Duration = Duration::from_secs(1);
+
+/// How far the window is with the picture that its model asks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// It is being made.
+    Under,
+    /// It is on the window.
+    Done,
+    /// It cannot be made.
+    Failed(String),
+}
 
 /// The window with all that it needs to draw itself.
 pub struct View {
@@ -44,14 +64,23 @@ pub struct View {
     pub stage: Stage,
     /// Whether the system asks for the window to be drawn again.
     pub exposed: bool,
+    /// How far the picture is.
+    pub progress: Progress,
     /// Size of the picture, pixels.
     pub picture_size: [u32; 2],
-    choice: AdapterChoice,
+    title: String,
+    /// Redraws so far, as far as the first picture.
+    redraws: u32,
     info: ViewportInfo,
     captures: Vec<Capture>,
+    reader: FilmReader,
+    /// The shown picture on its way back, what for, and its size.
+    compared: Option<(Want, [u32; 2], Readback)>,
+    /// What the picture shows.
+    shown: Option<DrawKey>,
     last_redraw: Instant,
     rests_until: Option<Instant>,
-    #[cfg(debug_assertions)]
+    #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
     watch: Option<ShaderWatch>,
 }
 
@@ -74,80 +103,96 @@ impl Due {
 
 impl View {
     /// A view on a new window.
-    pub fn new(window: Arc<Window>, egui: egui_winit::State, stage: Stage, choice: AdapterChoice) -> Self {
+    pub fn new(window: Arc<Window>, egui: egui_winit::State, stage: Stage) -> Self {
         Self {
             window,
             egui,
             stage,
             exposed: true,
+            progress: Progress::Under,
             picture_size: [1, 1],
-            choice,
+            title: String::new(),
+            redraws: 0,
             info: ViewportInfo::default(),
             captures: Vec::new(),
+            reader: FilmReader::default(),
+            compared: None,
+            shown: None,
             last_redraw: Instant::now(),
             rests_until: None,
-            #[cfg(debug_assertions)]
+            #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
             watch: ShaderWatch::of_source(),
         }
     }
 
     /// Draws what has changed, and returns when there will be more to draw.
-    pub fn redraw(
-        &mut self,
-        event_loop: &ActiveEventLoop,
-        model: &mut Model,
-        files: &Files,
-    ) -> Result<Option<Instant>, AppError> {
+    pub fn redraw(&mut self, event_loop: &ActiveEventLoop, model: &mut Model, files: &Files) -> Option<Instant> {
         let size = <[u32; 2]>::from(self.window.inner_size());
         if size.contains(&0) {
-            return Ok(None);
+            return None;
         }
-        self.recover(model)?;
+        self.check(model);
+        self.tell_system(model);
         let mut due = Due { now: Instant::now(), at: None };
         let mut output = self.run_panels(event_loop, model, &mut due);
         // After the panels: what is changed there happens at the tick that its user sees.
         let first_tick = self.pass_time(model, due.now);
         let moves = self.draw_picture(model, first_tick, &mut due);
+        self.probe(model, &mut due);
+        self.compare(model, files, &mut due);
         self.fetch(model, files, &mut due);
         self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
         let painted = self.paint(&mut output, size, moves);
         self.schedule(model, painted, moves, &mut due);
-        Ok(due.at)
+        due.at
+    }
+
+    /// The title follows the scene, and the settings the window's size.
+    fn tell_system(&mut self, model: &mut Model) {
+        let title = model.title();
+        if self.title != title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
+        if !model.presents {
+            let size = self.window.inner_size().to_logical::<f64>(self.window.scale_factor());
+            model.settings.window = [size.width, size.height];
+        }
     }
 
     /// Lets film time pass, unless the films are behind it; returns the tick before.
     fn pass_time(&mut self, model: &mut Model, now: Instant) -> u64 {
         let wall_s = now.duration_since(std::mem::replace(&mut self.last_redraw, now)).as_secs_f64();
         let first_tick = model.clock.tick;
-        if model.behind_ticks == 0 {
-            model.clock.advance(wall_s, &model.scene.motion);
-        }
+        model.advance(wall_s);
         first_tick
     }
 
     fn run_panels(&mut self, event_loop: &ActiveEventLoop, model: &mut Model, due: &mut Due) -> Output {
-        let input = self.egui.take_egui_input(&self.window);
         let ctx = self.egui.egui_ctx().clone();
-        let mut picture = None;
-        let mut full = ctx.run_ui(input, |ui| picture = Some(panels::show(ui, model)));
+        let mut full = egui::FullOutput::default();
+        let mut rect = Rect::NOTHING;
+        for input in input::one_by_one(self.egui.take_egui_input(&self.window)) {
+            full.append(ctx.run_ui(input, |ui| {
+                let picture = panels::show(ui, model);
+                rect = picture.rect;
+                model.move_camera(&picture.gesture, f64::from(rect.aspect_ratio().max(0.01)));
+            }));
+        }
         let platform = std::mem::take(&mut full.platform_output);
         self.egui.handle_platform_output_with_event_loop(&self.window, event_loop, platform);
         if let Some(root) = full.viewport_output.get_mut(&egui::ViewportId::ROOT) {
             let commands = std::mem::take(&mut root.commands);
             if commands.contains(&egui::ViewportCommand::Close) {
-                model.requests.push(Request::Quit);
+                model.ask_for(Request::Quit);
             }
             // Nothing here asks for screenshots or the clipboard, so no action comes back.
             egui_winit::process_viewport_commands(&ctx, &mut self.info, commands, &self.window, &mut Vec::new());
             due.after(root.repaint_delay);
         }
-        let rect = picture.map_or(Rect::NOTHING, |picture| picture.rect);
         let (rect, size) =
             pixel_rect(rect, full.pixels_per_point, self.stage.renderer.gpu.device.limits().max_texture_dimension_2d);
         self.picture_size = size;
-        if let Some(picture) = picture {
-            model.move_camera(&picture.gesture, f64::from(size[0]) / f64::from(size[1]));
-        }
         Output { full, rect }
     }
 
@@ -158,6 +203,15 @@ impl View {
             return false;
         }
         self.rests_until = None;
+        if self.redraws < PANELS_FIRST {
+            self.redraws += 1;
+            model.loading = Some(FIRST_PICTURE.to_owned());
+            due.after(Duration::ZERO);
+            return false;
+        }
+        if model.loading.take_if(|loading| loading == FIRST_PICTURE).is_some() {
+            due.after(Duration::ZERO);
+        }
         let moment = model.clock.moment(&model.scene.motion);
         let shot = Shot {
             size: self.picture_size,
@@ -176,16 +230,65 @@ impl View {
             Ok((request, plan)) => {
                 hold_clock(model, &request, self.stage.renderer.state(), first_tick);
                 self.account(model, &plan, due);
+                let is_done = is_done(&request, &plan, model.clock.running) && model.behind_ticks == 0;
+                self.progress = if is_done { Progress::Done } else { Progress::Under };
+                self.shown = Some(request.picture.draw);
                 !plan.is_empty()
             }
             Err(text) => {
-                model.messages.problem(text);
+                model.messages.problem(&text);
+                self.progress = Progress::Failed(text);
                 self.rests_until = Some(due.now + REST);
                 // The message itself is to be shown at once.
                 due.after(Duration::ZERO);
                 false
             }
         }
+    }
+
+    /// Reads the film under the pointer, if the pointer asks.
+    fn probe(&mut self, model: &mut Model, due: &mut Due) {
+        let (Some(place), Some(draw)) = (model.probe.asked(), &self.shown) else { return };
+        let [width, height] = draw.size.map(f64::from);
+        let position = 0.5 * DVec2::new(width, height) + height * DVec2::new(place.x, -place.y);
+        let walls = walls_in_sight(draw, self.reader.films(), position);
+        let is_read = walls.first().is_none_or(|wall| {
+            self.reader.read(&self.stage.renderer, wall.film, due.now).unwrap_or_else(|error| {
+                model.messages.problem(format!("the film cannot be read: {error}"));
+                true
+            })
+        });
+        // What arrived just now counts.
+        let walls = walls_in_sight(draw, self.reader.films(), position);
+        let moment = walls.first().and_then(|wall| self.reader.moment(wall.film));
+        let moment = moment.unwrap_or(model.clock.moment(&model.scene.motion));
+        let time_s = moment.ticks() * model.scene.motion.tick_s;
+        let is_new = model.probe.answer(Reading::new(&walls, time_s, model.scene.bubbles.len()), is_read);
+        if !is_read {
+            due.after(FETCH);
+        } else if is_new {
+            // The panels have not shown it yet.
+            due.after(Duration::ZERO);
+        }
+    }
+
+    /// Reads the shown picture back, to keep it or to compare it.
+    fn compare(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
+        let renderer = &self.stage.renderer;
+        if let (Some(want), Some(draw)) = (model.compare.wants.take(), &self.shown) {
+            self.compared = renderer.read_picture().map(|readback| (want, draw.size, readback));
+        }
+        let Some((want, size, readback)) = &self.compared else { return };
+        // A loss is told elsewhere.
+        let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
+        let (want, size) = (*want, *size);
+        let Some(bytes) = readback.try_take() else { return due.after(FETCH) };
+        self.compared = None;
+        match bytes {
+            Ok(rgba) => files.compare(model, want, Pixels { size, rgba: Arc::new(rgba) }),
+            Err(error) => model.messages.problem(format!("the picture cannot be read: {error}")),
+        }
+        due.after(Duration::ZERO);
     }
 
     fn account(&mut self, model: &mut Model, plan: &Plan, due: &mut Due) {
@@ -218,7 +321,7 @@ impl View {
             let wait = Duration::from_secs_f64(wait_s);
             due.after(if moves { wait } else { wait.max(READING) });
         }
-        #[cfg(debug_assertions)]
+        #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
         due.at_latest(self.watch.as_ref().map(ShaderWatch::next));
         match painted {
             Painted::Done => {}
@@ -249,27 +352,24 @@ impl View {
         }
     }
 
-    /// Recreates everything on the device if the device is lost; reloads changed shaders.
-    fn recover(&mut self, model: &mut Model) -> Result<(), AppError> {
+    /// Whether the device is lost, and everything on it with it.
+    pub fn is_lost(&self) -> bool {
         // A loss is told by a callback, which comes when the device is polled.
         let _ = self.stage.renderer.gpu.device.poll(wgpu::PollType::Poll);
-        if self.stage.renderer.gpu.is_lost() {
-            log::warn!("recreating everything on the graphics device");
-            self.captures.clear();
-            let instance = self.stage.renderer.gpu.instance.clone();
-            self.stage = Stage::new(instance, &self.choice, &self.window, self.egui.egui_ctx())?;
-            self.exposed = true;
-            model.messages.note("The graphics device was lost and has been reopened");
-        }
-        if let Err(error) = self.stage.renderer.gpu.check() {
-            model.messages.problem(error.to_string());
-        }
-        #[cfg(debug_assertions)]
-        self.reload_shaders(model);
-        Ok(())
+        self.stage.renderer.gpu.is_lost()
     }
 
-    #[cfg(debug_assertions)]
+    /// Reports what the device has refused; reloads changed shaders.
+    fn check(&mut self, model: &mut Model) {
+        if let Err(error) = self.stage.renderer.gpu.check() {
+            self.progress = Progress::Failed(error.to_string());
+            model.messages.problem(error.to_string());
+        }
+        #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+        self.reload_shaders(model);
+    }
+
+    #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
     fn reload_shaders(&mut self, model: &mut Model) {
         let Some(folder) = self.watch.as_mut().and_then(|watch| watch.changed(Instant::now())) else { return };
         let library = crate::gpu::shaders::Library::Directory(folder.to_owned());
@@ -304,6 +404,13 @@ fn pixel_rect(rect: Rect, pixels_per_point: f32, max: u32) -> (Rect, [u32; 2]) {
     let size = [pixels(rect.max.x) - min[0], pixels(rect.max.y) - min[1]].map(|size| size.max(1.0));
     let points = |pixels: [f32; 2]| egui::vec2(pixels[0], pixels[1]) / pixels_per_point;
     (Rect::from_min_size(points(min).to_pos2(), points(size)), size.map(|size| size as u32))
+}
+
+/// Whether a picture is the requested one after a plan. Films that cannot keep up with a running clock make it no other picture: it stands still
+/// until they have come.
+fn is_done(request: &FrameRequest, plan: &Plan, runs: bool) -> bool {
+    let made = plan.after.picture.as_ref();
+    plan.complete || runs && made.is_some_and(|made| made.draw.lights().eq(request.picture.draw.lights()))
 }
 
 /// Takes back the ticks of this frame that the films did not reach, and notes how far they are behind an edited history.

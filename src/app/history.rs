@@ -21,6 +21,33 @@ pub fn insert(scene: &mut Scene, event: Event) -> usize {
     after
 }
 
+/// The events of a scene that loses a bubble: those of the bubble are gone, and those of later ones count one less.
+#[must_use]
+pub fn without_bubble(events: &[Event], lost: usize) -> Vec<Event> {
+    let kept = |event: &Event| {
+        let mut event = event.clone();
+        if let Some(bubble) = bubble_of(&mut event.change) {
+            if *bubble == lost {
+                return None;
+            }
+            *bubble -= usize::from(*bubble > lost);
+        }
+        Some(event)
+    };
+    events.iter().filter_map(kept).collect()
+}
+
+/// The bubble that a change happens to, if it is one.
+fn bubble_of(change: &mut Change) -> Option<&mut usize> {
+    match change {
+        Change::Motion(_) => None,
+        Change::Stir(stir) => Some(&mut stir.bubble),
+        Change::Blow(blow) => Some(&mut blow.bubble),
+        Change::Drag(drag) => Some(&mut drag.bubble),
+        Change::Prick(prick) => Some(&mut prick.bubble),
+    }
+}
+
 /// What happens at an event, in a line for people.
 #[must_use]
 pub fn describe(event: &Event, tick_s: f64) -> String {
@@ -57,7 +84,7 @@ fn value_text(value: &toml::Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Flow, Motion};
+    use crate::scene::{Flow, Motion, Prick};
 
     fn strength(strength: f64) -> MotionChange {
         MotionChange { strength: Some(strength), ..MotionChange::default() }
@@ -97,6 +124,14 @@ mod tests {
         scene.events = vec![Event { tick: 0, change: Change::Motion(strength(5.0)) }];
         record(&mut scene, 0, strength(4.0));
         assert_eq!(scene.motion_at(0).strength, 4.0);
+    }
+
+    #[test]
+    fn a_lost_bubble_takes_its_events_along() {
+        let prick = |bubble| Event { tick: 9, change: Change::Prick(Prick { bubble, ..Prick::default() }) };
+        let wind = Event { tick: 9, change: Change::Motion(stir()) };
+        let events = [prick(0), prick(1), wind.clone(), prick(2)];
+        assert_eq!(without_bubble(&events, 1), [prick(0), wind, prick(1)]);
     }
 
     #[test]

@@ -21,10 +21,20 @@ pub enum Action {
     Panels,
     /// Shows or hides the help.
     Help,
+    /// Takes the last step back.
+    Undo,
+    /// Makes it again.
+    Redo,
+    /// Adds a bubble like the selected one.
+    Duplicate,
+    /// Keeps the picture, to compare others with it.
+    Keep,
     /// Opens a scene.
     Open,
-    /// Saves the scene.
+    /// Saves the scene to its file.
     Save,
+    /// Saves the scene to another file.
+    SaveAs,
     /// Saves the picture as PNG.
     SavePng,
     /// Saves the picture as EXR.
@@ -39,6 +49,12 @@ pub enum Action {
     TiltAway,
     /// Tilts gravity towards it.
     TiltBack,
+    /// Plays the length of the time line again and again, or once.
+    Loop,
+    /// Removes the event that is selected on the time line.
+    RemoveEvent,
+    /// Shows the picture alone on the whole screen, or no longer.
+    Present,
     /// Takes messages and help away.
     Dismiss,
     /// Ends the program.
@@ -66,12 +82,21 @@ const fn command(key: Key, action: Action, help: &'static str) -> Binding {
 const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 /// All keys. Those with more modifiers stand first, for a shortcut also matches with more held than it asks for.
-pub const BINDINGS: [Binding; 23] = [
+pub const BINDINGS: [Binding; 33] = [
     Binding {
         shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::P),
         action: Action::SaveExr,
         help: "Save the picture's radiance as EXR",
     },
+    Binding {
+        shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::S),
+        action: Action::SaveAs,
+        help: "Save the scene to another file",
+    },
+    Binding { shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::Z), action: Action::Redo, help: "Redo" },
+    command(Key::Z, Action::Undo, "Undo"),
+    command(Key::Y, Action::Redo, "Redo"),
+    command(Key::D, Action::Duplicate, "Add a bubble like the selected one"),
     command(Key::P, Action::SavePng, "Save the picture as PNG"),
     command(Key::O, Action::Open, "Open a scene"),
     command(Key::S, Action::Save, "Save the scene with its history"),
@@ -86,6 +111,11 @@ pub const BINDINGS: [Binding; 23] = [
     bare(Key::Num3, Action::Take(Tool::Blow), "The pointer blows at a film"),
     bare(Key::Num4, Action::Take(Tool::Drag), "The pointer moves a bubble"),
     bare(Key::Num5, Action::Take(Tool::Prick), "The pointer bursts a bubble"),
+    bare(Key::Num6, Action::Take(Tool::Probe), "The pointer measures a film"),
+    bare(Key::K, Action::Keep, "Keep this picture, to compare others with it"),
+    bare(Key::L, Action::Loop, "Play in a loop"),
+    bare(Key::Delete, Action::RemoveEvent, "Remove the event that is selected on the time line"),
+    bare(Key::F11, Action::Present, "The picture alone, on the whole screen"),
     bare(Key::ArrowRight, Action::TiltRight, "Tilt gravity to the right"),
     bare(Key::ArrowLeft, Action::TiltLeft, "Tilt gravity to the left"),
     bare(Key::ArrowUp, Action::TiltAway, "Tilt gravity away from the camera"),
@@ -97,8 +127,9 @@ pub const BINDINGS: [Binding; 23] = [
 ];
 
 /// What the pointer does, for the help.
-pub const POINTER: [(&str, &str); 5] = [
+pub const POINTER: [(&str, &str); 6] = [
     ("Drag", "Turn around the bubble"),
+    ("Click", "Select a bubble"),
     ("Drag with a tool", "Stir, blow at or move a bubble; beside it, turn the view"),
     ("Right or Shift drag", "Shift the view"),
     ("Wheel, pinch", "Zoom, also into the bubble"),

@@ -3,38 +3,56 @@
 //! | module | does |
 //! |---|---|
 //! | [`model`] | the state: scene, clock, messages, requests; knows neither window nor GPU |
-//! | [`clock`], [`orbit`], [`history`] | time, camera and events as pure functions of the model |
+//! | [`clock`], [`time_line`], [`orbit`], [`history`] | time, camera and events as pure functions of the model |
 //! | [`panels`], [`keys`] | how people change the model |
-//! | [`files`] | dialogs, loading and saving on threads |
-//! | `window`, `frame` | the event loop, and one redraw |
+//! | [`edit`], [`undo`] | the one gate for changes of the scene, and what takes them back |
+//! | [`files`], [`storage`], `keeper` | the system: dialogs, loading and saving; settings and unsaved work |
+//! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
+//! | [`request`] | what goes from the model to the system, and the questions that come before |
+//! | [`compare`] | a kept picture beside the one that is shown |
+//! | [`probe`], `film_reader` | numbers of the film under the pointer |
+//! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
 pub mod clock;
+pub mod compare;
 pub mod costs;
 mod edit;
 pub mod files;
 pub mod history;
 pub mod keys;
+#[cfg(any(target_arch = "wasm32", test))]
+pub mod link;
 pub mod messages;
 pub mod model;
 pub mod orbit;
 pub mod panels;
+pub mod probe;
+pub mod request;
+pub mod storage;
+pub mod time_line;
+pub mod undo;
 
 mod capture;
-mod frame;
+mod film_reader;
+pub(crate) mod frame;
+mod input;
+mod keeper;
 mod paint;
-#[cfg(debug_assertions)]
+#[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 mod reload;
 mod stage;
 mod style;
 mod surface;
+#[cfg_attr(target_arch = "wasm32", path = "system/browser.rs")]
+#[cfg_attr(not(target_arch = "wasm32"), path = "system/desktop.rs")]
+mod system;
 mod tools;
-mod window;
+pub(crate) mod window;
 
-use crate::{
-    gpu::{AdapterChoice, GpuError},
-    input::LoadedScene,
-};
+use crate::gpu::GpuError;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::{gpu::AdapterChoice, input::LoadedScene};
 
 /// Why the window cannot be opened, or had to be closed.
 #[derive(Debug, thiserror::Error)]
@@ -76,6 +94,7 @@ fn without_place(error: &dyn std::fmt::Display) -> String {
 ///
 /// # Errors
 /// There is no display or no usable adapter, or the device was lost and no other could be opened.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn run(loaded: LoadedScene, choice: &AdapterChoice) -> Result<(), AppError> {
     window::run(model::Model::new(loaded), choice)
 }

@@ -18,6 +18,8 @@ const FILL: f64 = 0.8;
 pub struct Gesture {
     /// Turn about the target, in heights of the picture, to the right and down.
     pub turn: DVec2,
+    /// Turn of a camera that follows the pointer, in the same way.
+    pub follow: DVec2,
     /// Shift of the picture, in heights of the picture, to the right and down.
     pub shift: DVec2,
     /// Natural logarithm of the magnification.
@@ -26,12 +28,18 @@ pub struct Gesture {
     pub frame: bool,
 }
 
-/// Moves a camera by a gesture.
-#[must_use]
-pub fn moved(camera: &Camera, bubbles: &[Bubble], aspect: f64, gesture: &Gesture) -> Camera {
-    if gesture.frame {
-        return framed(camera, bubbles, aspect);
+impl Gesture {
+    /// Whether it moves the camera on purpose.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        let Self { turn, shift, zoom, .. } = self;
+        *turn != DVec2::ZERO || *shift != DVec2::ZERO || *zoom != 0.0
     }
+}
+
+/// Moves a camera by a gesture; see [`framed`] for one that frames the bubbles.
+#[must_use]
+pub fn moved(camera: &Camera, bubbles: &[Bubble], gesture: &Gesture) -> Camera {
     let turned = turned(camera, is_inside(camera, bubbles), gesture.turn);
     zoomed(&shifted(&turned, gesture.shift), reach_m(bubbles), gesture.zoom)
 }
@@ -63,25 +71,26 @@ fn zoomed(camera: &Camera, reach_m: f64, zoom: f64) -> Camera {
     Camera { distance_m: distance.clamp(0.0, FARTHEST_M), ..camera.clone() }
 }
 
-/// Stands back along the same line of sight until all bubbles fill the picture well.
-fn framed(camera: &Camera, bubbles: &[Bubble], aspect: f64) -> Camera {
-    let Some((center, radius)) = bounding_sphere(bubbles) else { return camera.clone() };
+/// Stands back along the same line of sight until all spheres, each a center and a radius in m, fill the picture well.
+#[must_use]
+pub fn framed(camera: &Camera, spheres: &[(DVec3, f64)], aspect: f64) -> Camera {
+    let Some((center, radius)) = bounding_sphere(spheres) else { return camera.clone() };
     // A sphere of radius r touches the cone of half angle a at the distance r / sin a.
     let half_angle = (FILL * half_fov(camera).tan() * aspect.min(1.0)).atan();
     let distance_m = (radius / half_angle.sin()).min(FARTHEST_M);
     Camera { target_m: center.to_array(), distance_m, ..camera.clone() }
 }
 
-/// A sphere around all bubbles: their mean center, and the farthest point from it.
-fn bounding_sphere(bubbles: &[Bubble]) -> Option<(DVec3, f64)> {
-    let center_of = |bubble: &Bubble| DVec3::from(bubble.center_m);
-    let center = bubbles.iter().map(center_of).sum::<DVec3>() / bubbles.len() as f64;
-    let reach = |bubble: &Bubble| center_of(bubble).distance(center) + bubble.radius_mm * 1e-3;
-    bubbles.iter().map(reach).reduce(f64::max).map(|radius| (center, radius))
+/// A sphere around all spheres: their mean center, and the farthest point from it.
+fn bounding_sphere(spheres: &[(DVec3, f64)]) -> Option<(DVec3, f64)> {
+    let center = spheres.iter().map(|(center, _)| *center).sum::<DVec3>() / spheres.len() as f64;
+    let reach = |(other, radius): &(DVec3, f64)| other.distance(center) + radius;
+    spheres.iter().map(reach).reduce(f64::max).map(|radius| (center, radius))
 }
 
 fn reach_m(bubbles: &[Bubble]) -> f64 {
-    bounding_sphere(bubbles).map_or(0.05, |(_, radius)| radius)
+    let spheres: Vec<_> = bubbles.iter().map(|bubble| (bubble.center_m.into(), bubble.radius_mm * 1e-3)).collect();
+    bounding_sphere(&spheres).map_or(0.05, |(_, radius)| radius)
 }
 
 fn is_inside(camera: &Camera, bubbles: &[Bubble]) -> bool {
@@ -115,7 +124,7 @@ mod tests {
     fn a_drag_to_the_right_turns_the_near_side_to_the_right() {
         let camera = at(0.24);
         let near_side = -0.05 * camera.forward();
-        let turned = moved(&camera, &one(), 1.6, &Gesture { turn: DVec2::new(0.1, 0.0), ..Gesture::default() });
+        let turned = moved(&camera, &one(), &Gesture { turn: DVec2::new(0.1, 0.0), ..Gesture::default() });
         assert!(near_side.dot(turned.right()) > 0.01);
         assert_eq!(turned.elevation_deg, camera.elevation_deg);
     }
@@ -124,7 +133,7 @@ mod tests {
     fn from_inside_the_wall_follows_the_pointer_by_the_same_share_of_the_view() {
         let camera = Camera { fov_y_deg: 90.0, elevation_deg: 0.0, ..at(0.0) };
         let before = camera.forward();
-        let turned = moved(&camera, &one(), 1.0, &Gesture { turn: DVec2::new(0.5, 0.0), ..Gesture::default() });
+        let turned = moved(&camera, &one(), &Gesture { turn: DVec2::new(0.5, 0.0), ..Gesture::default() });
         // Half of a view of 90 degrees: what was ahead is 45 degrees to the right.
         assert!((before.dot(turned.right()) - 0.5f64.sqrt()).abs() < 1e-12);
     }
@@ -132,7 +141,7 @@ mod tests {
     #[test]
     fn a_shift_moves_the_target_with_the_pointer() {
         let camera = at(0.24);
-        let shifted = moved(&camera, &one(), 1.6, &Gesture { shift: DVec2::new(0.25, 0.5), ..Gesture::default() });
+        let shifted = moved(&camera, &one(), &Gesture { shift: DVec2::new(0.25, 0.5), ..Gesture::default() });
         let height = 2.0 * 0.24 * 15f64.to_radians().tan();
         let offset = DVec3::from(shifted.target_m);
         assert!((offset.dot(camera.right()) + 0.25 * height).abs() < 1e-12);
@@ -141,7 +150,7 @@ mod tests {
 
     #[test]
     fn zooming_goes_to_the_center_and_out_again() {
-        let step = |camera: &Camera, zoom| moved(camera, &one(), 1.6, &Gesture { zoom, ..Gesture::default() });
+        let step = |camera: &Camera, zoom| moved(camera, &one(), &Gesture { zoom, ..Gesture::default() });
         let mut camera = at(0.24);
         let notches = (1..100).find(|_| {
             camera = step(&camera, 0.2);
@@ -160,11 +169,12 @@ mod tests {
     #[test]
     fn framed_bubbles_fill_the_picture() {
         let away = Camera { target_m: [3.0, 2.0, 1.0], ..at(50.0) };
-        let camera = framed(&away, &one(), 1.6);
+        let one = [(DVec3::ZERO, 0.05)];
+        let camera = framed(&away, &one, 1.6);
         // The default camera is where the default bubble fills 80 % of the height.
         assert_eq!(camera.target_m, [0.0; 3]);
         assert!((camera.distance_m - 0.24).abs() < 0.003, "{} m", camera.distance_m);
-        assert!(framed(&away, &one(), 0.5).distance_m > 1.9 * camera.distance_m);
+        assert!(framed(&away, &one, 0.5).distance_m > 1.9 * camera.distance_m);
         assert_eq!(framed(&away, &[], 1.0), away);
     }
 
@@ -174,9 +184,10 @@ mod tests {
         let mut count = 0;
         for x in wild {
             for y in wild {
-                let gesture = Gesture { turn: DVec2::new(x, y), shift: DVec2::new(y, x), zoom: x, frame: false };
+                let gesture =
+                    Gesture { turn: DVec2::new(x, y), shift: DVec2::new(y, x), zoom: x, ..Gesture::default() };
                 for distance in [0.0, 0.05, 1000.0] {
-                    let camera = moved(&at(distance), &one(), 1.0, &gesture);
+                    let camera = moved(&at(distance), &one(), &gesture);
                     let scene = Scene { camera, ..Scene::default() };
                     assert_eq!(scene.validate(), Ok(()), "{gesture:?}");
                     count += 1;

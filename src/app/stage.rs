@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use winit::window::Window;
 
-use super::{AppError, paint::Painter, surface::WindowSurface};
-use crate::gpu::{AdapterChoice, Gpu, Renderer};
+use super::{AppError, paint::Painter, surface::WindowSurface, system};
+use crate::gpu::{AdapterChoice, Renderer};
 
 /// Device, surface, renderer and painter.
 pub struct Stage {
@@ -19,16 +19,16 @@ pub struct Stage {
 
 impl Stage {
     /// Opens the chosen adapter for a window.
-    pub fn new(
+    pub async fn open(
         instance: wgpu::Instance,
-        choice: &AdapterChoice,
-        window: &Arc<Window>,
-        ctx: &egui::Context,
+        choice: AdapterChoice,
+        window: Arc<Window>,
+        ctx: egui::Context,
     ) -> Result<Self, AppError> {
         let surface = instance.create_surface(window.clone()).map_err(|error| AppError::Surface(error.to_string()))?;
-        let gpu = pollster::block_on(Gpu::on_instance(instance, choice, Some(&surface)))?;
-        let surface = WindowSurface::new(&gpu, surface, window.clone())?;
-        let painter = Painter::new(&gpu, surface.format(), ctx);
+        let gpu = system::device(instance, &choice, &surface).await?;
+        let surface = WindowSurface::new(&gpu, surface, window)?;
+        let painter = Painter::new(&gpu, surface.format(), &ctx);
         Ok(Self { renderer: Renderer::new(gpu), surface, painter })
     }
 }

@@ -1,4 +1,4 @@
-//! How the panels look: dark, quiet, without colours that would compete with the bubble.
+//! How the panels look: quiet, without colours that would compete with the bubble; dark, or light for bright rooms.
 
 use egui::{Color32, Context, CornerRadius, Stroke, Theme, Visuals, vec2};
 
@@ -10,8 +10,8 @@ pub fn apply(ctx: &Context) {
     ctx.set_theme(Theme::Dark);
     // One pass a frame: a second one would toggle what the first one has toggled.
     ctx.options_mut(|options| options.max_passes = std::num::NonZeroUsize::MIN);
-    ctx.style_mut_of(Theme::Dark, |style| {
-        style.visuals = visuals();
+    ctx.style_mut_of(Theme::Dark, |style| style.visuals = dark());
+    ctx.all_styles_mut(|style| {
         style.spacing.item_spacing = vec2(6.0, 5.0);
         style.spacing.button_padding = vec2(6.0, 2.0);
         style.spacing.interact_size.y = 20.0;
@@ -21,7 +21,7 @@ pub fn apply(ctx: &Context) {
     });
 }
 
-fn visuals() -> Visuals {
+fn dark() -> Visuals {
     let mut visuals = Visuals::dark();
     visuals.panel_fill = Color32::from_gray(22);
     visuals.window_fill = Color32::from_gray(26);

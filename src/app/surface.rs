@@ -32,7 +32,8 @@ impl WindowSurface {
         let capabilities = surface.get_capabilities(&gpu.adapter);
         // Values are gamma-encoded already: a format that encodes again would show them too bright.
         let plain = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
-        let format = plain.into_iter().find(|format| capabilities.formats.contains(format));
+        // The first is the one that is shown without a copy.
+        let format = capabilities.formats.into_iter().find(|format| plain.contains(format));
         let format = format.ok_or_else(|| AppError::Surface("it offers no 8-bit format without sRGB".to_owned()))?;
         let config = wgpu::SurfaceConfiguration {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT,

@@ -21,11 +21,21 @@ pub enum Tool {
     Drag,
     /// It bursts the bubble.
     Prick,
+    /// It measures the film; a drag moves the camera.
+    Probe,
 }
 
 impl Tool {
-    /// All tools, each with its name and what it does, in the order of the keys 1 to 5.
-    pub const ALL: [(Self, &str, &str); 5] = [
+    /// Whether it acts on films.
+    #[must_use]
+    pub fn acts(self) -> bool {
+        !matches!(self, Self::Orbit | Self::Probe)
+    }
+}
+
+impl Tool {
+    /// All tools, each with its name and what it does, in the order of the keys 1 to 6.
+    pub const ALL: [(Self, &str, &str); 6] = [
         (Self::Orbit, "Orbit", "Drag to turn around the bubble (1)"),
         (Self::Stir, "Stir", "Drag over a film to stir it (2)"),
         (
@@ -35,6 +45,7 @@ impl Tool {
         ),
         (Self::Drag, "Move", "Drag a bubble: its film stays behind (4)"),
         (Self::Prick, "Prick", "Click to burst a bubble there (5)"),
+        (Self::Probe, "Probe", "Point at a film to measure it; click to keep the numbers and see spectra (6)"),
     ];
 }
 
@@ -112,7 +123,7 @@ impl Aim {
 pub fn touch(hand: &mut Hand, tool: Tool, story: &Story, tick: u64, pressed: Option<Press>) -> Option<Change> {
     match (&mut *hand, pressed) {
         (Hand::Free, Some(press)) => {
-            let aim = (tool != Tool::Orbit).then(|| aim(story, tick, press.from)).flatten();
+            let aim = tool.acts().then(|| aim(story, tick, press.from)).flatten();
             let prick = aim.as_ref().filter(|_| tool == Tool::Prick).map(prick);
             *hand = aim.map_or(Hand::Camera, |aim| Hand::Film(Grip::new(tool, story, tick, &aim, press.at)));
             prick
@@ -174,7 +185,7 @@ impl Grip {
         match self.tool {
             Tool::Stir => stroke(self.bubble, before, self.at, radius_m / (ticks as f64 * tick_s), ticks),
             Tool::Blow => Some(jet(&aim, ticks)),
-            Tool::Orbit | Tool::Drag | Tool::Prick => None,
+            Tool::Orbit | Tool::Drag | Tool::Prick | Tool::Probe => None,
         }
     }
 }
@@ -219,6 +230,26 @@ fn ray(scene: &Scene, place: DVec2) -> DVec3 {
     let camera = &scene.camera;
     let height = 2.0 * (0.5 * camera.fov_y_rad()).tan();
     (camera.forward() + height * (place.x * camera.right() + place.y * camera.up())).normalize()
+}
+
+/// The bubble that is met first in the line of sight through a place in the picture.
+pub fn bubble_at(story: &Story, tick: u64, place: DVec2) -> Option<usize> {
+    aim(story, tick, place).map(|aim| aim.bubble)
+}
+
+/// The outline of a bubble in the picture, right and up from its middle in heights of it: the middle and the radius of a circle. `None` for one
+/// behind the eye or around it.
+pub fn outline(story: &Story, tick: u64, bubble: usize) -> Option<(DVec2, f64)> {
+    let (camera, radius_m) = (&story.camera, 1e-3 * story.bubbles.get(bubble)?.radius_mm);
+    let to_center = story.center_m(bubble, tick as f64 * story.motion.tick_s) - camera.eye();
+    let (depth, distance) = (to_center.dot(camera.forward()), to_center.length());
+    if depth <= 0.0 || distance <= radius_m {
+        return None;
+    }
+    let height = 2.0 * (0.5 * camera.fov_y_deg.to_radians()).tan();
+    let middle = DVec2::new(to_center.dot(camera.right()), to_center.dot(camera.up())) / (depth * height);
+    // As of a sphere straight ahead: off the axis its outline is an ellipse, a little longer.
+    Some((middle, radius_m / (distance * distance - radius_m * radius_m).sqrt() / height))
 }
 
 /// The film that is met first in the line of sight through a place in the picture; from inside a bubble that is its wall.
@@ -279,6 +310,17 @@ mod tests {
         let across_m = 0.012 * 2.0 * 15f64.to_radians().tan() * (0.24 - 0.05);
         assert!((first.velocity_m_s[1] - across_m / 0.1).abs() < 0.02 * across_m / 0.1, "{first:?}");
         assert!(first.at[0] > 0.99 && first.ticks == 6, "{first:?}");
+    }
+
+    #[test]
+    fn an_outline_is_where_the_bubble_is_met() {
+        let mut scene = seen_from_x();
+        scene.bubbles[0].center_m = [0.01, 0.02, 0.01];
+        let story = Story::new(scene);
+        let (middle, radius) = outline(&story, 0, 0).unwrap();
+        assert!(middle.x > 0.05 && middle.y > 0.02, "{middle}");
+        let at = |part: f64| bubble_at(&story, 0, middle - DVec2::new(part * radius, 0.0));
+        assert_eq!([at(0.0), at(0.97), at(1.05)], [Some(0), Some(0), None]);
     }
 
     #[test]

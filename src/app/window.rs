@@ -1,27 +1,35 @@
 //! The event loop: hands events to egui, redraws when something asks for it, and sleeps otherwise.
 
 use std::{
+    cell::RefCell,
     path::{Path, PathBuf},
+    rc::Rc,
     sync::Arc,
-    time::Instant,
 };
 
+#[cfg(not(target_arch = "wasm32"))]
 use egui_winit::accesskit_winit;
+use web_time::Instant;
+#[cfg(not(target_arch = "wasm32"))]
+use winit::event_loop::EventLoop;
 use winit::{
     application::ApplicationHandler,
-    dpi::LogicalSize,
     event::{StartCause, WindowEvent},
-    event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy},
-    window::{Window, WindowId},
+    event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy},
+    window::{Window, WindowAttributes, WindowId},
 };
 
 use super::{
     AppError,
     files::{Arrival, Files},
     frame::View,
-    model::{Model, Request, Target},
+    keeper::Keeper,
+    model::Model,
+    panels,
+    request::{Question, Request, Target},
     stage::Stage,
-    style,
+    storage::Storage,
+    style, system,
 };
 use crate::{
     gpu::{AdapterChoice, Gpu},
@@ -30,13 +38,18 @@ use crate::{
 };
 
 /// What reaches the loop from outside the window.
-enum Outside {
+#[cfg_attr(target_arch = "wasm32", derive(Clone))]
+pub enum Outside {
     /// A screen reader asks for something.
+    #[cfg(not(target_arch = "wasm32"))]
     Accessibility(accesskit_winit::Event),
     /// A worker has a result.
     Arrival,
+    /// The device is open, or there is none.
+    Stage,
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 impl From<accesskit_winit::Event> for Outside {
     fn from(event: accesskit_winit::Event) -> Self {
         Self::Accessibility(event)
@@ -44,54 +57,154 @@ impl From<accesskit_winit::Event> for Outside {
 }
 
 /// Runs the window until it is closed.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn run(model: Model, choice: &AdapterChoice) -> Result<(), AppError> {
     let event_loop = EventLoop::with_user_event().build()?;
-    let proxy = event_loop.create_proxy();
-    let waker = proxy.clone();
-    // A loop that has ended needs no waking.
-    let files = Files::new(move || drop(waker.send_event(Outside::Arrival)));
-    let mut handler =
-        Handler { model, files, choice: choice.clone(), proxy, view: None, next: None, asked: false, failure: None };
+    let attributes = Window::default_attributes().with_visible(false);
+    let mut handler = Handler::new(model, Storage::of_user(), choice.clone(), event_loop.create_proxy(), attributes);
     event_loop.run_app(&mut handler)?;
     handler.failure.map_or(Ok(()), Err)
 }
 
-struct Handler {
-    model: Model,
+/// A window, its model, and all that it is drawn with.
+pub struct Handler {
+    /// What is shown.
+    pub model: Model,
     files: Files,
+    keeper: Keeper,
     choice: AdapterChoice,
     proxy: EventLoopProxy<Outside>,
+    attributes: WindowAttributes,
+    /// A window that waits for its device.
+    bare: Option<Bare>,
+    /// Where the device arrives.
+    arriving: Rc<RefCell<Option<Result<Stage, AppError>>>>,
     view: Option<View>,
     /// When the next redraw is due; never where nothing will change by itself.
-    next: Option<Instant>,
+    pub next: Option<Instant>,
     /// Whether the redraw that comes is one that was asked for here.
     asked: bool,
     /// Why the loop ends early.
-    failure: Option<AppError>,
+    pub failure: Option<AppError>,
+}
+
+/// A window without a device, and what its user does.
+struct Bare {
+    window: Arc<Window>,
+    egui: egui_winit::State,
 }
 
 impl Handler {
-    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<View, AppError> {
-        let attributes = Window::default_attributes().with_inner_size(LogicalSize::new(1280, 800)).with_visible(false);
-        let window = Arc::new(event_loop.create_window(attributes.with_title(title(&self.model)))?);
+    /// A window that is opened when the loop runs.
+    pub fn new(
+        mut model: Model,
+        storage: Storage,
+        choice: AdapterChoice,
+        proxy: EventLoopProxy<Outside>,
+        attributes: WindowAttributes,
+    ) -> Self {
+        let waker = proxy.clone();
+        // A loop that has ended needs no waking.
+        let files = Files::new(move || drop(waker.send_event(Outside::Arrival)));
+        let keeper = Keeper::new(storage, &mut model);
+        Self {
+            model,
+            files,
+            keeper,
+            choice,
+            proxy,
+            attributes,
+            bare: None,
+            arriving: Rc::default(),
+            view: None,
+            next: None,
+            asked: false,
+            failure: None,
+        }
+    }
+
+    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), AppError> {
+        let attributes = self.attributes.clone().with_title(self.model.title());
+        let window = Arc::new(event_loop.create_window(system::sized(attributes, self.model.settings.window))?);
         let ctx = egui::Context::default();
         style::apply(&ctx);
+        ctx.set_zoom_factor(self.model.settings.zoom.clamp(0.5, 4.0));
         let scale = Some(window.scale_factor() as f32);
         let root = egui::ViewportId::ROOT;
+        #[cfg_attr(target_arch = "wasm32", allow(unused_mut, reason = "screen readers see a canvas there"))]
         let mut egui = egui_winit::State::new(ctx, root, &window, scale, window.theme(), None);
         // Screen readers must be connected before the window is seen.
+        #[cfg(not(target_arch = "wasm32"))]
         egui.init_accesskit(event_loop, &window, self.proxy.clone());
         let instance = Gpu::instance_for(&self.choice, Box::new(event_loop.owned_display_handle()))?;
-        let stage = Stage::new(instance, &self.choice, &window, egui.egui_ctx())?;
-        let gpu = &stage.renderer.gpu;
+        self.open_device(instance, Bare { window, egui });
+        Ok(())
+    }
+
+    /// Opens a device for a window. A browser has none at once, and what is done in the window meanwhile is kept.
+    fn open_device(&mut self, instance: wgpu::Instance, bare: Bare) {
+        let opening = Stage::open(instance, self.choice.clone(), bare.window.clone(), bare.egui.egui_ctx().clone());
+        let (arriving, proxy) = (self.arriving.clone(), self.proxy.clone());
+        system::finish(async move {
+            *arriving.borrow_mut() = Some(opening.await);
+            // A loop that has ended needs no device.
+            let _ = proxy.send_event(Outside::Stage);
+        });
+        self.bare = Some(bare);
+    }
+
+    /// Takes the device that has arrived.
+    fn take_device(&mut self) -> Result<(), AppError> {
+        let Some(stage) = self.arriving.borrow_mut().take() else { return Ok(()) };
+        let (stage, Some(Bare { window, mut egui })) = (stage?, self.bare.take()) else { return Ok(()) };
+        let (gpu, proxy) = (&stage.renderer.gpu, self.proxy.clone());
+        // A loop that has ended needs no waking.
+        gpu.when_lost(move || drop(proxy.send_event(Outside::Arrival)));
         self.model.costs.adapter = format!("{}, {}", gpu.adapter_name(), gpu.driver());
         tell(format_args!("adapter: {}", self.model.costs.adapter));
         egui.set_max_texture_side(gpu.device.limits().max_texture_dimension_2d as usize);
         window.set_visible(true);
-        Ok(View::new(window, egui, stage, self.choice.clone()))
+        self.view = Some(View::new(window, egui, stage));
+        Ok(())
     }
 
-    fn ask_for_redraw(&mut self) {
+    /// Opens another device if the device is lost, and everything on it with it.
+    fn recover(&mut self) {
+        let Some(view) = self.view.take_if(|view| view.is_lost()) else { return };
+        log::warn!("recreating everything on the graphics device");
+        let instance = view.stage.renderer.gpu.instance.clone();
+        panels::gallery::forget(view.egui.egui_ctx());
+        panels::compare::forget(view.egui.egui_ctx());
+        self.open_device(instance, Bare { window: view.window, egui: view.egui });
+        self.model.messages.note("The graphics device was lost and has been reopened");
+    }
+
+    /// How far the picture is that the model asks for.
+    #[cfg(target_arch = "wasm32")]
+    pub fn progress(&self) -> super::frame::Progress {
+        use super::frame::Progress;
+        match (&self.failure, &self.view) {
+            (Some(error), _) => Progress::Failed(error.to_string()),
+            (None, Some(view)) if self.model.loading.is_none() => view.progress.clone(),
+            _ => Progress::Under,
+        }
+    }
+
+    /// Whether events of a window are for this one.
+    #[cfg(target_arch = "wasm32")]
+    pub fn is_of(&self, window: WindowId) -> bool {
+        let own = self.view.as_ref().map(|view| &view.window).or(self.bare.as_ref().map(|bare| &bare.window));
+        own.is_some_and(|own| own.id() == window)
+    }
+
+    /// The device, once it is open.
+    #[cfg(target_arch = "wasm32")]
+    pub fn gpu(&self) -> Option<&Gpu> {
+        self.view.as_ref().map(|view| &view.stage.renderer.gpu)
+    }
+
+    /// Requests another frame.
+    pub fn ask_for_redraw(&mut self) {
         if let Some(view) = &self.view {
             self.asked = true;
             self.next = None;
@@ -100,13 +213,13 @@ impl Handler {
     }
 
     fn redraw(&mut self, event_loop: &ActiveEventLoop) {
+        self.recover();
         let Some(view) = &mut self.view else { return };
         // A redraw that the program did not request comes from the system, which has lost the contents of the window.
         view.exposed |= !std::mem::take(&mut self.asked);
-        match view.redraw(event_loop, &mut self.model, &self.files) {
-            Ok(next) => self.next = next,
-            Err(error) => self.fail(event_loop, error),
-        }
+        self.next = view.redraw(event_loop, &mut self.model, &self.files);
+        let kept = self.keeper.keep(&mut self.model, Instant::now());
+        self.next = [self.next, kept].into_iter().flatten().min();
         for request in std::mem::take(&mut self.model.requests) {
             self.serve(event_loop, request);
         }
@@ -114,7 +227,7 @@ impl Handler {
 
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: AppError) {
         self.failure = Some(error);
-        event_loop.exit();
+        system::end(event_loop);
     }
 
     fn serve(&mut self, event_loop: &ActiveEventLoop, request: Request) {
@@ -123,43 +236,74 @@ impl Handler {
             Request::Ask(target) => self.files.ask(target, &self.model, &view.window),
             Request::LoadScene(name) => self.files.load_scene(&mut self.model, name),
             Request::LoadLight(light) => self.files.load_light(&mut self.model, light),
-            Request::Quit => event_loop.exit(),
+            #[cfg(target_arch = "wasm32")]
+            Request::CopyLink => match system::copy_link(&self.model.scene.to_toml()) {
+                Ok(()) => self.model.messages.note("The link is on the clipboard"),
+                Err(text) => self.model.messages.problem(text),
+            },
+            Request::Save => self.model.file.iter().for_each(|file| self.files.save_scene(file.clone(), &self.model)),
+            Request::Typed(target, text) => self.typed(target, text),
+            Request::Left(fate) => {
+                if let Some(work) = self.keeper.decide(fate) {
+                    self.files.take_up(&mut self.model, work);
+                }
+            }
+            Request::Quit => system::end(event_loop),
         }
         self.ask_for_redraw();
     }
 
     fn arrive(&mut self) {
         for arrival in self.files.collect(&mut self.model) {
-            let Some(view) = &mut self.view else { return };
             match arrival {
-                Arrival::Scene => view.window.set_title(&title(&self.model)),
-                Arrival::Chosen(Target::SaveScene, path) => {
-                    self.files.save_scene(
-                        with_ending(path, "toml"),
-                        self.model.scene.clone(),
-                        self.model.folder.clone(),
-                    );
+                Arrival::Scene => {
+                    let path =
+                        self.model.file.as_ref().filter(|_| system::FILES_LAST).map(|file| system::whole_path(file));
+                    path.iter().for_each(|path| self.model.settings.remember(&path.display().to_string()));
                 }
-                Arrival::Chosen(Target::SavePng, path) => {
-                    view.capture(&mut self.model, false, with_ending(path, "png"));
-                }
-                Arrival::Chosen(Target::SaveExr, path) => {
-                    view.capture(&mut self.model, true, with_ending(path, "exr"));
-                }
-                Arrival::Chosen(Target::OpenScene | Target::OpenEnvironment, path) => self.open_file(&path),
+                Arrival::TakenUp => self.keeper.taken_up(&mut self.model),
+                Arrival::Saved => {}
+                Arrival::NotSaved => self.model.once_saved = None,
+                Arrival::Chosen(target, path) => self.chosen(target, path),
             }
         }
         self.ask_for_redraw();
     }
 
+    fn chosen(&mut self, target: Target, path: PathBuf) {
+        let Some(view) = &mut self.view else { return };
+        match target {
+            Target::SaveScene => self.files.save_scene(with_ending(path, "toml"), &self.model),
+            Target::SavePng => view.capture(&mut self.model, false, with_ending(path, "png")),
+            Target::SaveExr => view.capture(&mut self.model, true, with_ending(path, "exr")),
+            Target::SaveCsv => {
+                let csv = self.model.probe.pinned.as_ref().map(|(reading, _)| reading.csv());
+                csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
+            }
+            Target::OpenScene | Target::OpenEnvironment => self.open_file(&path),
+        }
+    }
+
+    /// Takes a typed path; one that would replace a file must be typed twice, as the dialogs of systems ask too.
+    fn typed(&mut self, target: Target, text: String) {
+        let path = with_ending(from_home(&text), target.file_type().1[0]);
+        let replaces = format!("{} is there already; Enter replaces it", path.display());
+        let wrong = match (target.is_read(), path.exists(), self.model.question.take()) {
+            (true, false, _) => format!("there is no file {}", path.display()),
+            (false, true, Some(Question::Path(_, _, wrong))) if wrong.as_ref() != Some(&replaces) => replaces,
+            _ => return self.chosen(target, path),
+        };
+        self.model.question = Some(Question::Path(target, text, Some(wrong)));
+    }
+
     /// Opens a file that was chosen or dropped, by its ending.
-    fn open_file(&mut self, path: &Path) {
+    pub fn open_file(&mut self, path: &Path) {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("").to_ascii_lowercase();
-        let Some(name) = std::path::absolute(path).ok().and_then(|path| path.to_str().map(str::to_owned)) else {
+        let Some(name) = system::whole_path(path).to_str().map(str::to_owned) else {
             return self.model.messages.problem(format!("{}: this file name is not UTF-8; rename it", path.display()));
         };
         match ending.as_str() {
-            "toml" => self.files.load_scene(&mut self.model, name),
+            "toml" => self.model.ask_for(Request::LoadScene(name)),
             "exr" | "hdr" => {
                 let light =
                     Light { environment: Environment::File(name), constant: None, ..self.model.scene.light.clone() };
@@ -173,8 +317,11 @@ impl Handler {
     }
 }
 
-fn title(model: &Model) -> String {
-    format!("soapfilm – {}", model.name)
+/// A path as people type it, where `~` stands for their home.
+fn from_home(text: &str) -> PathBuf {
+    let text = text.trim();
+    let in_home = text.strip_prefix("~/").and_then(|rest| Some(std::env::home_dir()?.join(rest)));
+    in_home.unwrap_or_else(|| PathBuf::from(text))
 }
 
 /// A path that ends as its kind of file does, where the user gave no ending.
@@ -184,12 +331,11 @@ fn with_ending(path: PathBuf, ending: &str) -> PathBuf {
 
 impl ApplicationHandler<Outside> for Handler {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if self.view.is_none() {
-            match self.open(event_loop) {
-                Ok(view) => self.view = Some(view),
-                Err(error) => self.fail(event_loop, error),
-            }
-            self.ask_for_redraw();
+        if self.view.is_none()
+            && self.bare.is_none()
+            && let Err(error) = self.open(event_loop)
+        {
+            self.fail(event_loop, error);
         }
     }
 
@@ -199,9 +345,14 @@ impl ApplicationHandler<Outside> for Handler {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, event: Outside) {
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Outside) {
         match event {
             Outside::Arrival => self.arrive(),
+            Outside::Stage => match self.take_device() {
+                Ok(()) => self.ask_for_redraw(),
+                Err(error) => self.fail(event_loop, error),
+            },
+            #[cfg(not(target_arch = "wasm32"))]
             Outside::Accessibility(event) => {
                 let Some(view) = &mut self.view else { return };
                 match event.window_event {
@@ -220,7 +371,10 @@ impl ApplicationHandler<Outside> for Handler {
         let Some(view) = &mut self.view else { return };
         match &event {
             WindowEvent::RedrawRequested => return self.redraw(event_loop),
-            WindowEvent::CloseRequested => return event_loop.exit(),
+            WindowEvent::CloseRequested => {
+                self.model.ask_for(Request::Quit);
+                return self.ask_for_redraw();
+            }
             WindowEvent::DroppedFile(path) => {
                 let path = path.clone();
                 self.open_file(&path);
@@ -241,6 +395,7 @@ impl ApplicationHandler<Outside> for Handler {
     }
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
+        self.keeper.close(&mut self.model, self.failure.is_none());
         // The surface must go before the display that it belongs to.
         self.view = None;
     }
@@ -251,10 +406,17 @@ impl Handler {
     /// Debug builds lose the device at F12, so that people and tests can see it come back.
     fn try_recovery(&mut self, event: &WindowEvent) {
         use winit::keyboard::{Key, NamedKey};
-        if let (Some(view), WindowEvent::KeyboardInput { event, .. }) = (&self.view, event)
+        if let WindowEvent::KeyboardInput { event, .. } = event
             && event.logical_key == Key::Named(NamedKey::F12)
             && event.state.is_pressed()
         {
+            self.lose_device();
+        }
+    }
+
+    /// Loses the device.
+    pub fn lose_device(&mut self) {
+        if let Some(view) = &self.view {
             view.lose_device();
             self.ask_for_redraw();
         }

@@ -1,7 +1,7 @@
 //! The adapter and device that everything runs on, and what can go wrong with them.
 
 use std::sync::{
-    Arc, Mutex,
+    Arc, Mutex, PoisonError,
     atomic::{AtomicBool, AtomicU64, Ordering},
 };
 
@@ -50,8 +50,17 @@ pub enum GpuError {
     #[error("unknown graphics backend `{0}`: use vulkan, metal, dx12 or gl")]
     UnknownBackend(String),
     /// No driver at all.
-    #[error(
-        "no graphics adapter found{0}: install a Vulkan, Metal, DX12 or OpenGL ES driver (on Linux without a GPU: Mesa's lavapipe)"
+    #[cfg_attr(
+        not(target_arch = "wasm32"),
+        error(
+            "no graphics adapter found{0}: install a Vulkan, Metal, DX12 or OpenGL ES driver (on Linux without a GPU: Mesa's lavapipe)"
+        )
+    )]
+    #[cfg_attr(
+        target_arch = "wasm32",
+        error(
+            "the browser gives no graphics adapter{0}: switch hardware acceleration on in its settings, and load the page again"
+        )
     )]
     NoAdapter(String),
     /// An adapter was named, and is not there.
@@ -124,7 +133,7 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// Pipelines, made on first use.
     pub pipelines: Arc<Pipelines>,
-    lost: Arc<AtomicBool>,
+    lost: Arc<Loss>,
     failure: Arc<Mutex<Option<GpuError>>>,
     uploaded_bytes: Arc<AtomicU64>,
 }
@@ -180,7 +189,7 @@ impl Gpu {
             .request_device(&descriptor)
             .await
             .map_err(|error| GpuError::NoDevice { adapter: adapter_name(&info), reason: error.to_string() })?;
-        let lost = Arc::new(AtomicBool::new(false));
+        let lost = Arc::new(Loss::default());
         let failure = Arc::new(Mutex::new(None));
         watch(&device, &lost, &failure);
         let (pipelines, uploaded_bytes) = (Arc::new(Pipelines::new()), Arc::default());
@@ -231,7 +240,12 @@ impl Gpu {
     /// Whether the device is gone and everything on it with it.
     #[must_use]
     pub fn is_lost(&self) -> bool {
-        self.lost.load(Ordering::Relaxed)
+        self.lost.is_told.load(Ordering::Relaxed)
+    }
+
+    /// Calls a function once the device is lost, from any thread: who draws only when something has changed must be told.
+    pub fn when_lost(&self, call: impl FnOnce() + Send + 'static) {
+        self.lost.waiting.lock().unwrap_or_else(PoisonError::into_inner).push(Box::new(call));
     }
 
     /// Bytes sent to the device so far.
@@ -366,12 +380,27 @@ async fn find_adapter(
         })
 }
 
+/// Whether a device is lost, and who waits to hear of it.
+#[derive(Default)]
+struct Loss {
+    is_told: AtomicBool,
+    waiting: Mutex<Vec<Box<dyn FnOnce() + Send>>>,
+}
+
+impl Loss {
+    fn tell(&self) {
+        self.is_told.store(true, Ordering::Relaxed);
+        let waiting = std::mem::take(&mut *self.waiting.lock().unwrap_or_else(PoisonError::into_inner));
+        waiting.into_iter().for_each(|call| call());
+    }
+}
+
 /// Keeps what the device reports by callback, so that the next [`Gpu::check`] returns it as an error.
-fn watch(device: &wgpu::Device, lost: &Arc<AtomicBool>, failure: &Arc<Mutex<Option<GpuError>>>) {
+fn watch(device: &wgpu::Device, lost: &Arc<Loss>, failure: &Arc<Mutex<Option<GpuError>>>) {
     let gone = lost.clone();
     device.set_device_lost_callback(move |_, message| {
         log::warn!("graphics device lost: {message}");
-        gone.store(true, Ordering::Relaxed);
+        gone.tell();
     });
     let failure = failure.clone();
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {

@@ -1,6 +1,5 @@
 //! Environments from files, in whatever of the known formats.
 
-use std::fs::File;
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
@@ -10,7 +9,7 @@ use rayon::prelude::*;
 use super::chromaticities::BT709;
 use super::panic_guard::catch_panic;
 use super::picture::Shape;
-use super::{InputError, exr, radiance, text};
+use super::{InputError, exr, file, radiance};
 use crate::physics::environment::Equirect;
 
 /// Reads an equirectangular panorama from an OpenEXR or Radiance .hdr file, told apart by content, not by name.
@@ -23,7 +22,7 @@ use crate::physics::environment::Equirect;
 /// Every [`InputError`] but those about text: the file is missing, a folder, unreadable, empty, of another format, damaged,
 /// stored in a way that no decoder here knows, without colours, too large, too small, or not twice as wide as high.
 pub fn read_environment(path: &Path, notes: &mut Vec<String>) -> Result<Equirect, InputError> {
-    let mut file = BufReader::new(text::open(path)?);
+    let mut file = BufReader::new(file::open(path)?);
     let format = recognise(&mut file, path)?;
     let decode = || match format {
         Format::OpenExr => exr::decode(path, file, Shape::Panorama),
@@ -50,10 +49,10 @@ enum Format {
 }
 
 /// Tells the format by the file's first bytes and goes back to its start.
-fn recognise(file: &mut BufReader<File>, path: &Path) -> Result<Format, InputError> {
+fn recognise(file: &mut (impl Read + Seek), path: &Path) -> Result<Format, InputError> {
     let in_words = |reason| InputError::from_io(path, reason);
     let mut magic = Vec::new();
-    file.take(4).read_to_end(&mut magic).map_err(in_words)?;
+    file.by_ref().take(4).read_to_end(&mut magic).map_err(in_words)?;
     file.rewind().map_err(in_words)?;
     match magic.as_slice() {
         [] => Err(InputError::Empty { path: path.to_owned() }),

@@ -12,10 +12,10 @@ use rayon::prelude::*;
 use super::{
     InputError,
     chromaticities::BT709,
-    exr,
+    exr, file,
     panic_guard::catch_panic,
     picture::{DecodedPicture, Shape, check_size},
-    radiance, text,
+    radiance,
 };
 use crate::physics::{
     colour::{bt2020_to_bt709, srgb_decode},
@@ -30,7 +30,7 @@ use crate::physics::{
 /// # Errors
 /// Every [`InputError`] but those about text and panoramas.
 pub fn read_plate(path: &Path, notes: &mut Vec<String>) -> Result<Plate, InputError> {
-    let file = BufReader::new(text::open(path)?);
+    let file = BufReader::new(file::open(path)?);
     let reader = ImageReader::new(file).with_guessed_format().map_err(|reason| InputError::from_io(path, reason))?;
     let format = reader.format();
     let mut file = reader.into_inner();

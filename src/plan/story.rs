@@ -97,6 +97,17 @@ impl Story {
         self.life_cycle(index).map_or(DVec3::ZERO, |life_cycle| life_cycle.path().at(time_s).place_m)
     }
 
+    /// All bubbles at a time in seconds, those of generators included: the center and the radius of each, m.
+    #[must_use]
+    pub fn spheres(&self, time_s: f64) -> Vec<(DVec3, f64)> {
+        let own = self.bubbles.iter().enumerate().map(|(index, bubble)| {
+            let radius_m = 1e-3 * bubble.radius_mm;
+            (self.center_m(index, time_s), radius_m)
+        });
+        let made = self.lenders().iter().flat_map(|lender| lender.swarm.at(time_s));
+        own.chain(made.map(|member| (member.center_m, member.radius_m))).collect()
+    }
+
     /// A bubble at a moment; `None` between two lives, or if there is no such bubble.
     #[must_use]
     pub fn age(&self, index: usize, moment: Moment) -> Option<Age> {

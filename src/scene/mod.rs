@@ -42,7 +42,7 @@ pub use light::{
     MAX_LAMPS, MAX_PATCHES, Quality, View, ViewKeys,
 };
 pub use motion::{Motion, MotionChange, MotionKeys};
-pub use preset::{preset, preset_names, preset_sentence, preset_toml};
+pub use preset::{PRESET_GROUPS, TEST_PRESETS, preset, preset_names, preset_sentence, preset_toml};
 pub use section::{Key, Range};
 pub use setting::Setting;
 pub use source::SceneSource;

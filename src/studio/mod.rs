@@ -11,16 +11,20 @@
 //! [`plan::request`](crate::plan::request()) and [`gpu::Renderer`](crate::gpu::Renderer).
 
 mod colour;
+mod difference;
 mod error;
 mod film;
 mod picture;
+mod sight;
 #[cfg(test)]
 mod tests;
 
 pub use colour::{Colour, colour};
+pub use difference::{Difference, difference};
 pub use error::Error;
 pub use film::{FilmCell, reference_film, reference_film_at};
 pub use picture::{Picture, Radiance};
+pub use sight::{FilmsRead, WallInSight, walls_in_sight};
 
 use glam::DVec3;
 

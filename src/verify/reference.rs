@@ -4,13 +4,17 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3};
 
+#[cfg(not(target_arch = "wasm32"))]
 use crate::{
     gpu::{GpuError, Renderer},
+    physics::sphere::HaloTable,
+};
+use crate::{
     physics::{
         colour::{FilmOptics, bt709_to_bt2020, bt2020_to_bt709, transmittance},
         film::Hole,
         picture::{FilmSphere, PictureCamera, PictureScene},
-        sphere::{CubedSphere, GridError, HaloTable, PaddedField},
+        sphere::{CubedSphere, GridError, PaddedField},
         transport::FlowMap,
     },
     plan::{
@@ -27,6 +31,7 @@ pub type MovedFilms = BTreeMap<usize, PaddedField<f64>>;
 ///
 /// # Errors
 /// The device is lost, or refused a command.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn moved_film(renderer: &Renderer, film: usize) -> Result<Option<(CubedSphere, PaddedField<f64>)>, GpuError> {
     let Some((grid, thickness_nm)) = renderer.read_film(film)? else { return Ok(None) };
     let cells: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.wait(&renderer.gpu)?);

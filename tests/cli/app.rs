@@ -38,24 +38,44 @@ struct Screen {
     program: Guarded,
     window: String,
     _server: Guarded,
+    /// Where the program keeps settings and unsaved work: not where its user does.
+    home: tempfile::TempDir,
 }
 
 impl Screen {
     fn open(arguments: &[&str]) -> Self {
         let (server, display) = start_server();
-        let program = Command::new(env!("CARGO_BIN_EXE_soapfilm"))
-            .args(arguments)
-            .env("DISPLAY", &display)
-            .env_remove("WAYLAND_DISPLAY")
-            .env_remove("WAYLAND_SOCKET")
-            .spawn()
-            .unwrap();
-        let mut screen = Self { display, program: Guarded(program), window: String::new(), _server: server };
-        screen.window = screen.wait_for("a window", |screen| {
+        let home = tempfile::tempdir().unwrap();
+        let program = start(arguments, &display, &home);
+        let mut screen = Self { display, program, window: String::new(), _server: server, home };
+        screen.find_window();
+        screen
+    }
+
+    fn find_window(&mut self) {
+        self.window = self.wait_for("a window", |screen| {
             let found = screen.tool(&["search", "--onlyvisible", "--name", "soapfilm"]);
             String::from_utf8(found.stdout).ok()?.lines().next().map(str::to_owned)
         });
-        screen
+    }
+
+    /// Kills the program so that it can do nothing about it, and starts it again.
+    fn crash(&mut self, arguments: &[&str]) {
+        self.program.0.kill().unwrap();
+        self.program.0.wait().unwrap();
+        self.program = start(arguments, &self.display, &self.home);
+        self.find_window();
+    }
+
+    fn title(&self) -> String {
+        String::from_utf8(self.tool(&["getwindowname", &self.window]).stdout).unwrap().trim().to_owned()
+    }
+
+    /// What is kept of work that is not saved.
+    fn kept(&self) -> Option<String> {
+        let folder = std::fs::read_dir(self.home.path().join("soapfilm/unsaved")).ok()?;
+        let mut files = folder.flatten().filter(|file| file.path().extension().is_some_and(|ending| ending == "toml"));
+        std::fs::read_to_string(files.next()?.path()).ok()
     }
 
     fn tool(&self, arguments: &[&str]) -> Output {
@@ -138,6 +158,18 @@ impl Screen {
         }
         panic!("soapfilm does not end");
     }
+}
+
+fn start(arguments: &[&str], display: &str, home: &tempfile::TempDir) -> Guarded {
+    let program = Command::new(env!("CARGO_BIN_EXE_soapfilm"))
+        .args(arguments)
+        .env("DISPLAY", display)
+        .env("XDG_CONFIG_HOME", home.path())
+        .env("XDG_STATE_HOME", home.path())
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .spawn();
+    Guarded(program.unwrap())
 }
 
 /// An X server on a display number that it finds free.
@@ -243,6 +275,110 @@ fn a_film_is_stirred_and_a_bubble_is_moved() {
     screen.act(&["mouseup", "1"]);
 
     screen.press("ctrl+q");
+    screen.settled("a question before work is lost");
+    screen.press("Escape");
+    (0..20).for_each(|_| screen.press("ctrl+z"));
+    screen.wait_for("the first state", |screen| (!screen.title().ends_with("(edited)")).then_some(()));
+    screen.press("ctrl+q");
+    screen.ends_well();
+}
+
+/// A few large bubbles of a generator, all alike, and a camera that follows the pointer.
+const FOLLOWED: &str = "version = 1
+bubble = []
+[[generator]]
+count = 5
+films = 1
+radius_mm = 30
+size_m = [0.3, 0.3, 0.3]
+film.state = \"uniform\"
+[camera]
+distance_m = 0.8
+follow_deg = 60
+[view]
+dither = false
+";
+
+#[test]
+fn a_camera_follows_the_pointer_and_generators_have_a_panel() {
+    if !tools_are_there() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("followed.toml");
+    std::fs::write(&scene, FOLLOWED).unwrap();
+    let mut screen = Screen::open(&["app", scene.to_str().unwrap()]);
+    screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 1.0).then_some(()));
+    screen.press("space");
+    let go = |screen: &Screen, x: i32| screen.act(&["mousemove", &x.to_string(), "400"]);
+    go(&screen, 480);
+    sleep(Duration::from_secs(2));
+    let before = screen.shot();
+    screen.wait_for("a camera that follows", |screen| {
+        (0..5).for_each(|step| go(screen, 480 + 60 * step));
+        sleep(Duration::from_secs(1));
+        (difference(MIDDLE, &before, &screen.shot()) > 1.0).then_some(())
+    });
+    assert!(!screen.title().ends_with("(edited)"), "looking around changes no work");
+
+    // The title of the panel, which folds it away.
+    let panel = [980, 150, 290, 500];
+    go(&screen, 600);
+    sleep(Duration::from_secs(2));
+    let open = screen.shot();
+    let title = generators_title(&open);
+    screen.act(&["mousemove", "1020", &title.to_string()]);
+    screen.act(&["click", "1"]);
+    screen.wait_for("a folded panel", |screen| (difference(panel, &open, &screen.shot()) > 2.0).then_some(()));
+    screen.press("ctrl+q");
+    screen.ends_well();
+}
+
+/// The height of the second of the panels' titles: the second line with the triangle that folds a panel.
+fn generators_title(shot: &RgbImage) -> u32 {
+    let is_bright = |y: u32| (986..994).filter(|x| shot.get_pixel(*x, y).0[0] > 140).count() >= 5;
+    let lines: Vec<u32> = (90..500).filter(|y| is_bright(*y)).collect();
+    let first = lines[0];
+    *lines.iter().find(|y| **y > first + 15).unwrap_or(&first)
+}
+
+#[test]
+fn work_survives_a_crash_and_is_saved_by_its_path() {
+    if !tools_are_there() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, other] = ["still.toml", "other.toml"].map(|name| folder.path().join(name));
+    std::fs::write(&scene, STILL).unwrap();
+    let arguments = ["app", scene.to_str().unwrap()];
+    let mut screen = Screen::open(&arguments);
+    screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 4.0).then_some(()));
+    screen.press("Right");
+    screen.wait_for("an edited scene", |screen| screen.title().ends_with("(edited)").then_some(()));
+    screen.wait_for("kept work", Screen::kept);
+
+    screen.crash(&arguments);
+    screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 4.0).then_some(()));
+    assert!(!screen.title().ends_with("(edited)"), "the work is offered first");
+    screen.press("Return");
+    screen.wait_for("the recovered scene", |screen| screen.title().ends_with("(edited)").then_some(()));
+
+    // Where no dialog can ask for a path, it is typed.
+    screen.press("ctrl+shift+s");
+    let typed = other.to_str().unwrap();
+    screen.wait_for("the other file", |screen| {
+        screen.press("ctrl+a");
+        screen.act(&["type", typed]);
+        screen.press("Return");
+        sleep(Duration::from_millis(500));
+        other.exists().then_some(())
+    });
+    let saved = std::fs::read_to_string(&other).unwrap();
+    assert!(saved.contains("gravity_m_s2"), "{saved}");
+    screen.wait_for("a saved scene", |screen| (screen.title() == format!("soapfilm – {typed}")).then_some(()));
+    assert_eq!(std::fs::read_to_string(&scene).unwrap(), STILL, "the first file is as it was");
+    screen.wait_for("no kept work", |screen| screen.kept().is_none().then_some(()));
+    screen.press("ctrl+q");
     screen.ends_well();
 }
 
@@ -267,6 +403,7 @@ fn a_window_shows_a_bubble_obeys_and_rests() {
 
     screen.drag([500, 400], [200, 60]);
     let turned = screen.settled("a turned picture");
+    assert!(screen.title().ends_with("(edited)"));
     assert!(difference(MIDDLE, &paused, &turned) > 2.0, "a drag must turn the view");
 
     screen.press("h");
@@ -290,6 +427,10 @@ fn a_window_shows_a_bubble_obeys_and_rests() {
         let recovered = screen.settled("a picture on the new device");
         assert!(difference(MIDDLE, &turned, &recovered) < 1.0, "nothing may be lost with the device");
     }
+
+    screen.press("ctrl+z");
+    let untouched = screen.settled("the picture before the drag");
+    assert!(difference(MIDDLE, &paused, &untouched) < 1.0, "a drag is one step, and is taken back whole");
 
     screen.press("ctrl+q");
     screen.ends_well();

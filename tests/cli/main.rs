@@ -9,6 +9,8 @@ mod film;
 mod layers;
 mod lut;
 mod mistakes;
+#[cfg(feature = "gui")]
+mod probe;
 mod sequence;
 #[cfg(unix)]
 mod streams;

@@ -16,6 +16,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("studio", &["output", "input", "verify", "gpu", "plan", "scene", "physics"]),
     ("cli", &["studio", "output", "input", "verify", "gpu", "plan", "scene", "physics"]),
     ("app", &["studio", "output", "input", "gpu", "plan", "scene", "physics"]),
+    ("web", &["app", "input", "gpu", "scene"]),
 ];
 
 /// The top modules that a text names by `crate::…`, with their lines from 1; comments do not count.

@@ -25,6 +25,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         slider(ui, "Bubble", &mut number, 1..=count, "The bubble to edit", |slider| slider);
         model.selected = number - 1;
     }
+    bubbles(ui, model);
     let Some(bubble) = model.scene.bubbles.get(model.selected) else {
         let made = !model.scene.generators.is_empty();
         ui.label(if made { "Generators make all bubbles of this scene." } else { "This scene has no bubble." });
@@ -37,6 +38,23 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     if edited != *bubble {
         model.edit(Edit::Bubble(model.selected, edited.into()));
     }
+}
+
+/// Buttons that add and delete bubbles.
+fn bubbles(ui: &mut Ui, model: &mut Model) {
+    let selected = model.scene.bubbles.get(model.selected).cloned();
+    group(ui, "", |ui| {
+        if ui.button("Add").on_hover_text("Another bubble, as they begin").clicked() {
+            model.add_bubble(Bubble::default());
+        }
+        let Some(selected) = selected else { return };
+        if ui.button("Duplicate").on_hover_text("Another bubble like this one (Ctrl+D)").clicked() {
+            model.add_bubble(selected);
+        }
+        if ui.button("Delete").on_hover_text("Without this bubble, and what happens to it").clicked() {
+            model.delete_bubble();
+        }
+    });
 }
 
 /// What the film ends at, and what comes from there.

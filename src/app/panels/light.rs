@@ -9,7 +9,8 @@ use super::{
 use crate::{
     app::{
         edit::Edit,
-        model::{Model, Request, Target},
+        model::Model,
+        request::{Request, Target},
     },
     physics::colour::{BUILT_IN, BuiltIn},
     scene::{Environment, Light},

@@ -1,29 +1,37 @@
 //! The panels: each a small function of the model. They touch neither window nor GPU, so tests drive them without either.
 
+mod all_keys;
+pub mod compare;
 mod costs;
 mod film;
+pub mod gallery;
 mod generators;
 mod header;
 mod help;
+mod hints;
 mod light;
 mod motion;
 mod notices;
 mod picture;
 mod plots;
+mod probe;
+mod question;
 #[cfg(test)]
 mod tests;
+mod time_line;
 mod tools;
 mod view;
 mod widgets;
+mod window;
 
-use egui::{CollapsingHeader, Panel, Rect, ScrollArea, Ui};
+use egui::{CollapsingHeader, Context, Panel, Rect, ScrollArea, Ui};
 use glam::DVec2;
 
 use super::{
     keys::{self, Action},
     model::Model,
     orbit::Gesture,
-    tools::Press,
+    tools::{Press, Tool},
 };
 
 /// Width of the panels, points.
@@ -38,28 +46,60 @@ pub struct Picture {
     pub gesture: Gesture,
     /// The pointer, if it is pressed there.
     pub pressed: Option<Press>,
+    /// Where the pointer is there: right and up from the picture's middle, in heights of the picture.
+    pub hovered: Option<DVec2>,
+    /// Whether it has clicked there.
+    pub clicked: bool,
 }
 
 /// Shows everything around the picture, obeys the keys, and returns where the picture stands.
 pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
-    let actions = keys::pressed(ui.ctx());
+    let (now_s, is_held) = ui.input(|input| (input.time, input.pointer.any_down()));
+    model.undo.pass(now_s, is_held);
+    // Who is asked a question answers it first.
+    let obeys_keys = model.question.is_none() && !model.stands_alone;
+    let actions = if obeys_keys { keys::pressed(ui.ctx()) } else { Vec::new() };
     for action in &actions {
         model.act(*action);
     }
-    if model.shows_panels {
-        // A window narrower than the panel is all panel; `H` hides it.
-        let width = WIDTH.min(ui.available_width());
-        Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
+    if !model.presents {
+        time_line::show(ui, model);
+        if model.shows_panels {
+            // A window narrower than the panel is all panel; `H` hides it.
+            let width = WIDTH.min(ui.available_width());
+            Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
+        }
     }
     let mut picture = picture::show(ui, model.scene.camera.follow_deg);
+    picture.gesture.frame |= actions.contains(&Action::Frame);
     if model.touch(picture.pressed) {
         picture.gesture.turn = DVec2::ZERO;
     }
-    tools::show(ui.ctx(), picture.rect, model);
-    picture.gesture.frame |= actions.contains(&Action::Frame);
-    notices::show(ui.ctx(), picture.rect, model);
-    help::show(ui.ctx(), &mut model.shows_help);
+    if let Some(place) = picture.hovered.filter(|_| picture.clicked && model.tool == Tool::Orbit) {
+        model.select(place);
+    }
+    let probes = model.tool == Tool::Probe;
+    model.probe.point(picture.hovered.filter(|_| probes), picture.clicked && probes);
+    if !model.stands_alone {
+        over_picture(ui.ctx(), picture.rect, model);
+    }
     picture
+}
+
+/// What stands over the picture, and the questions over everything.
+fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
+    if !model.presents {
+        picture::outline(ctx, picture, model);
+        tools::show(ctx, picture, model);
+        hints::show(ctx, picture, model);
+    }
+    compare::show(ctx, picture, model);
+    probe::show(ctx, picture, model);
+    notices::show(ctx, picture, model);
+    help::show(ctx, &mut model.shows_help);
+    gallery::show(ctx, model);
+    question::show(ctx, model);
+    window::show(ctx, model);
 }
 
 fn sections(ui: &mut Ui, model: &mut Model) {
@@ -72,6 +112,7 @@ fn sections(ui: &mut Ui, model: &mut Model) {
         section(ui, "Motion", true, |ui| motion::show(ui, model));
         section(ui, "Light", true, |ui| light::show(ui, model));
         section(ui, "View", true, |ui| view::show(ui, model));
+        section(ui, "All keys", false, |ui| all_keys::show(ui, model));
         section(ui, "Costs", false, |ui| costs::show(ui, model));
     });
 }

@@ -1,8 +1,8 @@
-//! The motion panel: what moves the films, and the clock.
+//! The motion panel: what moves the films, and its history.
 
 use egui::{Response, Ui};
 
-use super::widgets::{choice, group, number, number_within, seed, slider};
+use super::widgets::{choice, number, number_within, seed, slider};
 use crate::{
     app::{edit::Edit, history, model::Model},
     scene::{Motion, MotionChange},
@@ -10,8 +10,6 @@ use crate::{
 
 /// Shows and edits the motion that is in force now.
 pub fn show(ui: &mut Ui, model: &mut Model) {
-    clock(ui, model);
-    time_line(ui, model);
     let now = model.motion();
     let mut motion = model.motion_draft.take().unwrap_or_default().applied_to(now.clone());
     let is_dragged = flow(ui, &mut motion) | film(ui, &mut motion) | life(ui, &mut motion) | method(ui, &mut motion);
@@ -24,40 +22,6 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         model.edit(Edit::Motion(motion.into()));
     }
     events(ui, model);
-}
-
-fn clock(ui: &mut Ui, model: &mut Model) {
-    let time_s = model.clock.time_s(&model.scene.motion);
-    group(ui, &format!("{time_s:.1} s"), |ui| {
-        let pause = if model.clock.running { "Pause" } else { "Run" };
-        if ui.button(pause).on_hover_text("Play or pause the film (Space)").clicked() {
-            model.clock.running = !model.clock.running;
-        }
-        if ui.button("Step").on_hover_text("Advance by one tick (.)").clicked() {
-            model.clock.step();
-        }
-        if ui.button("Reset").on_hover_text("Return to the beginning (R)").clicked() {
-            model.clock.reset();
-        }
-    });
-    if model.behind_ticks > 0 {
-        ui.weak(format!("The film is catching up: {} ticks behind", model.behind_ticks));
-    }
-}
-
-/// The film's whole history on a line. Going back moves the film again from a checkpoint: the same history gives the same film.
-fn time_line(ui: &mut Ui, model: &mut Model) {
-    model.furthest_tick = model.furthest_tick.max(model.clock.tick);
-    let tick_s = model.scene.motion.tick_s;
-    let mut time_s = model.clock.time_s(&model.scene.motion);
-    let end_s = model.last_tick() as f64 * tick_s;
-    let response =
-        slider(ui, "Time", &mut time_s, 0.0..=end_s, "Moves back and forth in the history of the film", |slider| {
-            slider.suffix(" s").max_decimals(2)
-        });
-    if response.changed() {
-        model.clock.seek((time_s / tick_s).round() as u64);
-    }
 }
 
 /// The keys that move the film; returns whether a slider is being dragged, as the functions below do.

@@ -1,12 +1,15 @@
 //! The picture's place in the window, and what the pointer does there.
 
-use egui::{CentralPanel, Frame, PointerButton, Response, Sense, Ui};
+use egui::{
+    CentralPanel, Color32, Context, Frame, LayerId, PointerButton, Pos2, Rect, Response, Sense, Stroke, Ui, vec2,
+};
 use glam::DVec2;
 
 use super::Picture;
 use crate::app::{
+    model::Model,
     orbit::{Gesture, TURN_DEG},
-    tools::Press,
+    tools::{self, Press},
 };
 
 /// Natural logarithm of the magnification for a point of scrolling: a notch of a wheel is 40 points.
@@ -19,7 +22,13 @@ pub fn show(ui: &mut Ui, follow_deg: f64) -> Picture {
         .show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
-            Picture { rect, gesture: gesture(ui, &response, follow_deg), pressed: pressed(ui, &response) }
+            Picture {
+                rect,
+                gesture: gesture(ui, &response, follow_deg),
+                pressed: pressed(ui, &response),
+                hovered: response.hover_pos().map(|at| place(rect, at)),
+                clicked: response.clicked(),
+            }
         })
         .inner
 }
@@ -29,11 +38,28 @@ fn pressed(ui: &Ui, response: &Response) -> Option<Press> {
     let (is_down, from) =
         ui.input(|input| (input.pointer.primary_down() && !input.modifiers.shift, input.pointer.press_origin()));
     let at = response.interact_pointer_pos().filter(|_| is_down && response.is_pointer_button_down_on())?;
-    let place = |at: egui::Pos2| {
-        let from_middle = (at - response.rect.center()) / response.rect.height().max(1.0);
-        DVec2::new(from_middle.x.into(), (-from_middle.y).into())
-    };
+    let place = |at| place(response.rect, at);
     Some(Press { from: place(from.unwrap_or(at)), at: place(at) })
+}
+
+/// A place in the picture, right and up from its middle in heights of it.
+fn place(picture: Rect, at: Pos2) -> DVec2 {
+    let from_middle = (at - picture.center()) / picture.height().max(1.0);
+    DVec2::new(from_middle.x.into(), (-from_middle.y).into())
+}
+
+/// Outlines the selected bubble, if it was clicked.
+pub fn outline(ctx: &Context, picture: Rect, model: &Model) {
+    let outline = tools::outline(&model.scene, model.clock.tick, model.selected);
+    if let Some((middle, radius)) = outline.filter(|_| model.outlines) {
+        let at = picture.center() + picture.height() * vec2(middle.x as f32, -middle.y as f32);
+        let painter = ctx.layer_painter(LayerId::background()).with_clip_rect(picture);
+        painter.circle_stroke(
+            at,
+            picture.height() * radius as f32 + 2.0,
+            Stroke::new(1.0, Color32::from_white_alpha(150)),
+        );
+    }
 }
 
 fn gesture(ui: &Ui, response: &Response, follow_deg: f64) -> Gesture {
@@ -46,7 +72,7 @@ fn gesture(ui: &Ui, response: &Response, follow_deg: f64) -> Gesture {
     if response.hovered() && !ui.input(|input| input.pointer.any_down()) {
         let moved = ui.input(|input| input.pointer.delta());
         // The eye goes where the pointer goes; a drag pulls what one sees.
-        gesture.turn -= follow_deg / TURN_DEG * DVec2::new(moved.x.into(), moved.y.into()) / height;
+        gesture.follow = -follow_deg / TURN_DEG * DVec2::new(moved.x.into(), moved.y.into()) / height;
     }
     if response.contains_pointer() {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));

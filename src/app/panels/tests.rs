@@ -6,10 +6,15 @@ use egui_kittest::{Harness, kittest::Queryable};
 use super::Picture;
 use crate::{
     app::{
-        model::{Model, Request, Target, tests::model},
+        compare::{Map, Pixels, Want},
+        edit::Edit,
+        model::{Model, tests::model},
+        request::{Fate, Question, Request, Target},
         tools::Tool,
     },
-    scene::{Backdrop, Boundary, Change, Event, FilmStateName, Flow, Generator, Layout, MotionChange, Scene, Scheme},
+    scene::{
+        Backdrop, Boundary, Change, Event, FilmStateName, Flow, Generator, Layout, Motion, MotionChange, Scene, Scheme,
+    },
 };
 
 struct State {
@@ -20,9 +25,14 @@ struct State {
 fn harness(model: Model, size: egui::Vec2) -> Harness<'static, State> {
     let state = State { model, picture: None };
     // Notes leave by time; nothing else moves, so a frame settles in a few steps.
-    Harness::builder()
-        .with_size(size)
-        .build_ui_state(|ui, state| state.picture = Some(super::show(ui, &mut state.model)), state)
+    Harness::builder().with_size(size).build_ui_state(
+        |ui, state| {
+            let picture = super::show(ui, &mut state.model);
+            state.model.move_camera(&picture.gesture, 1.2);
+            state.picture = Some(picture);
+        },
+        state,
+    )
 }
 
 /// A window on the furnace, whose film is made to vary and whose clock stands.
@@ -132,7 +142,7 @@ fn a_flow_chosen_while_time_runs_is_an_event_that_can_be_taken_back() {
 }
 
 #[test]
-fn the_time_line_goes_back_and_forth_as_far_as_time_has_gone() {
+fn the_time_line_goes_back_and_forth_and_ahead() {
     let mut window = window();
     window.state_mut().model.clock.tick = 300;
     window.run();
@@ -140,8 +150,202 @@ fn the_time_line_goes_back_and_forth_as_far_as_time_has_gone() {
         set_slider(&mut window, "Time", time_s);
         window.state().model.clock.tick
     });
-    assert_eq!(ticks, [60, 240, 0, 300, 300]);
+    assert_eq!(ticks, [60, 240, 0, 300, 600], "as far as the time line is long");
     assert_eq!(window.state().model.scene.events, [], "looking back changes no history");
+}
+
+#[test]
+fn events_are_selected_dragged_and_removed_on_the_time_line() {
+    let mut window = window();
+    let stir = |tick| Event {
+        tick,
+        change: Change::Motion(MotionChange { flow: Some(Flow::Stirred), ..MotionChange::default() }),
+    };
+    window.state_mut().model.edit(Edit::History(Motion::default().into(), vec![stir(120), stir(480)]));
+    window.run();
+    let strip = window.get_by_label("Events").rect();
+    // The time line is ten seconds long, and its ends stand a little inside.
+    let at = |tick: f32| egui::pos2(strip.left() + 10.0 + (strip.width() - 20.0) * tick / 600.0, strip.top() + 5.0);
+    window.drag_at(at(120.0));
+    window.step();
+    assert_eq!(window.state().model.time_line.selected, Some(0));
+    window.hover_at(at(400.0));
+    window.step();
+    window.hover_at(at(540.0));
+    window.step();
+    window.drop_at(at(540.0));
+    window.run();
+    let ticks = |window: &Harness<'static, State>| {
+        window.state().model.scene.events.iter().map(|event| event.tick).collect::<Vec<_>>()
+    };
+    assert!(matches!(ticks(&window)[..], [480, moved] if (530..=550).contains(&moved)), "{:?}", ticks(&window));
+    assert_eq!(window.state().model.time_line.selected, Some(1), "the event stays selected");
+    window.get_by_label_contains("flow stirred");
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(ticks(&window), [480]);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(ticks(&window), [120, 480]);
+}
+
+#[test]
+fn a_jump_ahead_shows_its_progress_and_can_be_stopped() {
+    let mut window = window();
+    set_slider(&mut window, "Time", 8.0);
+    window.state_mut().model.behind_ticks = 400;
+    window.run();
+    window.get_by_label("400 ticks to go");
+    window.state_mut().model.behind_ticks = 300;
+    window.run();
+    click(&mut window, "Stop");
+    assert_eq!(window.state().model.clock.tick, 180, "what was reached of 480 ticks");
+    window.state_mut().model.behind_ticks = 0;
+    window.run();
+    assert!(window.query_by_label("Stop").is_none());
+}
+
+#[test]
+fn a_loop_begins_again_at_its_length() {
+    let mut model = model();
+    (model.time_line.loops, model.time_line.length_s) = (true, 1.0);
+    (0..25).for_each(|_| model.advance(0.05));
+    assert!(model.clock.tick < 20, "{}", model.clock.tick);
+    model.time_line.loops = false;
+    (0..25).for_each(|_| model.advance(0.05));
+    assert!(model.clock.tick > 60, "{}", model.clock.tick);
+}
+
+#[test]
+fn the_picture_can_stand_alone() {
+    let mut window = window();
+    press(&mut window, Modifiers::NONE, Key::F11);
+    let rect = window.state().picture.unwrap().rect;
+    assert!(rect.width() > 1260.0 && rect.height() > 1180.0, "{rect}");
+    assert!(window.query_by_label("Play").is_none() && window.query_by_label("Orbit").is_none());
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    window.get_by_label("Play");
+}
+
+/// No widget of a small window reaches beyond it.
+#[test]
+fn nothing_is_clipped_in_a_small_window() {
+    let mut window = harness(model(), vec2(640.0, 480.0));
+    window.step();
+    window.step();
+    let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, vec2(640.0, 480.0)).expand(1.0);
+    for name in
+        ["Pause", "Step", "Reset", "Loop", "Length", "Time", "Orbit", "Probe", "Presets", "File", "Window", "Undo"]
+    {
+        let rect = window.get_by_label(name).rect();
+        assert!(screen.contains_rect(rect), "{name}: {rect}");
+    }
+    let picture = window.state().picture.unwrap().rect;
+    assert!(picture.width() > 300.0 && picture.height() > 350.0, "{picture}");
+}
+
+#[test]
+fn the_probe_shows_its_numbers_and_keeps_what_was_clicked() {
+    let mut window = window();
+    press(&mut window, Modifiers::NONE, Key::Num6);
+    let middle = window.state().picture.unwrap().rect.center();
+    window.hover_at(middle);
+    window.run();
+    assert_eq!(window.state().model.probe.asked(), Some(glam::DVec2::ZERO));
+    let reading = crate::app::probe::tests::reading();
+    window.state_mut().model.probe.answer(Some(reading.clone()), true);
+    window.run();
+    window.get_all_by_label("320.0 nm").next().unwrap();
+    assert_eq!(window.state().model.probe.pinned, None, "nothing was clicked");
+    window.drag_at(middle);
+    window.drop_at(middle);
+    window.run();
+    window.state_mut().model.probe.answer(Some(reading), true);
+    window.run();
+    click(&mut window, "CSV…");
+    assert_eq!(window.state().model.requests, [Request::Ask(Target::SaveCsv)]);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(window.state().model.probe.pinned, None);
+    press(&mut window, Modifiers::NONE, Key::Num1);
+    assert_eq!(window.state().model.probe.asked(), None, "other tools measure nothing");
+}
+
+#[test]
+fn all_keys_have_rows_and_can_be_set_back() {
+    let mut model = model();
+    model.clock.running = false;
+    let mut window = harness(model, vec2(1280.0, 4000.0));
+    window.run();
+    click(&mut window, "All keys");
+    let before = Scene::clone(&window.state().model.scene);
+    window.state_mut().model.scene.change(|scene| scene.camera.azimuth_deg = 77.0);
+    window.run();
+    for label in ["Azimuth", "Target", "Center", "Film seed"] {
+        assert!(window.query_all_by_label(label).next().is_some(), "{label}");
+    }
+    let resets: Vec<_> = window.query_all_by_label("reset").map(|reset| reset.rect().center().y).collect();
+    let azimuth = window.query_all_by_label("Azimuth").next().unwrap().rect().center().y;
+    let nearest =
+        (0..resets.len()).min_by(|a, b| (resets[*a] - azimuth).abs().total_cmp(&(resets[*b] - azimuth).abs()));
+    window.query_all_by_label("reset").nth(nearest.unwrap()).unwrap().click();
+    window.run();
+    assert_eq!(window.state().model.scene.camera.azimuth_deg, 20.0, "its normal value");
+    assert_eq!(window.state().model.scene.bubbles, before.bubbles, "other keys stay");
+}
+
+#[test]
+fn bubbles_are_selected_added_and_deleted() {
+    let mut window = harness(Model::new(crate::input::load_scene("trio").unwrap()), vec2(1280.0, 1000.0));
+    window.state_mut().model.clock.running = false;
+    window.run();
+    let before = Scene::clone(&window.state().model.scene);
+    let rect = window.state().picture.unwrap().rect;
+    for bubble in 0..3 {
+        let (middle, _) = crate::app::tools::outline(&window.state().model.scene, 0, bubble).unwrap();
+        let at = rect.center() + rect.height() * vec2(middle.x as f32, -middle.y as f32);
+        window.drag_at(at);
+        window.drop_at(at);
+        window.run();
+        assert_eq!((window.state().model.selected, window.state().model.outlines), (bubble, true));
+    }
+    click(&mut window, "Duplicate");
+    let scene = &window.state().model.scene;
+    assert_eq!((scene.bubbles.len(), window.state().model.selected), (4, 3));
+    assert_eq!(scene.bubbles[3].film, before.bubbles[2].film);
+    assert_ne!(scene.bubbles[3].center_m, before.bubbles[2].center_m);
+    click(&mut window, "Delete");
+    assert_eq!(window.state().model.scene.bubbles, before.bubbles);
+    click(&mut window, "Add");
+    assert_eq!(window.state().model.undo.last_name(), Some("Add bubble"));
+    (0..3).for_each(|_| press(&mut window, Modifiers::COMMAND, Key::Z));
+    assert_eq!(*window.state().model.scene, before);
+}
+
+#[test]
+fn a_kept_picture_is_compared() {
+    let mut window = window();
+    press(&mut window, Modifiers::NONE, Key::K);
+    assert_eq!(window.state_mut().model.compare.wants.take(), Some(Want::Keep));
+    let pixels = |grey: u8| Pixels { size: [2, 2], rgba: vec![grey; 16].into() };
+    window.state_mut().model.compare.keep(pixels(90), "furnace at 0.00 s".to_owned());
+    window.run();
+    let line = window.get_by_role_and_label(Role::Slider, "Split").rect().center();
+    window.drag_at(line);
+    window.step();
+    window.hover_at(line + vec2(30.0, 0.0));
+    window.step();
+    window.hover_at(line + vec2(200.0, 0.0));
+    window.step();
+    window.drop_at(line + vec2(200.0, 0.0));
+    window.run();
+    assert!(window.state().model.compare.split > 0.6, "{}", window.state().model.compare.split);
+    click(&mut window, "ΔE map");
+    assert_eq!(window.state_mut().model.compare.wants.take(), Some(Want::Map));
+    window.state_mut().model.compare.map = Some(Map::new(&pixels(90), &pixels(90)));
+    window.run();
+    window.get_by_label_contains("mean 0.000");
+    click(&mut window, "Split");
+    click(&mut window, "Close");
+    assert_eq!(window.state().model.compare.kept, None);
 }
 
 #[test]
@@ -195,7 +399,7 @@ fn the_clock_obeys_buttons_and_keys() {
     assert_eq!(window.state().model.clock.tick, 2);
     click(&mut window, "Reset");
     assert_eq!(window.state().model.clock.tick, 0);
-    click(&mut window, "Run");
+    click(&mut window, "Play");
     assert!(window.state().model.clock.running);
     window.key_press(Key::Space);
     window.key_press(Key::Period);
@@ -206,7 +410,7 @@ fn the_clock_obeys_buttons_and_keys() {
 #[test]
 fn files_and_lights_are_asked_for() {
     let mut window = window();
-    click(&mut window, "Save…");
+    click(&mut window, "Save");
     click(&mut window, "windows");
     window.get_by_role_and_label(Role::ComboBox, "Illuminant").click();
     window.run();
@@ -214,7 +418,10 @@ fn files_and_lights_are_asked_for() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::P);
     window.run();
     click(&mut window, "Presets");
-    click(&mut window, "lamplight");
+    window.get_by_label_contains("lamplight: ");
+    window.get_by_role_and_label(Role::Button, "lamplight").click_accesskit();
+    window.run();
+    assert!(!window.state().model.shows_gallery);
     let requests = std::mem::take(&mut window.state_mut().model.requests);
     assert_eq!(requests.len(), 5, "{requests:?}");
     assert_eq!(requests[0], Request::Ask(Target::SaveScene));
@@ -222,6 +429,127 @@ fn files_and_lights_are_asked_for() {
     assert!(matches!(&requests[2], Request::LoadLight(light) if light.illuminant == "D50"));
     assert_eq!(requests[3], Request::Ask(Target::SavePng));
     assert_eq!(requests[4], Request::LoadScene("lamplight".to_owned()));
+}
+
+fn press(window: &mut Harness<'static, State>, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run();
+}
+
+#[test]
+fn every_change_can_be_taken_back_and_made_again() {
+    let mut window = window();
+    let mut scenes = vec![Scene::clone(&window.state().model.scene)];
+    window.state_mut().model.clock.tick = 60;
+    set_slider(&mut window, "Exposure", -1.5);
+    scenes.push(Scene::clone(&window.state().model.scene));
+    set_slider(&mut window, "Evaporation", 5.0);
+    scenes.push(Scene::clone(&window.state().model.scene));
+    click(&mut window, "bath");
+    scenes.push(Scene::clone(&window.state().model.scene));
+    press(&mut window, Modifiers::NONE, Key::N);
+    scenes.push(Scene::clone(&window.state().model.scene));
+    let name = |window: &Harness<'static, State>| window.state().model.undo.last_name().map(str::to_owned);
+    let mut names = Vec::new();
+    for scene in scenes.iter().rev().skip(1) {
+        names.extend(name(&window));
+        press(&mut window, Modifiers::COMMAND, Key::Z);
+        assert_eq!(*window.state().model.scene, *scene, "{names:?}");
+    }
+    assert_eq!(names, ["New seeds", "Boundary", "Evaporation", "Exposure"]);
+    assert_eq!((name(&window), window.state().model.undo.is_dirty()), (None, false));
+    for scene in &scenes[1..] {
+        press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+        assert_eq!(*window.state().model.scene, *scene);
+    }
+    // What is done after an undo takes the place of what was undone.
+    click(&mut window, "Undo");
+    set_slider(&mut window, "Exposure", 1.0);
+    assert_eq!(window.state().model.undo.next_name(), None);
+}
+
+#[test]
+fn a_drag_is_one_step_and_a_stroke_of_a_tool_another() {
+    let mut window = window();
+    let middle = window.state().picture.unwrap().rect.center();
+    let before = Scene::clone(&window.state().model.scene);
+    for tool in ["Orbit", "Stir"] {
+        click(&mut window, tool);
+        window.drag_at(middle);
+        for k in 1..=5u8 {
+            window.step();
+            window.state_mut().model.clock.tick += 6;
+            window.hover_at(middle + vec2(20.0 * f32::from(k), 0.0));
+        }
+        window.step();
+        window.drop_at(middle + vec2(100.0, 0.0));
+        window.run();
+    }
+    assert!(window.state().model.scene.events.len() > 2 && window.state().model.undo.is_dirty());
+    assert_eq!(window.state().model.undo.last_name(), Some("Stir"));
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.state().model.scene.events, []);
+    assert_eq!(window.state().model.undo.last_name(), Some("Camera"));
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(*window.state().model.scene, before);
+}
+
+#[test]
+fn work_that_would_be_lost_is_asked_about() {
+    let mut window = window();
+    press(&mut window, Modifiers::COMMAND, Key::Q);
+    assert_eq!(std::mem::take(&mut window.state_mut().model.requests), [Request::Quit], "nothing would be lost");
+    set_slider(&mut window, "Exposure", 1.0);
+    assert!(window.state().model.title().ends_with("(edited)"));
+    press(&mut window, Modifiers::COMMAND, Key::Q);
+    window.get_by_label_contains("before the window closes");
+    press(&mut window, Modifiers::NONE, Key::Space);
+    assert!(!window.state().model.clock.running, "keys wait for the answer");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!((&window.state().model.question, &window.state().model.requests[..]), (&None, &[][..]));
+    window.state_mut().model.ask_for(Request::LoadScene("trio".to_owned()));
+    window.run();
+    click(&mut window, "Do not save");
+    let model = &mut window.state_mut().model;
+    assert_eq!(std::mem::take(&mut model.requests), [Request::LoadScene("trio".to_owned())]);
+    model.ask_for(Request::Quit);
+    window.run();
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    let model = &mut window.state_mut().model;
+    assert_eq!(std::mem::take(&mut model.requests), [Request::Ask(Target::SaveScene)], "a preset has no file yet");
+    model.saved("/a/b.toml".into(), model.undo.state());
+    assert_eq!(std::mem::take(&mut model.requests), [Request::Quit]);
+    assert_eq!(model.title(), "soapfilm – /a/b.toml");
+    assert_eq!(model.settings.recent, ["/a/b.toml"]);
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    assert_eq!(window.state().model.requests, [Request::Save], "its file is known now");
+}
+
+#[test]
+fn a_path_is_typed_where_no_dialog_can_ask() {
+    let mut window = window();
+    let ask = |model: &mut Model| model.question = Some(Question::path(Target::SaveScene, &model.name, &model.folder));
+    ask(&mut window.state_mut().model);
+    window.run();
+    let field = window.get_by_role(Role::TextInput);
+    assert_eq!(field.value(), Some("furnace.toml".to_owned()));
+    field.type_text("2");
+    window.run();
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    let typed = Request::Typed(Target::SaveScene, "furnace.toml2".to_owned());
+    assert_eq!(std::mem::take(&mut window.state_mut().model.requests), [typed]);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(window.state().model.question, None);
+}
+
+#[test]
+fn left_work_is_offered() {
+    let mut window = window();
+    window.state_mut().model.question = Some(Question::Left("trio".to_owned()));
+    window.run();
+    click(&mut window, "Recover");
+    assert_eq!(window.state().model.requests, [Request::Left(Fate::TakeUp)]);
+    assert_eq!(window.state().model.question, None);
 }
 
 #[test]

@@ -32,8 +32,10 @@ impl Seeded {
 
 /// Mean of a function over a grid's cells, which its values depart from; 0 if the mean is not finite.
 pub(super) fn level_of(grid: &Grid, value: &(impl Fn(DVec3) -> f64 + Sync)) -> f32 {
+    // Without the grid's buffers, which in a browser no thread may share.
+    let sphere = grid.sphere;
     let areas = grid.film_areas().into_par_iter().enumerate();
-    let weighted: Vec<f64> = areas.map(|(cell, area)| area * value(grid.sphere.cell_direction(cell))).collect();
+    let weighted: Vec<f64> = areas.map(|(cell, area)| area * value(sphere.cell_direction(cell))).collect();
     let sum: f64 = weighted.into_iter().sum();
     if sum.is_finite() { (sum / grid.film_area) as f32 } else { 0.0 }
 }

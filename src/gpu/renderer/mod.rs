@@ -187,6 +187,15 @@ impl Renderer {
         Ok(Some((film.field.sphere(), Readback::of_buffer(&self.gpu, &values, values.size()))))
     }
 
+    /// Starts to read back the velocity of the flow that moves a film by itself: `vec4f` in rad/s, Cartesian in the film's axes, in padded storage.
+    /// `None` for a film that no flow of its own has moved yet.
+    #[must_use]
+    pub fn read_flow(&self, film: usize) -> Option<(CubedSphere, Readback)> {
+        let flow = self.products.films.get(film)?.as_ref()?.flow()?;
+        let (sphere, velocity) = (flow.sphere(), flow.velocity());
+        Some((sphere, Readback::of_buffer(&self.gpu, velocity, sphere.padded_len() as u64 * 16)))
+    }
+
     /// Starts to read back the rim of the hole in a film that bursts: a [`RimValue`](super::passes::open_hole::RimValue) for each meridian.
     #[must_use]
     pub fn read_hole(&self, film: usize) -> Option<Readback> {

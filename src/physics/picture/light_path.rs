@@ -5,7 +5,7 @@ use std::rc::Rc;
 use glam::{DMat3, DVec3};
 
 use super::{
-    PictureScene,
+    FilmSphere, PictureScene,
     bath::{mirrored_part, past_meniscus},
     walls::{Line, Surface, Wall},
     weights::Weights,
@@ -38,6 +38,10 @@ pub(super) struct LightPath<'a> {
     bath_m: Option<f64>,
 }
 
+fn surface(sphere: &FilmSphere, eye_m: DVec3) -> Surface {
+    Surface::new(sphere.center_m - eye_m, sphere.radius_m, sphere.stretch)
+}
+
 /// A ray between two reflections, and what is seen of light that arrives along it.
 struct Branch {
     line: Line,
@@ -66,11 +70,7 @@ impl<'a> LightPath<'a> {
         let scale = DMat3::from_diagonal(daylight_scale());
         let responses: Vec<DMat3> = responses(scene.light).into_iter().map(|response| scale * response).collect();
         let seen = responses.iter().fold(DMat3::ZERO, |sum, response| sum + *response);
-        let surfaces: Vec<Surface> = scene
-            .spheres
-            .iter()
-            .map(|sphere| Surface::new(sphere.center_m - eye_m, sphere.radius_m, sphere.stretch))
-            .collect();
+        let surfaces: Vec<Surface> = scene.spheres.iter().map(|sphere| surface(sphere, eye_m)).collect();
         // Where nothing stands on it, any height below the eye does.
         let level_m = || scene.spheres.first().map_or(-1.0, |sphere| sphere.center_m.z - eye_m.z);
         let one_plane = matches!(&scene.spheres[..], [sphere] if sphere.stretch == DMat3::IDENTITY);

@@ -41,6 +41,7 @@ pub use front::{FrontBubble, FrontPixel, FrontScene, FrontWall};
 use light_path::LightPath;
 pub use plate::Plate;
 pub use view::PictureCamera;
+pub use walls::{Line, Surface, Wall};
 
 /// A bubble.
 pub struct FilmSphere<'a> {

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 /// A straight part of a light path, followed from the eye against the light.
-pub(super) struct Line {
+pub struct Line {
     /// Where it starts, in metres from the eye.
     pub origin_m: DVec3,
     /// Where it goes, a unit vector.
@@ -13,7 +13,7 @@ pub(super) struct Line {
 }
 
 /// A wall of film that a line meets.
-pub(super) struct Wall {
+pub struct Wall {
     /// How far along the line, in metres.
     pub distance_m: f64,
     /// The bubble's number.
@@ -27,7 +27,7 @@ pub(super) struct Wall {
 }
 
 /// The surface of a bubble, as seen from the eye: positions far from the origin of the world keep their digits.
-pub(super) struct Surface {
+pub struct Surface {
     /// Center in metres from the eye.
     center_m: DVec3,
     radius_m: f64,
@@ -37,12 +37,14 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// The surface of a bubble, whose center is given in metres from the eye.
+    /// The surface of a bubble, with its center in metres from the eye; the stretch is as in [`FilmSphere`](super::FilmSphere).
+    #[must_use]
     pub fn new(center_m: DVec3, radius_m: f64, stretch: DMat3) -> Self {
         Self { center_m, radius_m, stretch, to_round: stretch.inverse() }
     }
 
     /// A place on the bubble, in metres from the eye.
+    #[must_use]
     pub fn point_m(&self, place: DVec3) -> DVec3 {
         self.center_m + self.radius_m * (self.stretch * place)
     }

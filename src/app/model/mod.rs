@@ -1,70 +1,33 @@
 //! What the window shows and what its user has changed: everything that needs neither a window nor a GPU.
 
+mod bubbles;
+mod steps;
+mod time;
+
 use std::path::PathBuf;
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    clock::Clock,
+    clock::{Clock, Rate},
+    compare::{Compare, Want},
     costs::Costs,
-    edit::{Edit, begins_anew, new_seed},
+    edit::Edit,
     keys::Action,
     messages::Messages,
     orbit,
+    probe::Probe,
+    request::{Question, Request, Target},
+    storage::{Settings, Unsaved},
+    time_line::TimeLine,
     tools::{self, Hand, Press, Tool},
+    undo::Undo,
 };
 use crate::{
     input::LoadedScene,
-    plan::{Resources, Story, film_owners, settle_detail},
-    scene::{Light, Motion, MotionChange},
+    plan::{Resources, Story, settle_detail},
+    scene::{Light, Motion, MotionChange, preset_toml},
 };
-
-/// What a file is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Target {
-    /// A scene to open.
-    OpenScene,
-    /// An environment to open.
-    OpenEnvironment,
-    /// Where the scene goes.
-    SaveScene,
-    /// Where the picture goes as people see it.
-    SavePng,
-    /// Where the picture's radiance goes.
-    SaveExr,
-}
-
-impl Target {
-    /// Name of the kind of file, and its endings, the default first.
-    #[must_use]
-    pub fn file_type(self) -> (&'static str, &'static [&'static str]) {
-        match self {
-            Self::OpenScene | Self::SaveScene => ("Scene", &["toml"]),
-            Self::OpenEnvironment => ("Environment", &["exr", "hdr"]),
-            Self::SavePng => ("PNG picture", &["png"]),
-            Self::SaveExr => ("OpenEXR picture", &["exr"]),
-        }
-    }
-
-    /// Whether the file is there already.
-    #[must_use]
-    pub fn is_read(self) -> bool {
-        matches!(self, Self::OpenScene | Self::OpenEnvironment)
-    }
-}
-
-/// What a panel or key asks for that takes more than the model.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Request {
-    /// A dialog for a file.
-    Ask(Target),
-    /// Another scene, by path or preset's name.
-    LoadScene(String),
-    /// Another light, whose environment must be loaded.
-    LoadLight(Light),
-    /// The end.
-    Quit,
-}
 
 /// How far a key tilts gravity, degrees.
 const TILT_DEG: f64 = 10.0;
@@ -79,10 +42,24 @@ pub struct Model {
     pub name: String,
     /// Folder that relative paths in the scene start from.
     pub folder: PathBuf,
+    /// The file that it is saved to; a preset has none.
+    pub file: Option<PathBuf>,
+    /// What can be taken back.
+    pub undo: Undo,
     /// Film time.
     pub clock: Clock,
+    /// How fast it passes.
+    pub rate: Rate,
+    /// How the time line is used.
+    pub time_line: TimeLine,
+    /// A kept picture beside the one that is shown.
+    pub compare: Compare,
+    /// What is measured under the pointer.
+    pub probe: Probe,
     /// Index of the bubble that the film panel edits.
     pub selected: usize,
+    /// Whether it is outlined in the picture, because it was clicked there.
+    pub outlines: bool,
     /// Index of the generator that its panel edits.
     pub selected_generator: usize,
     /// The last tick that was ever shown of this history: how far its time line reaches.
@@ -93,8 +70,14 @@ pub struct Model {
     pub tool: Tool,
     /// What the pointer does with it.
     pub hand: Hand,
+    /// Whether the picture stands alone, as in a page that only shows it: without panels, tools and messages.
+    pub stands_alone: bool,
     /// Whether the panels are there.
     pub shows_panels: bool,
+    /// Whether the picture is alone on the screen.
+    pub presents: bool,
+    /// Whether the presets are there to choose from.
+    pub shows_gallery: bool,
     /// Whether the help is there.
     pub shows_help: bool,
     /// What is being loaded.
@@ -107,6 +90,12 @@ pub struct Model {
     pub costs: Costs,
     /// What has been asked for since the last frame.
     pub requests: Vec<Request>,
+    /// What the window keeps from one run to the next.
+    pub settings: Settings,
+    /// What must be answered first.
+    pub question: Option<Question>,
+    /// What is asked for once the scene is saved.
+    pub once_saved: Option<Request>,
 }
 
 impl Model {
@@ -117,25 +106,39 @@ impl Model {
         settle_detail(&mut loaded.scene);
         let mut messages = Messages::default();
         warn(&mut messages, &loaded);
+        let name = loaded.name;
         Self {
             scene: Story::new(loaded.scene),
             resources: loaded.resources,
-            name: loaded.name,
+            file: file_of(&name),
+            name,
             folder: loaded.folder,
+            undo: Undo::default(),
             clock: Clock::default(),
+            rate: Rate::default(),
+            time_line: TimeLine::default(),
+            compare: Compare::default(),
+            probe: Probe::default(),
             selected: 0,
+            outlines: false,
             selected_generator: 0,
             furthest_tick: 0,
             motion_draft: None,
             tool: Tool::default(),
             hand: Hand::default(),
+            stands_alone: false,
             shows_panels: true,
+            presents: false,
+            shows_gallery: false,
             shows_help: false,
             loading: None,
             behind_ticks: 0,
             messages,
             costs: Costs::default(),
             requests: Vec::new(),
+            settings: Settings::default(),
+            question: None,
+            once_saved: None,
         }
     }
 
@@ -145,10 +148,14 @@ impl Model {
         warn(&mut self.messages, &loaded);
         self.scene = Story::new(loaded.scene);
         self.resources = loaded.resources;
+        self.file = file_of(&loaded.name);
         self.name = loaded.name;
         self.folder = loaded.folder;
+        self.undo = Undo::default();
         self.clock.reset();
         self.furthest_tick = 0;
+        self.time_line.selected = None;
+        self.probe = Probe::default();
         (self.selected, self.selected_generator) = (0, 0);
         self.motion_draft = None;
         // What the hand held is gone.
@@ -156,12 +163,33 @@ impl Model {
         self.loading = None;
     }
 
+    /// Shows a scene that an earlier window left without saving it.
+    pub fn take_up(&mut self, loaded: LoadedScene, work: Unsaved) {
+        self.adopt(loaded);
+        self.file = work.file;
+        self.clock.seek(work.tick);
+        self.undo.recovered();
+    }
+
+    /// What is lost if the program ends now, if anything is.
+    #[must_use]
+    pub fn unsaved(&self) -> Option<Unsaved> {
+        self.undo.is_dirty().then(|| Unsaved {
+            name: self.name.clone(),
+            file: self.file.clone(),
+            folder: self.folder.clone(),
+            tick: self.clock.tick,
+            scene: self.scene.to_toml(),
+        })
+    }
+
     /// Shows the scene in another light.
     pub fn adopt_light(&mut self, light: Light, resources: Resources) {
         // What was turned while the light was loading stays as it is.
         let Light { rotation_deg, intensity, .. } = self.scene.light;
-        if self.edit(Edit::Light(Light { rotation_deg, intensity, ..light })) {
-            self.resources = resources;
+        if let Some(back) = self.apply(Edit::Light(Light { rotation_deg, intensity, ..light })) {
+            let before = std::mem::replace(&mut self.resources, resources);
+            self.undo.record_whole("Light", vec![back], Some(before));
         }
         self.loading = None;
     }
@@ -179,29 +207,35 @@ impl Model {
         self.furthest_tick.max(self.clock.tick).max(last_event)
     }
 
-    /// Makes a change of the scene, or reports why it is not valid; returns whether it was made. The only way to change a scene.
-    pub fn edit(&mut self, edit: Edit) -> bool {
-        let tick = self.clock.tick;
-        let back = self.scene.change(|scene| edit.apply(scene, tick));
-        if let Err(error) = self.scene.validate() {
-            self.scene.change(|scene| back.apply(scene, tick));
-            self.messages.problem(error.to_string());
-            return false;
+    /// Asks for something, and first what shall become of work that is not saved, if it would be lost.
+    pub fn ask_for(&mut self, request: Request) {
+        if request.danger().is_some() && self.undo.is_dirty() {
+            self.question = Some(Question::Unsaved(request));
+        } else {
+            self.requests.push(request);
         }
-        if let Edit::Films(bubbles, generators) = &back
-            && begins_anew(&film_owners(bubbles, generators), self.scene.owners())
-        {
-            self.clock.reset();
-        }
-        true
     }
 
-    /// Blows every film again, with a new seed for film and flow.
-    pub fn new_seeds(&mut self) {
-        self.clock.reset();
-        let motion = Motion { seed: new_seed(), ..self.motion() };
-        self.edit(Edit::Motion(motion.into()));
-        self.edit(Edit::Reseed);
+    /// Saves the scene to its file, or asks for one.
+    pub fn save(&mut self) {
+        self.requests.push(if self.file.is_some() { Request::Save } else { Request::Ask(Target::SaveScene) });
+    }
+
+    /// A state of the scene is in a file now.
+    pub fn saved(&mut self, path: PathBuf, state: u64) {
+        self.messages.note(format!("Saved {}", path.display()));
+        self.name = path.display().to_string();
+        self.settings.remember(&self.name);
+        self.file = Some(path);
+        self.undo.saved(state);
+        self.requests.extend(self.once_saved.take());
+    }
+
+    /// The title of the window.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let edited = if self.undo.is_dirty() { " (edited)" } else { "" };
+        format!("soapfilm – {}{edited}", self.name)
     }
 
     /// Lets the pointer, pressed or not, use its tool. Tells whether the camera shall stand.
@@ -222,11 +256,18 @@ impl Model {
         self.edit(Edit::Motion(Motion { gravity_m_s2, ..self.motion() }.into()));
     }
 
-    /// Moves the camera.
+    /// Moves the camera in a picture of an aspect, which is its width over its height.
     pub fn move_camera(&mut self, gesture: &orbit::Gesture, aspect: f64) {
-        if *gesture != orbit::Gesture::default() {
-            let camera = orbit::moved(&self.scene.camera, &self.scene.bubbles, aspect, gesture);
-            self.edit(Edit::Camera(camera));
+        if gesture.frame {
+            let spheres = self.scene.spheres(self.clock.time_s(&self.scene.motion));
+            self.edit(Edit::Camera(orbit::framed(&self.scene.camera, &spheres, aspect)));
+        } else if gesture.moves() {
+            self.edit(Edit::Camera(orbit::moved(&self.scene.camera, &self.scene.bubbles, gesture)));
+        } else if gesture.follow != DVec2::ZERO {
+            let gesture = orbit::Gesture { turn: gesture.follow, ..orbit::Gesture::default() };
+            let camera = orbit::moved(&self.scene.camera, &self.scene.bubbles, &gesture);
+            // Looking around is no work that could be lost.
+            self.scene.change(|scene| scene.camera = camera);
         }
     }
 
@@ -237,17 +278,30 @@ impl Model {
             Action::Step => self.clock.step(),
             Action::Reset => self.clock.reset(),
             Action::NewSeed => self.new_seeds(),
+            Action::Loop => self.time_line.loops = !self.time_line.loops,
+            Action::RemoveEvent => self.remove_event(),
+            Action::Present => self.presents = !self.presents,
             Action::Panels => self.shows_panels = !self.shows_panels,
             Action::Help => self.shows_help = !self.shows_help,
             Action::Dismiss => {
-                self.shows_help = false;
+                (self.shows_help, self.presents) = (false, false);
+                self.probe.pinned = None;
+                self.time_line.selected = None;
                 self.messages.clear();
             }
+            Action::Duplicate => {
+                let like = self.scene.bubbles.get(self.selected).cloned();
+                like.into_iter().for_each(|bubble| self.add_bubble(bubble));
+            }
+            Action::Keep => self.compare.wants = Some(Want::Keep),
+            Action::Undo => self.undo(),
+            Action::Redo => self.redo(),
             Action::Open => self.requests.push(Request::Ask(Target::OpenScene)),
-            Action::Save => self.requests.push(Request::Ask(Target::SaveScene)),
+            Action::Save => self.save(),
+            Action::SaveAs => self.requests.push(Request::Ask(Target::SaveScene)),
             Action::SavePng => self.requests.push(Request::Ask(Target::SavePng)),
             Action::SaveExr => self.requests.push(Request::Ask(Target::SaveExr)),
-            Action::Quit => self.requests.push(Request::Quit),
+            Action::Quit => self.ask_for(Request::Quit),
             Action::Take(tool) => self.tool = tool,
             Action::TiltRight => self.tilt(TILT_DEG, 0.0),
             Action::TiltLeft => self.tilt(-TILT_DEG, 0.0),
@@ -256,6 +310,11 @@ impl Model {
             Action::Frame => {}
         }
     }
+}
+
+/// The file that a scene of this name is saved to.
+fn file_of(name: &str) -> Option<PathBuf> {
+    preset_toml(name).is_none().then(|| PathBuf::from(name))
 }
 
 /// Says what of a scene no real bubble does, and how its files were read where that is in doubt.
@@ -268,6 +327,7 @@ fn warn(messages: &mut Messages, loaded: &LoadedScene) {
 pub(super) mod tests {
     use super::*;
     use crate::{
+        app::edit::new_seed,
         input::load_scene,
         plan::film_grids,
         scene::{Change, Event, FilmIndexName, Flow, Scene},

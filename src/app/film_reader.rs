@@ -1,0 +1,114 @@
+//! Reads films back from the device without waiting: only those that are asked for, and only when they have changed.
+
+use std::{collections::BTreeMap, time::Duration};
+
+use glam::DVec3;
+use web_time::Instant;
+
+use crate::{
+    gpu::{GpuError, Renderer, readback::Readback},
+    physics::sphere::{CubedSphere, HaloTable, PaddedField},
+    plan::Moment,
+    studio::FilmsRead,
+};
+
+/// Shortest time between two readings of a film that moves.
+const PERIOD: Duration = Duration::from_millis(150);
+
+/// Films as they were read last.
+#[derive(Default)]
+pub struct FilmReader {
+    films: FilmsRead,
+    /// The moment of each film that was read.
+    moments: BTreeMap<usize, Moment>,
+    halos: BTreeMap<usize, HaloTable>,
+    pending: Option<Pending>,
+    next: Option<Instant>,
+}
+
+/// A film on its way from the device.
+struct Pending {
+    film: usize,
+    moment: Moment,
+    grid: CubedSphere,
+    thickness: Readback,
+    flow: Option<(CubedSphere, Readback)>,
+    thickness_nm: Option<Vec<u8>>,
+}
+
+impl FilmReader {
+    /// What was read so far.
+    pub fn films(&self) -> &FilmsRead {
+        &self.films
+    }
+
+    /// The moment of a film that was read.
+    pub fn moment(&self, film: usize) -> Option<Moment> {
+        self.moments.get(&film).copied()
+    }
+
+    /// Reads a film if it has changed since; returns whether what is here is what the picture shows, or has just arrived: a film that moves is
+    /// always a little ahead.
+    ///
+    /// # Errors
+    /// The device is lost, or refused a command.
+    pub fn read(&mut self, renderer: &Renderer, film: usize, now: Instant) -> Result<bool, GpuError> {
+        let arrived = self.collect(renderer)?;
+        let Some(Some(field)) = renderer.state().fields.get(film) else { return Ok(true) };
+        let moment = field.shown.unwrap_or(field.key.moment);
+        if arrived == Some(film) || self.moments.get(&film) == Some(&moment) {
+            return Ok(true);
+        }
+        if self.pending.is_none() && self.next.is_none_or(|next| now >= next) {
+            self.next = Some(now + PERIOD);
+            self.begin(renderer, film, moment)?;
+        }
+        Ok(false)
+    }
+
+    fn begin(&mut self, renderer: &Renderer, film: usize, moment: Moment) -> Result<(), GpuError> {
+        let Some((grid, thickness)) = renderer.read_film(film)? else { return Ok(()) };
+        let flow = renderer.read_flow(film);
+        self.pending = Some(Pending { film, moment, grid, thickness, flow, thickness_nm: None });
+        Ok(())
+    }
+
+    /// Takes what has arrived; returns its film.
+    fn collect(&mut self, renderer: &Renderer) -> Result<Option<usize>, GpuError> {
+        let Some(pending) = &mut self.pending else { return Ok(None) };
+        renderer.gpu.device.poll(wgpu::PollType::Poll).map_err(|error| GpuError::Lost(error.to_string()))?;
+        if pending.thickness_nm.is_none() {
+            pending.thickness_nm = pending.thickness.try_take().transpose()?;
+        }
+        if pending.thickness_nm.is_none() {
+            return Ok(None);
+        }
+        let velocity = match &pending.flow {
+            None => None,
+            Some((grid, readback)) => match readback.try_take().transpose()? {
+                None => return Ok(None),
+                Some(bytes) => Some((*grid, bytes)),
+            },
+        };
+        Ok(self.pending.take().map(|pending| {
+            let film = pending.film;
+            self.put(pending, velocity);
+            film
+        }))
+    }
+
+    fn put(&mut self, pending: Pending, velocity: Option<(CubedSphere, Vec<u8>)>) {
+        let Pending { film, moment, grid, thickness_nm, .. } = pending;
+        let cells: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.unwrap_or_default());
+        let halo = self.halos.entry(grid.n()).or_insert_with(|| HaloTable::new(grid));
+        let thickness_nm = PaddedField::from_cells(grid, halo, |cell| f64::from(cells[cell]));
+        self.films.thickness_nm.insert(film, thickness_nm);
+        if let Some((grid, bytes)) = velocity {
+            let values: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+            let vector = |[x, y, z, _]: &[f32; 4]| DVec3::new((*x).into(), (*y).into(), (*z).into());
+            let field = PaddedField::from_padded(grid, values.iter().map(vector).collect());
+            self.films.velocity_rad_s.insert(film, field);
+        }
+        self.moments.insert(film, moment);
+    }
+}

@@ -1,0 +1,86 @@
+//! Input in the order in which it came: a slow frame must not lose a press, nor take two for one.
+
+use egui::{Event, RawInput};
+
+/// Takes what came between two frames apart, so that each part has one press or release at most, with what came before it. Whoever samples the state
+/// of a button once a part then sees every press, at its place.
+#[must_use]
+pub fn one_by_one(mut input: RawInput) -> Vec<RawInput> {
+    let events = std::mem::take(&mut input.events);
+    let mut parts = vec![Vec::new()];
+    for event in events {
+        let ends = ends_part(&event);
+        parts.last_mut().into_iter().for_each(|part| part.push(event.clone()));
+        if ends {
+            parts.push(Vec::new());
+        }
+    }
+    if parts.len() > 1 && parts.last().is_some_and(Vec::is_empty) {
+        parts.pop();
+    }
+    parts.into_iter().map(|events| part(&mut input, events)).collect()
+}
+
+/// Whether an event is a press or a release that must be seen by itself.
+fn ends_part(event: &Event) -> bool {
+    match event {
+        Event::PointerButton { .. } => true,
+        Event::Key { pressed, .. } => *pressed,
+        Event::Touch { phase, .. } => *phase != egui::TouchPhase::Move,
+        _ => false,
+    }
+}
+
+/// Some of the events.
+fn part(input: &mut RawInput, events: Vec<Event>) -> RawInput {
+    let part = RawInput { events, ..input.clone() };
+    // A file is dropped once.
+    input.dropped_files.clear();
+    part
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{Context, Modifiers, PointerButton, Pos2, Sense, pos2};
+
+    fn button(pos: Pos2, pressed: bool) -> Event {
+        Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE }
+    }
+
+    /// Clicks at several places between two frames; each place counts how often it was clicked.
+    fn clicks(places: &[Pos2]) -> Vec<usize> {
+        let ctx = Context::default();
+        let mut counts = vec![0; places.len()];
+        let mut run = |input: RawInput| {
+            let output = ctx.run_ui(input, |ui| {
+                for (place, count) in places.iter().zip(&mut counts) {
+                    let rect = egui::Rect::from_center_size(*place, egui::vec2(20.0, 20.0));
+                    let id = egui::Id::unique(("place", place.x as u32));
+                    *count += usize::from(ui.interact(rect, id, Sense::click()).clicked());
+                }
+            });
+            output.drop_without_applying_deltas();
+        };
+        run(RawInput::default());
+        let events =
+            places.iter().flat_map(|place| [Event::PointerMoved(*place), button(*place, true), button(*place, false)]);
+        one_by_one(RawInput { events: events.collect(), ..RawInput::default() }).into_iter().for_each(&mut run);
+        counts
+    }
+
+    #[test]
+    fn every_click_of_a_slow_frame_counts_at_its_place() {
+        assert_eq!(clicks(&[pos2(30.0, 30.0), pos2(80.0, 30.0), pos2(130.0, 30.0)]), [1, 1, 1]);
+    }
+
+    #[test]
+    fn nothing_is_lost_or_made_up() {
+        let moved = |x: f32| Event::PointerMoved(pos2(x, 0.0));
+        let events = vec![moved(1.0), moved(2.0), button(pos2(2.0, 0.0), true), moved(3.0)];
+        let parts = one_by_one(RawInput { events: events.clone(), ..RawInput::default() });
+        assert_eq!(parts.iter().map(|part| part.events.len()).collect::<Vec<_>>(), [3, 1]);
+        assert_eq!(parts.into_iter().flat_map(|part| part.events).collect::<Vec<_>>(), events);
+        assert_eq!(one_by_one(RawInput::default()).len(), 1, "a frame without input is a frame");
+    }
+}

@@ -1,0 +1,86 @@
+//! Changes of the scene, each made through one gate, taken back and made again.
+
+use super::Model;
+use crate::{
+    app::{
+        edit::{Edit, begins_anew, new_seed},
+        tools::Hand,
+        undo::Step,
+    },
+    plan::film_owners,
+    scene::Motion,
+};
+
+impl Model {
+    /// Makes a change of the scene that can be taken back, or reports why it is not valid; returns whether it was made. The only way to change
+    /// a scene, but for a camera that follows the pointer.
+    pub fn edit(&mut self, edit: Edit) -> bool {
+        let back = self.apply(edit);
+        let is_made = back.is_some();
+        back.into_iter().for_each(|back| self.undo.record(back, &self.scene));
+        is_made
+    }
+
+    /// Makes a change of the scene, and returns what takes it back, or reports why it is not valid.
+    pub(super) fn apply(&mut self, edit: Edit) -> Option<Edit> {
+        let tick = self.clock.tick;
+        let back = self.scene.change(|scene| edit.apply(scene, tick));
+        if let Err(error) = self.scene.validate() {
+            self.scene.change(|scene| back.apply(scene, tick));
+            self.messages.problem(error.to_string());
+            return None;
+        }
+        if let Edit::Films(bubbles, generators) = &back
+            && begins_anew(&film_owners(bubbles, generators), self.scene.owners())
+        {
+            self.clock.reset();
+        }
+        Some(back)
+    }
+
+    /// Takes the last step back.
+    pub fn undo(&mut self) {
+        let Some(step) = self.undo.last() else { return };
+        let step = self.reverse(step);
+        self.messages.note(format!("Undone: {}", step.name));
+        self.undo.undone(step);
+    }
+
+    /// Makes the step again that was taken back last.
+    pub fn redo(&mut self) {
+        let Some(step) = self.undo.next() else { return };
+        let step = self.reverse(step);
+        self.messages.note(format!("Redone: {}", step.name));
+        self.undo.redone(step);
+    }
+
+    /// Takes a step back, and returns the one that makes it again.
+    fn reverse(&mut self, mut step: Step) -> Step {
+        let (owners, tick) = (self.scene.owners().to_vec(), self.clock.tick);
+        let edits = std::mem::take(&mut step.back).into_iter().rev();
+        step.back = self.scene.change(|scene| edits.map(|edit| edit.apply(scene, tick)).collect());
+        step.resources = step.resources.map(|before| std::mem::replace(&mut self.resources, before));
+        if begins_anew(&owners, self.scene.owners()) {
+            self.clock.reset();
+        }
+        // What a slider or the hand holds is of another scene.
+        (self.motion_draft, self.hand) = (None, Hand::default());
+        step
+    }
+
+    /// Removes the event that is selected on the time line.
+    pub fn remove_event(&mut self) {
+        if let Some(index) = self.time_line.selected.take().filter(|index| *index < self.scene.events.len()) {
+            self.edit(Edit::Forget(index));
+        }
+    }
+
+    /// Blows every film again, with a new seed for film and flow.
+    pub fn new_seeds(&mut self) {
+        self.clock.reset();
+        let motion = Motion { seed: new_seed(), ..self.motion() };
+        let back = [Edit::Motion(motion.into()), Edit::Reseed].into_iter().filter_map(|edit| self.apply(edit));
+        let back = back.collect();
+        self.undo.record_whole("New seeds", back, None);
+    }
+}

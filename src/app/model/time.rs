@@ -1,0 +1,35 @@
+//! Time: how it passes, and events that are moved in it.
+
+use super::Model;
+use crate::app::edit::Edit;
+
+impl Model {
+    /// Lets wall time pass, unless the films are behind the clock.
+    pub fn advance(&mut self, wall_s: f64) {
+        let motion = &self.scene.motion;
+        if self.behind_ticks == 0 {
+            self.clock.advance(wall_s, motion);
+        }
+        let time_s = self.clock.time_s(motion);
+        if !self.clock.running || self.behind_ticks > 0 {
+            self.rate.restart(time_s);
+        } else if self.time_line.loops && time_s >= self.time_line.length_s {
+            self.clock.reset();
+            self.rate.restart(0.0);
+        } else {
+            self.rate.note(wall_s, time_s);
+        }
+    }
+
+    /// Moves an event to another tick.
+    pub fn move_event(&mut self, index: usize, tick: u64) {
+        let mut events = self.scene.events.clone();
+        let Some(event) = events.get_mut(index).filter(|event| event.tick != tick) else { return };
+        event.tick = tick;
+        let moved = event.clone();
+        // Events stand in the order of their ticks; those of one tick keep theirs.
+        events.sort_by_key(|event| event.tick);
+        self.time_line.selected = events.iter().position(|event| *event == moved);
+        self.edit(Edit::History(self.scene.motion.clone().into(), events));
+    }
+}

@@ -1,0 +1,122 @@
+//! All keys of the scene's sections in rows that follow from their declarations: what the other panels leave out is here, and each can be set back.
+
+use egui::{ComboBox, DragValue, Grid, Response, Ui};
+use serde::{Serialize, de::DeserializeOwned};
+use toml::Value;
+
+use super::widgets::tooltip;
+use crate::{
+    app::{edit::Edit, model::Model},
+    scene::{Bubble, Camera, Film, Generator, Key, Light, Range, View},
+};
+
+/// Shows and edits all keys of the selected bubble and generator, the camera, the light and the view.
+pub fn show(ui: &mut Ui, model: &mut Model) {
+    if let Some(bubble) = model.scene.bubbles.get(model.selected) {
+        let mut edited = bubble.clone();
+        section(ui, &format!("Bubble {}", model.selected + 1), &mut edited, Bubble::ALL_KEYS);
+        section(ui, "Its film", &mut edited.film, Film::ALL_KEYS);
+        if edited != *bubble {
+            model.edit(Edit::Bubble(model.selected, edited.into()));
+        }
+    }
+    if let Some(generator) = model.scene.generators.get(model.selected_generator) {
+        let mut edited = generator.clone();
+        section(ui, &format!("Generator {}", model.selected_generator + 1), &mut edited, Generator::ALL_KEYS);
+        if edited != *generator {
+            model.edit(Edit::Generator(model.selected_generator, edited.into()));
+        }
+    }
+    let mut camera = model.scene.camera.clone();
+    if section(ui, "Camera", &mut camera, Camera::ALL_KEYS) {
+        model.edit(Edit::Camera(camera));
+    }
+    let mut view = model.scene.view.clone();
+    if section(ui, "View", &mut view, View::ALL_KEYS) {
+        model.edit(Edit::View(view));
+    }
+    let mut light = model.scene.light.clone();
+    let (environment, illuminant) = (light.environment.clone(), light.illuminant.clone());
+    if section(ui, "Light", &mut light, Light::ALL_KEYS) {
+        // What must be loaded is chosen in the panel of the light.
+        model.edit(Edit::Light(Light { environment, illuminant, ..light }));
+    }
+}
+
+/// The rows of a section; returns whether one was changed.
+fn section<T>(ui: &mut Ui, title: &str, value: &mut T, keys: &[Key]) -> bool
+where
+    T: Serialize + DeserializeOwned + Default,
+{
+    let [mut table, normal] = [&*value, &T::default()].map(|value| toml::Table::try_from(value).unwrap_or_default());
+    let before = table.clone();
+    ui.strong(title);
+    Grid::new(title).num_columns(3).spacing([8.0, 3.0]).show(ui, |ui| {
+        for key in keys {
+            let Some(now) = table.get_mut(key.name) else { continue };
+            row(ui, key, now, normal.get(key.name));
+            ui.end_row();
+        }
+    });
+    if table == before {
+        return false;
+    }
+    match Value::Table(table).try_into() {
+        Ok(changed) => *value = changed,
+        Err(error) => log::warn!("{title} cannot be changed so: {error}"),
+    }
+    true
+}
+
+/// The name of a key, its value, and a way back to the normal one.
+fn row(ui: &mut Ui, key: &Key, now: &mut Value, normal: Option<&Value>) {
+    let label = ui.label(key.label).on_hover_text(format!("`{}`: {}", key.name, tooltip(key.help)));
+    ui.horizontal(|ui| field(ui, key, now, &label));
+    if let Some(normal) = normal.filter(|normal| *normal != now) {
+        let reset = ui.small_button("reset").on_hover_text(format!("Set {} back to {normal}", key.label));
+        if reset.clicked() {
+            *now = normal.clone();
+        }
+    }
+}
+
+/// The widget of a value.
+fn field(ui: &mut Ui, key: &Key, now: &mut Value, label: &Response) {
+    match (now, key.range) {
+        (Value::Boolean(flag), _) => drop(ui.checkbox(flag, "").labelled_by(label.id)),
+        (Value::Float(number), range) => drop(ui.add(dragged(number, range, key.unit)).labelled_by(label.id)),
+        (Value::Integer(number), Range::Within(low, high)) => {
+            let number = DragValue::new(number).range(low as i64..=high as i64).suffix(key.unit);
+            ui.add(number).labelled_by(label.id);
+        }
+        (Value::Integer(number), _) => drop(ui.add(DragValue::new(number).range(0..=i64::MAX)).labelled_by(label.id)),
+        (Value::String(word), Range::Word(names, helps)) => {
+            let list = ComboBox::from_id_salt((label.id, key.name)).selected_text(word.as_str());
+            let shown = list.show_ui(ui, |ui| {
+                for (name, help) in names.iter().zip(helps) {
+                    ui.selectable_value(word, (*name).to_owned(), *name).on_hover_text(*help);
+                }
+            });
+            shown.response.labelled_by(label.id);
+        }
+        (Value::Array(parts), range) => {
+            for part in parts {
+                if let Value::Float(number) = part {
+                    ui.add(dragged(number, range, "")).labelled_by(label.id);
+                }
+            }
+            ui.weak(key.unit);
+        }
+        (other, _) => drop(ui.weak(other.to_string())),
+    }
+}
+
+/// A number of a range, that moves by a hundredth of itself.
+fn dragged<'a>(number: &'a mut f64, range: Range, unit: &str) -> DragValue<'a> {
+    let speed = 0.01 * number.abs().max(0.1);
+    let field = DragValue::new(number).speed(speed).max_decimals(4).suffix(unit);
+    match range {
+        Range::Within(low, high) => field.range(low..=high),
+        _ => field,
+    }
+}

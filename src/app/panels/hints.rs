@@ -1,0 +1,31 @@
+//! One line that says what to do; it goes away for good once it was read.
+
+use egui::{Align2, Area, Context, Frame, Id, Rect, vec2};
+
+use crate::app::model::Model;
+
+/// The line.
+const HINTS: &str = "Drag to turn, scroll to zoom. 2 stirs the film, 6 measures it. Space pauses, Ctrl+Z takes back, F1 shows all keys.";
+
+/// Shows the hints over the lower edge of the picture.
+pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
+    if model.settings.knows_hints {
+        return;
+    }
+    let edge = picture.center_bottom() + vec2(0.0, -10.0);
+    Area::new(Id::unique("hints")).fixed_pos(edge).pivot(Align2::CENTER_BOTTOM).constrain_to(picture).show(ctx, |ui| {
+        Frame::popup(ui.style()).show(ui, |ui| {
+            ui.set_max_width((picture.width() - 40.0).max(60.0));
+            ui.horizontal(|ui| {
+                model.settings.knows_hints =
+                    ui.small_button("Got it").on_hover_text("Do not show hints again").clicked();
+                ui.add(egui::Label::new(HINTS).wrap());
+            });
+        });
+    });
+    // Who has changed something knows how.
+    model.settings.knows_hints |= model.undo.is_dirty() && model.undo.state() > HINTED_STEPS;
+}
+
+/// Steps after which the hints have done their work.
+const HINTED_STEPS: u64 = 12;

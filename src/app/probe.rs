@@ -1,0 +1,289 @@
+//! The probe: what is known of the film under the pointer, as numbers that a person can note down.
+
+use std::fmt::Write;
+
+use glam::{DVec2, DVec3};
+
+use crate::{
+    physics::{
+        colour::{BT709, FilmOptics, Walls, m2_exposure, srgb_encode},
+        optics::{Polarised, cos_refracted},
+    },
+    plan::OpticsKey,
+    studio::WallInSight,
+};
+
+/// Path difference of one order of interference, nm: that of the first red end of Newton's colours.
+pub const ORDER_NM: f64 = 551.0;
+
+/// One wall under the pointer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallReading {
+    /// Whether it is the front wall of its bubble.
+    pub is_front: bool,
+    /// Thickness along the normal, nm.
+    pub thickness_nm: f64,
+    /// Cosine of the angle of incidence in air.
+    pub cos_theta: f64,
+    /// Unit vector from the bubble's center.
+    pub place: DVec3,
+    /// Speed of the liquid along the film, m/s, if it is known.
+    pub speed_m_s: Option<f64>,
+    /// XYZ of white light after reflection; a perfect mirror has Y = 1.
+    pub xyz: DVec3,
+    /// Path difference between the light of both faces, 2 n d cos of the angle inside, at 589 nm, in nm.
+    pub path_nm: f64,
+    /// The colour as sRGB, exposed so that the brightest film at this angle is white.
+    pub swatch: [u8; 3],
+}
+
+impl WallReading {
+    /// Angle of incidence in air, degrees.
+    #[must_use]
+    pub fn angle_deg(&self) -> f64 {
+        self.cos_theta.acos().to_degrees()
+    }
+
+    /// Order of Newton's colours, from 1 on.
+    #[must_use]
+    pub fn order(&self) -> u32 {
+        (self.path_nm / ORDER_NM) as u32 + 1
+    }
+
+    /// What the wall is called.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        if self.is_front { "front wall" } else { "back wall" }
+    }
+}
+
+/// The film under the pointer at a moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// Which bubble.
+    pub bubble: String,
+    /// Time of the film, s.
+    pub time_s: f64,
+    /// What the film is made of, and the light.
+    pub optics: OpticsKey,
+    /// The walls on the line of sight, the nearer first, at least one.
+    pub walls: Vec<WallReading>,
+}
+
+/// What the walls do with light of one wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectrumRow {
+    /// Wavelength, nm.
+    pub wavelength_nm: f64,
+    /// Reflectance of the nearest wall.
+    pub r: Polarised,
+    /// Transmittance of the nearest wall, unpolarised.
+    pub t: f64,
+    /// Reflectance and transmittance of both walls, unpolarised; those of the one where there is but one.
+    pub both: [f64; 2],
+    /// The light's spectrum, over its largest value here.
+    pub light: f64,
+}
+
+impl Reading {
+    /// The reading of walls in sight, of a scene with that many bubbles of its own; `None` where there is no film, or it is not read yet.
+    #[must_use]
+    pub fn new(walls: &[WallInSight], time_s: f64, bubbles: usize) -> Option<Self> {
+        let first = walls.first()?;
+        let optics = first.optics.spectra_to(walls.iter().filter_map(|wall| wall.thickness_nm).fold(0.0, f64::max));
+        let readings = walls.iter().enumerate().filter_map(|(place, wall)| {
+            let is_front = place == 0 && walls.len() > 1;
+            wall.thickness_nm.filter(|nm| *nm > 0.0).map(|nm| reading(&optics, wall, nm, is_front))
+        });
+        let readings: Vec<_> = readings.collect();
+        let own = first.film < bubbles;
+        let bubble = if own { format!("bubble {}", first.film + 1) } else { "bubble of a generator".to_owned() };
+        (!readings.is_empty()).then(|| Self { bubble, time_s, optics: first.optics.clone(), walls: readings })
+    }
+
+    /// What the walls do with light, every 5 nm from 360 to 780 nm.
+    #[must_use]
+    pub fn spectrum(&self) -> Vec<SpectrumRow> {
+        let (optics, first) = (self.optics.spectra(), &self.walls[0]);
+        let light = |nm: f64| self.optics.illuminant.spectrum().at_nm(nm);
+        let one = Walls::One { thickness_nm: first.thickness_nm };
+        let rows = optics.spectrum(first.cos_theta, one).into_iter().zip(optics.spectrum(first.cos_theta, self.all()));
+        let brightest =
+            optics.spectrum(1.0, one).iter().map(|point| light(point.wavelength_nm)).fold(f64::MIN_POSITIVE, f64::max);
+        rows.map(|(one, both)| {
+            let nm = one.wavelength_nm;
+            let film = optics.film();
+            let r = film.wall(film.index.n(nm), first.cos_theta, nm).reflectance(first.thickness_nm);
+            let light = light(nm) / brightest;
+            SpectrumRow {
+                wavelength_nm: nm,
+                r,
+                t: one.transmittance,
+                both: [both.reflectance, both.transmittance],
+                light,
+            }
+        })
+        .collect()
+    }
+
+    /// All walls, as the light meets them.
+    #[must_use]
+    pub fn all(&self) -> Walls {
+        match &self.walls[..] {
+            [front, back, ..] => {
+                let (front_nm, back_nm) = (front.thickness_nm, back.thickness_nm);
+                Walls::Two { front_nm, back_nm, exit_nm: front_nm }
+            }
+            walls => Walls::One { thickness_nm: walls[0].thickness_nm },
+        }
+    }
+
+    /// The numbers as lines of text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut text = format!("{} at {:.3} s\n", self.bubble, self.time_s);
+        for wall in &self.walls {
+            let [x, y, z] = wall.xyz.to_array();
+            let speed = wall.speed_m_s.map_or("unknown".to_owned(), |speed| format!("{:.1} mm/s", 1e3 * speed));
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "{}: thickness {:.2} nm, angle {:.3}°, path difference {:.1} nm, order {}, XYZ {x:.6} {y:.6} {z:.6}, flow {speed}",
+                wall.name(),
+                wall.thickness_nm,
+                wall.angle_deg(),
+                wall.path_nm,
+                wall.order(),
+            );
+        }
+        text
+    }
+
+    /// The spectra as a table of comma-separated values, the numbers above it as comments.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut csv: String = self.text().lines().map(|line| format!("# {line}\n")).collect();
+        csv.push_str("wavelength_nm,R_s,R_p,R,T,R_both,T_both,light\n");
+        for SpectrumRow { wavelength_nm, r, t, both, light } in self.spectrum() {
+            let (mean, [r_both, t_both]) = (r.mean(), both);
+            let _ = writeln!(csv, "{wavelength_nm},{},{},{mean},{t},{r_both},{t_both},{light}", r.s, r.p);
+        }
+        csv
+    }
+}
+
+fn reading(optics: &FilmOptics, wall: &WallInSight, thickness_nm: f64, is_front: bool) -> WallReading {
+    let cos_theta = wall.cos_theta;
+    let xyz = optics.xyz(cos_theta, Walls::One { thickness_nm });
+    let n = optics.film().reference_index();
+    let exposed = m2_exposure(optics.film(), cos_theta, 1) * (BT709.from_xyz() * xyz);
+    WallReading {
+        is_front,
+        thickness_nm,
+        cos_theta,
+        place: wall.place,
+        speed_m_s: wall.speed_m_s,
+        xyz,
+        path_nm: 2.0 * n * thickness_nm * cos_refracted(n, cos_theta),
+        swatch: exposed.to_array().map(|part| (255.0 * srgb_encode(part.clamp(0.0, 1.0))).round() as u8),
+    }
+}
+
+/// What the probe was asked, and what it has found.
+#[derive(Clone, Debug, Default)]
+pub struct Probe {
+    /// Where the pointer is: right and up from the picture's middle, in heights of the picture.
+    place: Option<DVec2>,
+    /// Where it was clicked, until that is answered.
+    clicked: Option<DVec2>,
+    /// What is under the pointer.
+    pub hover: Option<Reading>,
+    /// What was clicked, with its spectrum.
+    pub pinned: Option<(Reading, Vec<SpectrumRow>)>,
+}
+
+impl Probe {
+    /// Points at a place, or at none; a click stays until it is answered.
+    pub fn point(&mut self, place: Option<DVec2>, is_clicked: bool) {
+        self.place = place;
+        self.hover = self.hover.take().filter(|_| place.is_some());
+        if is_clicked && self.clicked.is_none() {
+            self.clicked = place;
+        }
+    }
+
+    /// The place that is to be read.
+    #[must_use]
+    pub fn asked(&self) -> Option<DVec2> {
+        self.clicked.or(self.place)
+    }
+
+    /// Takes an answer, which is final once the film is read; returns whether it is another one than before.
+    pub fn answer(&mut self, reading: Option<Reading>, is_read: bool) -> bool {
+        let is_new = self.hover != reading;
+        if is_read && self.clicked.take().is_some() {
+            self.pinned = reading.clone().map(|reading| (reading.clone(), reading.spectrum()));
+        }
+        self.hover = reading;
+        is_new
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::physics::{colour::Illuminant, optics::FilmMaterial};
+
+    /// Two walls of soapy water, met at 45 degrees.
+    pub fn reading() -> Reading {
+        let optics = OpticsKey { film: FilmMaterial::default(), illuminant: Illuminant::default().into() };
+        let wall = |thickness_nm, place| WallInSight {
+            film: 0,
+            place,
+            cos_theta: 0.5f64.sqrt(),
+            thickness_nm: Some(thickness_nm),
+            speed_m_s: Some(0.01),
+            optics: optics.clone(),
+        };
+        Reading::new(&[wall(320.0, DVec3::X), wall(500.0, DVec3::NEG_X)], 1.5, 1).unwrap()
+    }
+
+    #[test]
+    fn numbers_are_those_of_the_optics() {
+        let reading = reading();
+        let optics = FilmOptics::resolving(FilmMaterial::default(), &Illuminant::default(), 500.0);
+        let [front, back] = &reading.walls[..] else { panic!("two walls") };
+        assert_eq!(front.xyz, optics.xyz(0.5f64.sqrt(), Walls::One { thickness_nm: 320.0 }));
+        assert!((front.angle_deg() - 45.0).abs() < 1e-12 && front.is_front && !back.is_front);
+        // 2 · 1.333 · 320 nm · cos 32.0°, which is of the second order.
+        assert!((front.path_nm - 723.2).abs() < 1.0 && front.order() == 2, "{front:?}");
+        assert_eq!(back.order(), 3);
+    }
+
+    #[test]
+    fn spectra_keep_the_light() {
+        let rows = reading().spectrum();
+        assert_eq!((rows.len(), rows[0].wavelength_nm, rows[84].wavelength_nm), (85, 360.0, 780.0));
+        for row in &rows {
+            assert!((row.r.mean() + row.t - 1.0).abs() < 1e-12, "one wall reflects or passes: {row:?}");
+            assert!(row.both[0] + row.both[1] < 1.0 && row.both[0] > row.r.mean(), "two walls: {row:?}");
+            assert!((0.0..=1.0).contains(&row.light));
+        }
+        let csv = reading().csv();
+        let table: Vec<_> = csv.lines().filter(|line| !line.starts_with('#')).collect();
+        assert_eq!((table.len(), table[0]), (86, "wavelength_nm,R_s,R_p,R,T,R_both,T_both,light"));
+    }
+
+    #[test]
+    fn a_click_is_answered_once_the_film_is_read() {
+        let mut probe = Probe::default();
+        probe.point(Some(DVec2::ZERO), true);
+        probe.point(Some(DVec2::ONE), false);
+        assert_eq!(probe.asked(), Some(DVec2::ZERO), "the pointer has gone on, the click stays");
+        assert!(probe.answer(Some(reading()), false) && probe.pinned.is_none());
+        assert!(!probe.answer(Some(reading()), true) && probe.pinned.is_some());
+        assert_eq!(probe.asked(), Some(DVec2::ONE));
+        probe.point(None, false);
+        assert_eq!((probe.asked(), probe.hover), (None, None));
+    }
+}

@@ -1,0 +1,114 @@
+//! What panels and keys ask for that takes more than the model, and the questions that come before it.
+
+use std::path::Path;
+
+use crate::scene::Light;
+
+/// What a file is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// A scene to open.
+    OpenScene,
+    /// An environment to open.
+    OpenEnvironment,
+    /// Where the scene goes.
+    SaveScene,
+    /// Where the picture goes as people see it.
+    SavePng,
+    /// Where the picture's radiance goes.
+    SaveExr,
+    /// Where the numbers and spectra of the probe go.
+    SaveCsv,
+}
+
+impl Target {
+    /// Name of the kind of file, and its endings, the default first.
+    #[must_use]
+    pub fn file_type(self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::OpenScene | Self::SaveScene => ("Scene", &["toml"]),
+            Self::OpenEnvironment => ("Environment", &["exr", "hdr"]),
+            Self::SavePng => ("PNG picture", &["png"]),
+            Self::SaveExr => ("OpenEXR picture", &["exr"]),
+            Self::SaveCsv => ("Table", &["csv"]),
+        }
+    }
+
+    /// What such a file is called at first in a scene of a name.
+    #[must_use]
+    pub fn file_name(self, scene: &str) -> String {
+        let stem = Path::new(scene).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
+        format!("{stem}.{}", self.file_type().1[0])
+    }
+
+    /// Whether the file is there already.
+    #[must_use]
+    pub fn is_read(self) -> bool {
+        matches!(self, Self::OpenScene | Self::OpenEnvironment)
+    }
+}
+
+/// What a panel or key asks for that takes more than the model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// A dialog for a file.
+    Ask(Target),
+    /// Another scene, by path or preset's name.
+    LoadScene(String),
+    /// Another light, whose environment must be loaded.
+    LoadLight(Light),
+    /// A link to this page that holds the scene.
+    #[cfg(target_arch = "wasm32")]
+    CopyLink,
+    /// The scene goes to its file.
+    Save,
+    /// A file by the path that was typed.
+    Typed(Target, String),
+    /// What becomes of the work that an earlier window left.
+    Left(Fate),
+    /// The end.
+    Quit,
+}
+
+impl Request {
+    /// What of the work that is not saved is in danger, as a question names it.
+    #[must_use]
+    pub fn danger(&self) -> Option<&'static str> {
+        match self {
+            Self::LoadScene(_) => Some("before another scene is opened"),
+            Self::Quit => Some("before the window closes"),
+            _ => None,
+        }
+    }
+}
+
+/// What becomes of work that an earlier window left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// It goes on.
+    TakeUp,
+    /// It is removed.
+    ThrowAway,
+    /// The next window asks again.
+    Later,
+}
+
+/// A question that must be answered before anything else.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Question {
+    /// Whether work that is not saved may be lost.
+    Unsaved(Request),
+    /// Whether work shall be taken up that an earlier window left when it ended; the name of its scene.
+    Left(String),
+    /// Which path a file has, where no dialog of the system can ask: what is typed, and what is wrong with it.
+    Path(Target, String, Option<String>),
+}
+
+impl Question {
+    /// Asks for a path in the folder of a scene.
+    #[must_use]
+    pub fn path(target: Target, scene: &str, folder: &Path) -> Self {
+        let name = if target.is_read() { String::new() } else { target.file_name(scene) };
+        Self::Path(target, folder.join(name).display().to_string(), None)
+    }
+}

@@ -1,0 +1,151 @@
+//! What a browser has: tasks of one thread, a dialog for files, and files by name alone.
+
+use std::{
+    cell::RefCell,
+    io,
+    path::{Path, PathBuf},
+};
+
+use wasm_bindgen::{JsCast, JsValue, closure::Closure};
+use wasm_bindgen_futures::{JsFuture, spawn_local};
+use web_sys::{File, HtmlInputElement};
+use winit::{
+    event_loop::ActiveEventLoop,
+    window::{Window, WindowAttributes},
+};
+
+use crate::{
+    app::{link::fragment, request::Target},
+    gpu::{AdapterChoice, Gpu, GpuError},
+    input::keep_file,
+};
+
+/// The device that all canvases of a page share.
+struct Shared {
+    device: Option<Result<Gpu, GpuError>>,
+    /// Fulfilled once the device is there.
+    opening: Option<js_sys::Promise>,
+}
+
+thread_local! {
+    static SHARED: RefCell<Shared> = const { RefCell::new(Shared { device: None, opening: None }) };
+}
+
+/// The device for a canvas: all canvases of a page share one, until it is lost.
+pub async fn device(
+    instance: wgpu::Instance,
+    choice: &AdapterChoice,
+    surface: &wgpu::Surface<'_>,
+) -> Result<Gpu, GpuError> {
+    let is_there = || SHARED.with_borrow(|shared| matches!(&shared.device, Some(Ok(gpu)) if !gpu.is_lost()));
+    let opening = SHARED.with_borrow(|shared| shared.opening.clone().filter(|_| shared.device.is_none()));
+    if let Some(opening) = opening {
+        // Without its answer: what was opened, or why nothing could be, is kept.
+        let _ = JsFuture::from(opening).await;
+    } else if !is_there() {
+        let mut opened = None;
+        let opening = js_sys::Promise::new(&mut |resolve, _| opened = Some(resolve));
+        SHARED.set(Shared { device: None, opening: Some(opening) });
+        let device = Gpu::on_instance(instance, choice, Some(surface)).await;
+        SHARED.with_borrow_mut(|shared| shared.device = Some(device));
+        let _ = opened.map(|opened| opened.call0(&JsValue::NULL));
+    }
+    let device = SHARED.with_borrow(|shared| shared.device.clone());
+    device.unwrap_or_else(|| Err(GpuError::NoAdapter(String::new())))
+}
+
+/// Puts a link to this page that shows a scene on the clipboard.
+pub fn copy_link(toml: &str) -> Result<(), String> {
+    let refused = |reason: JsValue| format!("the link is not copied: {reason:?}");
+    let window = web_sys::window().ok_or("there is no page")?;
+    let href = window.location().href().map_err(refused)?;
+    let page = href.split(['?', '#']).next().unwrap_or(&href);
+    let writing = window.navigator().clipboard().write_text(&format!("{page}{}", fragment(toml)));
+    spawn_local(async move {
+        if let Err(reason) = JsFuture::from(writing).await {
+            log::error!("the link is not copied: {reason:?}");
+        }
+    });
+    Ok(())
+}
+
+/// The page gives its canvas a size.
+pub fn sized(attributes: WindowAttributes, _: [f64; 2]) -> WindowAttributes {
+    attributes
+}
+
+/// Leaves the end to the browser, which closes its pages itself.
+pub fn end(_: &ActiveEventLoop) {}
+
+/// Goes on when a device that is being opened is there.
+pub fn finish(opening: impl Future<Output = ()> + 'static) {
+    spawn_local(opening);
+}
+
+/// Runs a piece of work in a task of its own, after the page has shown that it has begun.
+pub fn spawn(job: impl FnOnce() + 'static) -> io::Result<()> {
+    let refused = |reason: JsValue| io::Error::other(format!("{reason:?}"));
+    let window = web_sys::window().ok_or_else(|| io::Error::other("there is no page"))?;
+    let task = Closure::once_into_js(job);
+    window.set_timeout_with_callback_and_timeout_and_arguments_0(task.unchecked_ref(), 50).map(|_| ()).map_err(refused)
+}
+
+/// A page forgets its files.
+pub const FILES_LAST: bool = false;
+
+/// Pages know files by their names alone.
+pub fn whole_path(path: &Path) -> PathBuf {
+    path.to_owned()
+}
+
+/// The system has no dialog for files; all browsers have one.
+pub struct NoDialog;
+
+/// Asks for a file: `answer` gets its name, or none if the user wants none. A file that is written is a download, which the browser asks for itself.
+pub fn choose_file(
+    target: Target,
+    _: &Path,
+    name: String,
+    _: &Window,
+    answer: impl FnOnce(Result<Option<PathBuf>, NoDialog>) + 'static,
+) {
+    if !target.is_read() {
+        return answer(Ok(Some(name.into())));
+    }
+    let accepted: Vec<String> = target.file_type().1.iter().map(|ending| format!(".{ending}")).collect();
+    spawn_local(async move {
+        let kept = pick(&accepted.join(",")).await;
+        answer(Ok(kept.unwrap_or_else(|reason| {
+            log::error!("the browser opens no file: {reason:?}");
+            None
+        })));
+    });
+}
+
+/// Shows the browser's dialog, and keeps all files that are chosen; the first one's name.
+async fn pick(accepted: &str) -> Result<Option<PathBuf>, JsValue> {
+    let document = web_sys::window().and_then(|window| window.document()).ok_or("there is no page")?;
+    let input: HtmlInputElement = document.create_element("input")?.unchecked_into();
+    input.set_type("file");
+    input.set_accept(accepted);
+    input.set_multiple(true);
+    let chosen = js_sys::Promise::new(&mut |resolve, _| {
+        input.set_onchange(Some(&resolve));
+        let _ = input.add_event_listener_with_callback("cancel", &resolve);
+    });
+    input.click();
+    JsFuture::from(chosen).await?;
+    let Some(files) = input.files() else { return Ok(None) };
+    let mut first = None;
+    for file in (0..files.length()).filter_map(|index| files.get(index)) {
+        keep(&file).await?;
+        first = first.or(Some(PathBuf::from(file.name())));
+    }
+    Ok(first)
+}
+
+async fn keep(file: &File) -> Result<(), JsValue> {
+    let bytes = JsFuture::from(file.array_buffer()).await?;
+    keep_file(&file.name(), &js_sys::Uint8Array::new(&bytes).to_vec());
+    Ok(())
+}

@@ -1,0 +1,135 @@
+//! The program in a browser. A page makes a [`SoapBubble`] for each canvas that is to show one; what it shows, its panels and its files are those
+//! of [`app`](crate::app), and the event loop of all canvases is in `page`.
+//!
+//! JavaScript around it (`web/`) reads the address, shows messages, and makes elements.
+
+mod page;
+
+use std::{cell::RefCell, rc::Rc};
+
+use wasm_bindgen::prelude::*;
+use web_sys::HtmlCanvasElement;
+
+use self::page::{Bubble, add};
+use crate::{
+    app::{model::Model, request::Request},
+    input::load_scene,
+};
+
+/// Prepares messages of errors for the browser's console.
+#[wasm_bindgen(start)]
+fn prepare() {
+    console_error_panic_hook::set_once();
+    // A second logger would be an error, and there is none.
+    let _ = console_log::init_with_level(log::Level::Warn);
+}
+
+/// Keeps a file, so that scenes find it by its name.
+#[wasm_bindgen(js_name = keepFile)]
+pub fn keep_file(name: &str, bytes: &[u8]) {
+    crate::input::keep_file(name, bytes);
+}
+
+/// The scene's TOML in the fragment of an address; none if the fragment holds no scene.
+///
+/// # Errors
+/// The fragment is damaged.
+#[wasm_bindgen(js_name = sceneOfLink)]
+pub fn scene_of_link(fragment: &str) -> Result<Option<String>, JsError> {
+    crate::app::link::scene_of(fragment).map_err(JsError::new)
+}
+
+/// The names of the built-in scenes.
+#[wasm_bindgen(js_name = presetNames)]
+#[must_use]
+pub fn preset_names() -> Vec<String> {
+    crate::scene::preset_names().map(str::to_owned).collect()
+}
+
+/// A scene on a canvas.
+#[wasm_bindgen]
+pub struct SoapBubble {
+    bubble: Rc<RefCell<Bubble>>,
+}
+
+#[wasm_bindgen]
+impl SoapBubble {
+    /// Shows a scene, by a preset's or a kept file's name, on a canvas, with the panels around it or without. `told` is called with `loading`, `ready` or
+    /// `error`, and the error's text, whenever that changes: the picture is ready once all that it consists of is drawn.
+    ///
+    /// # Errors
+    /// The scene cannot be loaded.
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        canvas: HtmlCanvasElement,
+        scene: &str,
+        panels: bool,
+        told: js_sys::Function,
+    ) -> Result<SoapBubble, JsError> {
+        let mut model = Model::new(load_scene(scene)?);
+        (model.stands_alone, model.presents) = (!panels, !panels);
+        Ok(Self { bubble: add(model, canvas, told)? })
+    }
+
+    /// Loads another scene, by a preset's or a kept file's name.
+    pub fn load(&self, scene: &str) {
+        self.change(|model| model.requests.push(Request::LoadScene(scene.to_owned())));
+    }
+
+    /// Opens a kept file: a scene, or an environment for the scene.
+    pub fn open(&self, name: &str) {
+        let handler = &mut self.bubble.borrow_mut().handler;
+        handler.open_file(name.as_ref());
+        handler.ask_for_redraw();
+    }
+
+    /// Goes to the last tick before a time in seconds.
+    pub fn seek(&self, time_s: f64) {
+        self.change(|model| model.clock.seek((time_s / model.scene.motion.tick_s + 1e-6) as u64));
+    }
+
+    /// Stops time, or lets it run.
+    pub fn pause(&self, pauses: bool) {
+        self.change(|model| model.clock.running = !pauses);
+    }
+
+    /// Film time, s.
+    #[wasm_bindgen(getter)]
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        let model = &self.bubble.borrow().handler.model;
+        model.clock.time_s(&model.scene.motion)
+    }
+
+    /// The scene with its history, as a scene file has it.
+    #[wasm_bindgen(js_name = toToml)]
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        self.bubble.borrow().handler.model.scene.to_toml()
+    }
+
+    /// The fragment of an address that holds the scene with its history: see `sceneOfLink`.
+    #[wasm_bindgen(getter)]
+    #[must_use]
+    pub fn fragment(&self) -> String {
+        crate::app::link::fragment(&self.to_toml())
+    }
+
+    /// Debug builds lose the device, so that tests can see it come back.
+    #[cfg(debug_assertions)]
+    #[wasm_bindgen(js_name = loseDevice)]
+    pub fn lose_device(&self) {
+        self.bubble.borrow_mut().handler.lose_device();
+    }
+
+    /// Takes the scene off its canvas.
+    pub fn remove(&self) {
+        page::remove(&self.bubble);
+    }
+
+    fn change(&self, change: impl FnOnce(&mut Model)) {
+        let handler = &mut self.bubble.borrow_mut().handler;
+        change(&mut handler.model);
+        handler.ask_for_redraw();
+    }
+}

@@ -1,0 +1,285 @@
+// The program in a real browser: node tests/browser/run.mjs FOLDER SOAPFILM [FILTER]
+//
+// FOLDER is what `./dev web` builds, SOAPFILM the command-line program, FILTER a part of the tests' names. Chromium draws with SwiftShader, and so
+// does the program that it is compared with. CHROMIUM and PLAYWRIGHT name the browser and the folder of playwright-core.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, realpathSync, rmSync, statSync } from "node:fs";
+import { createServer } from "node:http";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { dirname, extname, join, normalize } from "node:path";
+import { deflateRawSync } from "node:zlib";
+
+const [folder, soapfilm, filter = ""] = process.argv.slice(2);
+const { chromium } = createRequire(join(process.env.PLAYWRIGHT ?? process.cwd(), "any.js"))("playwright-core");
+const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const scratch = mkdtempSync(join(tmpdir(), "soapfilm-browser-"));
+
+// Software machines are slow, and the gate runs on few cores.
+const PATIENCE_MS = 120_000;
+// Chromium shows canvases of WebGPU only if it composes with Vulkan too.
+const WITH_WEBGPU = [
+  "--enable-unsafe-webgpu",
+  "--use-webgpu-adapter=swiftshader",
+  "--enable-features=Vulkan",
+  "--use-vulkan=swiftshader",
+  "--use-angle=vulkan",
+  "--disable-gpu-watchdog",
+];
+
+// Soap films of few cells in even light, which cost little.
+const SCENE = `version = 1
+[light]
+constant = [1.0, 1.0, 1.0]
+[[bubble]]
+[bubble.film]
+cells = 64
+`;
+
+// Pages that only this test has.
+const PAGES = {
+  "/npm/two.html": `<!doctype html><link rel="icon" href="data:," /><script type="module" src="./soap-bubble.js"></script>
+    <soap-bubble scene="furnace" controls></soap-bubble><soap-bubble scene="./quiet.toml" paused></soap-bubble>`,
+  "/npm/quiet.toml": SCENE,
+};
+
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".jpg": "image/jpeg" };
+
+/** Serves a folder on the loopback address; the server's address. */
+async function serve(root) {
+  const server = createServer((request, response) => {
+    const path = normalize(decodeURIComponent(new URL(request.url, "http://any").pathname));
+    if (PAGES[path]) return response.writeHead(200, { "content-type": TYPES[extname(path)] ?? "text/plain" }).end(PAGES[path]);
+    const file = join(root, path.endsWith("/") ? `${path}index.html` : path);
+    if (!existsSync(file) || !statSync(file).isFile()) return response.writeHead(404).end();
+    response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
+    response.end(readFileSync(file));
+  });
+  await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
+  return { address: `http://127.0.0.1:${server.address().port}`, close: () => server.close() };
+}
+
+/** The manifest of Chromium's own SwiftShader, for the program beside it. */
+function swiftshader() {
+  const folders = [dirname(realpathSync(executablePath)), "/usr/lib/chromium"];
+  const manifest = folders.map((folder) => join(folder, "vk_swiftshader_icd.json")).find(existsSync);
+  assert(manifest, "Chromium's vk_swiftshader_icd.json is not found");
+  return manifest;
+}
+
+/** The program's own picture of a scene, by the same driver. */
+function rendered(scene, size, time) {
+  const file = join(scratch, `${scene}-${time}.png`);
+  const manifest = swiftshader();
+  const env = { ...process.env, VK_DRIVER_FILES: manifest, VK_ICD_FILENAMES: manifest, WGPU_BACKEND: "vulkan" };
+  delete env.SOAPFILM_REQUIRE_ADAPTER;
+  execFileSync(soapfilm, ["render", scene, "-o", file, "--size", size, "--time", `${time}`], { env, stdio: "pipe" });
+  return readFileSync(file);
+}
+
+/** The greatest difference of two PNG files, in levels of 8 bits, and how many pixels differ by more than 2. */
+function difference(page, pngs) {
+  const texts = pngs.map((png) => `data:image/png;base64,${png.toString("base64")}`);
+  return page.evaluate(async (texts) => {
+    const pixels = async (text) => {
+      const picture = await createImageBitmap(await (await fetch(text)).blob(), { colorSpaceConversion: "none" });
+      const context = new OffscreenCanvas(picture.width, picture.height).getContext("2d");
+      context.drawImage(picture, 0, 0);
+      return context.getImageData(0, 0, picture.width, picture.height);
+    };
+    const [a, b] = await Promise.all(texts.map(pixels));
+    if (a.width !== b.width || a.height !== b.height) return { sizes: [a.width, a.height, b.width, b.height] };
+    const differences = a.data.map((value, at) => Math.abs(value - b.data[at]));
+    return { max: differences.reduce((x, y) => Math.max(x, y)), above2: differences.filter((d) => d > 2).length };
+  }, texts);
+}
+
+const state = (page) => page.evaluate(() => document.documentElement.dataset.soapfilm);
+
+/** Waits until a page's picture is there, or fails with its message. */
+async function ready(page) {
+  await page.waitForFunction(() => ["ready", "error"].includes(document.documentElement.dataset.soapfilm), null, {
+    timeout: PATIENCE_MS,
+  });
+  assert.equal(await state(page), "ready", await page.textContent("#soapfilm-message"));
+}
+
+const toml = (page) => page.evaluate(() => window.soapfilm.toToml());
+
+/** Waits until the scene's TOML passes a test. */
+function until(page, condition) {
+  return page.waitForFunction(`(${condition})(window.soapfilm.toToml())`, null, { timeout: PATIENCE_MS, polling: 200 });
+}
+
+/** Waits until the page has had time for what it was told. */
+async function settle(page) {
+  await page.waitForTimeout(1000);
+  await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+}
+
+/** Drags the pointer, slowly enough for egui to see a drag. */
+async function drag(page, [x, y], [dx, dy]) {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 1; k <= 4; k++) {
+    await page.waitForTimeout(150);
+    await page.mouse.move(x + (k * dx) / 4, y + (k * dy) / 4);
+  }
+  await page.waitForTimeout(150);
+  await page.mouse.up();
+}
+
+/** Drops a file on the page. */
+function drop(page, name, text) {
+  return page.evaluate(
+    ([name, text]) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([text], name));
+      document.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
+    },
+    [name, text],
+  );
+}
+
+const SIZE = "240x160";
+
+/** The address of a page that shows a scene, with time paused. */
+function link(address, toml, query = "") {
+  return `${address}/?pause=1${query}#scene=${deflateRawSync(toml).toString("base64url")}`;
+}
+
+const TESTS = {
+  async "the picture is the program's own"({ page, address }) {
+    for (const [scene, time] of [
+      ["windows", 0],
+      ["stirred", 0.05],
+    ]) {
+      await page.goto(`${address}/?scene=${scene}&time=${time}&size=${SIZE}&ui=0&pause=1`);
+      await ready(page);
+      const shown = await page.locator("#soapfilm").screenshot();
+      const { max, above2, sizes } = await difference(page, [shown, rendered(scene, SIZE, time)]);
+      assert(max <= 2, `${scene} at ${time} s: ${max} levels, ${above2} values above 2, ${sizes}`);
+    }
+  },
+
+  async "the pointer turns the view and stirs, and both are undone"({ page, address }) {
+    await page.goto(link(address, SCENE));
+    await ready(page);
+    const before = await toml(page);
+    await drag(page, [300, 300], [120, 0]);
+    await until(page, `(toml) => toml !== ${JSON.stringify(before)}`);
+    await settle(page);
+    await page.keyboard.press("Control+z");
+    await until(page, `(toml) => toml === ${JSON.stringify(before)}`);
+    // Only liquid that time passes for can be stirred.
+    await page.keyboard.press("2");
+    await page.keyboard.press("Space");
+    await settle(page);
+    await drag(page, [300, 300], [120, 0]);
+    await until(page, '(toml) => toml.includes("[[event]]")');
+    await settle(page);
+    await page.keyboard.press("Control+z");
+    await until(page, '(toml) => !toml.includes("[[event]]")');
+  },
+
+  async "a dropped scene is opened, and a wrong one changes nothing"({ page, address }) {
+    await page.goto(link(address, SCENE, "&ui=0"));
+    await ready(page);
+    await drop(page, "mine.toml", SCENE.replace("[[bubble]]", "[[bubble]]\nradius_mm = 33.0"));
+    await until(page, '(toml) => toml.includes("radius_mm = 33.0")');
+    await drop(page, "wrong.toml", "version = 1\nlihgt = 3\n");
+    await settle(page);
+    assert((await toml(page)).includes("radius_mm = 33.0"));
+  },
+
+  async "a link holds the scene"({ page, address }) {
+    await page.goto(link(address, SCENE, "&ui=0"));
+    await ready(page);
+    const [scene, fragment] = await page.evaluate(() => [window.soapfilm.toToml(), window.soapfilm.fragment]);
+    await page.goto("about:blank");
+    await page.goto(`${address}/?ui=0&pause=1${fragment}`);
+    await ready(page);
+    assert.equal(await toml(page), scene);
+  },
+
+  async "a lost device is replaced"({ page, address }) {
+    await page.goto(link(address, SCENE, `&ui=0&size=${SIZE}`));
+    await ready(page);
+    const before = await page.locator("#soapfilm").screenshot();
+    await page.evaluate(() => {
+      window.states = [];
+      new MutationObserver(() => window.states.push(document.documentElement.dataset.soapfilm)).observe(
+        document.documentElement,
+        { attributeFilter: ["data-soapfilm"] },
+      );
+      window.soapfilm.loseDevice();
+    });
+    await page.waitForFunction(() => window.states.at(-1) === "ready", null, { timeout: PATIENCE_MS });
+    assert.deepEqual(await page.evaluate(() => window.states), ["loading", "ready"]);
+    const { max } = await difference(page, [before, await page.locator("#soapfilm").screenshot()]);
+    assert.equal(max, 0);
+  },
+
+  async "a scene that there is not is an error in words"({ page, address }) {
+    await page.goto(`${address}/?scene=widnows`);
+    await page.waitForFunction(() => document.documentElement.dataset.soapfilm === "error");
+    assert.match(await page.textContent("#soapfilm-message"), /did you mean `windows`/);
+  },
+
+  async "elements share a page"({ page, address }) {
+    await page.goto(`${address}/npm/two.html`);
+    const count = () => document.querySelectorAll('soap-bubble[data-state="ready"]').length;
+    await page.waitForFunction(`(${count})() === 2`, null, { timeout: PATIENCE_MS, polling: 200 });
+    const times = () => page.evaluate(() => [...document.querySelectorAll("soap-bubble")].map((bubble) => bubble.time));
+    await page.waitForFunction(() => document.querySelector("soap-bubble").time > 0, null, { timeout: PATIENCE_MS });
+    assert.equal((await times())[1], 0, "the second one is paused");
+    await page.evaluate(() => document.querySelector("soap-bubble").remove());
+  },
+};
+
+/** Without WebGPU the page says what to do, and shows a picture. */
+async function testWithout() {
+  const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu"] });
+  const server = await serve(folder);
+  const page = await browser.newPage();
+  await page.addInitScript(() => Object.defineProperty(Navigator.prototype, "gpu", { value: undefined }));
+  await page.goto(server.address);
+  await page.waitForFunction(() => document.documentElement.dataset.soapfilm === "error");
+  assert.match(await page.textContent("#soapfilm-message"), /no WebGPU.*Use Chrome/);
+  assert(await page.locator("img").evaluate((picture) => picture.decode().then(() => picture.checkVisibility())));
+  await browser.close();
+  server.close();
+}
+
+/** Runs a test in a page of its own, where every message of an error fails it. */
+async function run(browser, address, test) {
+  const context = await browser.newContext({ viewport: { width: 960, height: 640 } });
+  const page = await context.newPage();
+  const errors = [];
+  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  page.on("pageerror", (error) => errors.push(String(error)));
+  await test({ page, address });
+  await context.close();
+  assert.deepEqual(errors, []);
+}
+
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", ...WITH_WEBGPU] });
+const server = await serve(folder);
+const all = { ...TESTS, "without WebGPU the page says so": testWithout };
+let failed = 0;
+for (const [name, test] of Object.entries(all).filter(([name]) => name.includes(filter))) {
+  const begun = performance.now();
+  try {
+    await run(browser, server.address, test);
+    console.log(`ok      ${name} (${((performance.now() - begun) / 1000).toFixed(1)} s)`);
+  } catch (error) {
+    failed += 1;
+    console.log(`FAILED  ${name}\n${error.stack}`);
+  }
+}
+await browser.close();
+server.close();
+rmSync(scratch, { recursive: true });
+process.exitCode = failed ? 1 : 0;
