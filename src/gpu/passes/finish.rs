@@ -9,7 +9,6 @@ use crate::{
         kernel::{Drawable, Texture2d, Uniform, kernels, shader_struct},
         target::Target,
         timing::Recorder,
-        uniform_buffer::UniformBuffer,
     },
     plan::{Finish, TonemapKey},
 };
@@ -63,7 +62,7 @@ kernels! {
 #[derive(Default)]
 pub struct Finished {
     /// Halves of halves of the picture, and the sums of each with all coarser ones.
-    halves: Vec<[Option<Target>; 2]>,
+    halves: Vec<[Target; 2]>,
     picture: Option<Target>,
 }
 
@@ -93,68 +92,68 @@ impl Finished {
         key: &TonemapKey,
         radiance: &Target,
     ) -> Result<&Target, GpuError> {
-        let gpu = recorder.gpu;
+        let (gpu, format) = (recorder.gpu, radiance_format(false));
         let Finish { glare, vignetting_ev, grain, grain_seed } = key.finish;
         let [width, height] = key.draw.size;
-        let shares: Vec<f64> = shares(width.min(height)).into_iter().map(|share| glare * share).collect();
-        let count = if glare > 0.0 { shares.len() } else { 0 };
-        self.halves.resize_with(count, Default::default);
-        let format = radiance_format(false);
-        for (level, slots) in self.halves.iter_mut().enumerate() {
-            let size = key.draw.size.map(|pixels| pixels.div_ceil(1 << (level + 1)));
-            for slot in slots {
-                *slot = Some(Target::fit(slot.take(), gpu, "glare", size, format));
-            }
+        let shares = if glare > 0.0 { shares(width.min(height)) } else { Vec::new() };
+        let shares: Vec<f32> = shares.into_iter().map(|share| (glare * share) as f32).collect();
+        self.fit_halves(gpu, key.draw.size, shares.len());
+        let glare = self.record_glare(recorder, radiance, &shares)?;
+        let uniform = FinishUniform {
+            share: shares.iter().sum(),
+            coarser: if glare.is_some() { 1.0 } else { 0.0 },
+            vignetting_ev: vignetting_ev as f32,
+            grain: grain as f32,
+            exposure: key.exposure() as f32,
+            grain_seed,
+            ..FinishUniform::zeroed()
+        };
+        let uniform = gpu.uniform("finish", &uniform);
+        let halves = &glare.unwrap_or(radiance).view;
+        let finish = FinishPicture { finish: &uniform, picture: &radiance.view, halves }.cover(gpu, format)?;
+        let picture = Target::fit(self.picture.take(), gpu, "finished", key.draw.size, format);
+        draw(recorder, &picture, &finish);
+        Ok(self.picture.insert(picture))
+    }
+
+    /// Room for a number of levels of a picture.
+    fn fit_halves(&mut self, gpu: &Gpu, size: [u32; 2], count: usize) {
+        let mut before = std::mem::take(&mut self.halves).into_iter();
+        let level = |level: usize| {
+            let slots = before.next().map_or([None, None], |slots| slots.map(Some));
+            let size = size.map(|pixels| pixels.div_ceil(1 << level));
+            slots.map(|slot| Target::fit(slot, gpu, "glare", size, radiance_format(false)))
+        };
+        self.halves = (1..=count).map(level).collect();
+    }
+
+    /// Records the sum of all levels, each with its share, and returns it at the size of the first; none without levels.
+    fn record_glare(
+        &self,
+        recorder: &mut Recorder<'_>,
+        radiance: &Target,
+        shares: &[f32],
+    ) -> Result<Option<&Target>, GpuError> {
+        let (gpu, format) = (recorder.gpu, radiance_format(false));
+        let mut finer = radiance;
+        for [half, _] in &self.halves {
+            draw(recorder, half, &Halve { picture: &finer.view }.cover(gpu, format)?);
+            finer = half;
         }
-        self.picture = Some(Target::fit(self.picture.take(), gpu, "finished", key.draw.size, format));
-        let levels: Vec<[&Target; 2]> =
-            self.halves.iter().map(|slots| slots.each_ref().map(|slot| slot.as_ref().expect("made above"))).collect();
-        for (level, [half, _]) in levels.iter().enumerate() {
-            let finer = if level == 0 { radiance } else { levels[level - 1][0] };
-            draw(recorder, half, Halve { picture: &finer.view }.cover(gpu, format)?);
+        let mut coarser: Option<&Target> = None;
+        for ([half, sum], &share) in self.halves.iter().zip(shares).rev() {
+            let uniform =
+                FinishUniform { share, coarser: if coarser.is_some() { 1.0 } else { 0.0 }, ..FinishUniform::zeroed() };
+            let uniform = gpu.uniform("finish", &uniform);
+            let halves = &coarser.unwrap_or(half).view;
+            draw(recorder, sum, &Spread { finish: &uniform, picture: &half.view, halves }.cover(gpu, format)?);
+            coarser = Some(sum);
         }
-        for (level, [half, sum]) in levels.iter().enumerate().rev() {
-            let coarser = levels.get(level + 1);
-            let uniform = uniform(
-                gpu,
-                FinishUniform {
-                    share: shares[level] as f32,
-                    coarser: if coarser.is_some() { 1.0 } else { 0.0 },
-                    ..FinishUniform::zeroed()
-                },
-            );
-            let halves = &coarser.map_or(half, |[_, sum]| sum).view;
-            draw(recorder, sum, Spread { finish: &uniform, picture: &half.view, halves }.cover(gpu, format)?);
-        }
-        let first = levels.first().map(|[_, sum]| *sum);
-        let uniform = uniform(
-            gpu,
-            FinishUniform {
-                share: shares[..count].iter().sum::<f64>() as f32,
-                coarser: if first.is_some() { 1.0 } else { 0.0 },
-                vignetting_ev: vignetting_ev as f32,
-                grain: grain as f32,
-                exposure: key.exposure() as f32,
-                grain_seed,
-                ..FinishUniform::zeroed()
-            },
-        );
-        let halves = &first.unwrap_or(radiance).view;
-        let picture = self.picture.as_ref().expect("made above");
-        draw(
-            recorder,
-            picture,
-            FinishPicture { finish: &uniform, picture: &radiance.view, halves }.cover(gpu, format)?,
-        );
-        Ok(picture)
+        Ok(coarser)
     }
 }
 
-fn uniform(gpu: &Gpu, value: FinishUniform) -> UniformBuffer<FinishUniform> {
-    gpu.uniform("finish", &value)
-}
-
-fn draw(recorder: &mut Recorder<'_>, target: &Target, drawable: Drawable) {
+fn draw(recorder: &mut Recorder<'_>, target: &Target, drawable: &Drawable) {
     recorder.render("finish", &target.view, None, |pass| drawable.draw(pass, 3));
     recorder.counts.draws += 1;
 }

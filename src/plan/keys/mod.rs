@@ -1,5 +1,6 @@
 //! The keys of products: for each, exactly what its pass reads.
 
+mod environment;
 mod film;
 mod history;
 mod optics;
@@ -9,12 +10,13 @@ mod plate;
 mod rest;
 mod step;
 
+pub use environment::{DefocusKey, EnvironmentKey};
 pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};
 pub use optics::{OpticsKey, QuadratureKey, TableKey, range_nm};
 pub(in crate::plan) use picture::samples;
 pub use picture::{
-    BackdropKey, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FilmColours, Finish, LentFilm, LightKey,
-    Lighting, SmallBubble, TonemapKey, exposed_ev,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, FilmColours, Finish, LentFilm, LightKey, Lighting, SmallBubble,
+    TonemapKey, exposed_ev,
 };
 pub use plate::PlateKey;
 pub use rest::RestingFilm;

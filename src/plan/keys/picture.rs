@@ -4,55 +4,8 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{FilmKey, OpenHoleKey, Opening, PlateKey, QuadratureKey, TableKey};
-use crate::physics::{
-    colour::Gamut,
-    environment::{CubeFace, CubeMap},
-    film::Cap,
-};
-
-/// The light around the bubbles.
-#[derive(Clone, Debug)]
-pub struct EnvironmentKey(pub Arc<CubeMap>);
-
-impl EnvironmentKey {
-    /// Texels along a face's edge.
-    #[must_use]
-    pub fn size(&self) -> u32 {
-        self.0.size() as u32
-    }
-}
-
-impl PartialEq for EnvironmentKey {
-    fn eq(&self, other: &Self) -> bool {
-        self.0.id() == other.0.id()
-    }
-}
-
-/// The environment as it is seen behind the bubbles, out of focus.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DefocusKey {
-    /// The environment.
-    pub environment: EnvironmentKey,
-    /// Half angle of the cones that it is averaged over, in radians; above 0.
-    pub half_angle_rad: f64,
-    /// The faces of its cube that are in sight, in their order on the GPU.
-    pub faces: [bool; 6],
-}
-
-impl DefocusKey {
-    /// The map.
-    #[must_use]
-    pub fn map(&self) -> CubeMap {
-        self.environment.0.defocused(self.half_angle_rad, self.faces)
-    }
-
-    /// Whether another key is of the same map, of whatever faces.
-    #[must_use]
-    pub fn is_same_map(&self, other: &Self) -> bool {
-        self.environment == other.environment && self.half_angle_rad == other.half_angle_rad
-    }
-}
+use super::{DefocusKey, EnvironmentKey, FilmKey, OpenHoleKey, Opening, PlateKey, QuadratureKey, TableKey};
+use crate::physics::{colour::Gamut, environment::CubeFace, film::Cap};
 
 /// One bubble as the picture sees it.
 #[derive(Clone, Debug, PartialEq)]
