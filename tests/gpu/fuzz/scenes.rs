@@ -197,7 +197,8 @@ fn reconcile_generator(generator: &mut Generator) {
     generator.film.cells = generator.film.cells.min(MAX_CELLS);
     if generator.film.state != FilmStateName::Uniform {
         let thinnest = 1.0 - generator.thickness_spread;
-        generator.film.thickness_nm = generator.film.thickness_nm.max(1.0 / thinnest);
+        // A little more than 1 nm, which the product may miss by rounding.
+        generator.film.thickness_nm = generator.film.thickness_nm.max((1.0 + 1e-12) / thinnest);
     }
     if generator.layout == Layout::Wand {
         generator.life_s = generator.life_s.max(1e-3);
