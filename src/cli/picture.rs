@@ -63,11 +63,6 @@ impl PictureArguments {
         self.quality == Some(parse::Quality::Reference)
     }
 
-    /// Samples along each side of a pixel.
-    fn samples(&self) -> u32 {
-        self.samples
-    }
-
     /// Whether the picture is one frame as the window would draw it.
     pub fn is_plain(&self) -> bool {
         !self.is_reference() && !self.alpha && !self.layers && self.samples == 1

@@ -47,7 +47,7 @@ impl Painter<'_> {
     }
 
     fn drawn(&mut self, request: &FrameRequest, draw: &DrawKey, progress: &Progress) -> anyhow::Result<Vec<Vec3>> {
-        let (size, samples) = (self.arguments.size, self.arguments.samples());
+        let (size, samples) = (self.arguments.size, self.arguments.samples);
         let mut whole = vec![Vec3::ZERO; size[0] as usize * size[1] as usize];
         for [[x, y], [columns, rows]] in tiles(size, samples) {
             let span = |start: u32, length: u32| samples * start..samples * (start + length);

@@ -18,7 +18,7 @@ const MAX_CELLS: u32 = 24;
 const MAX_MADE: u32 = 60;
 const MAX_FILMS: u32 = 2;
 /// Keys that decide which pipelines and tables draw a scene, for each of which a software driver works for a second.
-const OF_PIPELINES: [&str; 15] = [
+const OF_PIPELINES: [&str; 16] = [
     "boundary",
     "state",
     "cells",
@@ -27,6 +27,7 @@ const OF_PIPELINES: [&str; 15] = [
     "index",
     "skin_nm",
     "fov_y_deg",
+    "focal_mm",
     "illuminant",
     "constant",
     "radiance",
@@ -196,7 +197,8 @@ fn reconcile_generator(generator: &mut Generator) {
     generator.film.cells = generator.film.cells.min(MAX_CELLS);
     if generator.film.state != FilmStateName::Uniform {
         let thinnest = 1.0 - generator.thickness_spread;
-        generator.film.thickness_nm = generator.film.thickness_nm.max(1.0 / thinnest);
+        // A little more than 1 nm, which the product may miss by rounding.
+        generator.film.thickness_nm = generator.film.thickness_nm.max((1.0 + 1e-12) / thinnest);
     }
     if generator.layout == Layout::Wand {
         generator.life_s = generator.life_s.max(1e-3);
