@@ -57,7 +57,8 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     let (now_s, is_held) = ui.input(|input| (input.time, input.pointer.any_down()));
     model.undo.pass(now_s, is_held);
     // Who is asked a question answers it first.
-    let actions = if model.question.is_none() { keys::pressed(ui.ctx()) } else { Vec::new() };
+    let is_asked = model.question.is_some() || model.shows_gallery;
+    let actions = if is_asked { Vec::new() } else { keys::pressed(ui.ctx()) };
     for action in &actions {
         model.act(*action);
     }
