@@ -5,7 +5,7 @@
 //! | [`model`] | the state: scene, clock, messages, requests; knows neither window nor GPU |
 //! | [`clock`], [`time_line`], [`orbit`], [`history`] | time, camera and events as pure functions of the model |
 //! | [`panels`], [`keys`] | how people change the model |
-//! | [`edit`], [`undo`] | the one gate for changes of the scene, and what takes them back |
+//! | `edit`, [`undo`] | the one gate for changes of the scene, and what takes them back |
 //! | [`files`], [`storage`], `keeper` | the system: dialogs, loading and saving; settings and unsaved work |
 //! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
 //! | [`request`] | what goes from the model to the system, and the questions that come before |

@@ -84,13 +84,13 @@ impl Undo {
     }
 
     /// Takes the last step to be taken back; see [`Undo::undone`].
-    pub fn last(&mut self) -> Option<Step> {
+    pub fn last_done(&mut self) -> Option<Step> {
         self.grows = false;
         self.past.pop()
     }
 
     /// Takes the step to be made again; see [`Undo::redone`].
-    pub fn next(&mut self) -> Option<Step> {
+    pub fn last_undone(&mut self) -> Option<Step> {
         self.grows = false;
         self.future.pop()
     }

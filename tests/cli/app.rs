@@ -322,24 +322,13 @@ fn a_camera_follows_the_pointer_and_generators_have_a_panel() {
     assert!(!screen.title().ends_with("(edited)"), "looking around changes no work");
 
     // The title of the panel, which folds it away.
-    let panel = [980, 150, 290, 500];
-    go(&screen, 600);
-    sleep(Duration::from_secs(2));
+    let (title, panel) = ([1020, 184], [980, 195, 290, 450]);
     let open = screen.shot();
-    let title = generators_title(&open);
-    screen.act(&["mousemove", "1020", &title.to_string()]);
+    screen.act(&["mousemove", &title[0].to_string(), &title[1].to_string()]);
     screen.act(&["click", "1"]);
     screen.wait_for("a folded panel", |screen| (difference(panel, &open, &screen.shot()) > 2.0).then_some(()));
     screen.press("ctrl+q");
     screen.ends_well();
-}
-
-/// The height of the second of the panels' titles: the second line with the triangle that folds a panel.
-fn generators_title(shot: &RgbImage) -> u32 {
-    let is_bright = |y: u32| (986..994).filter(|x| shot.get_pixel(*x, y).0[0] > 140).count() >= 5;
-    let lines: Vec<u32> = (90..500).filter(|y| is_bright(*y)).collect();
-    let first = lines[0];
-    *lines.iter().find(|y| **y > first + 15).unwrap_or(&first)
 }
 
 #[test]
@@ -363,16 +352,15 @@ fn work_survives_a_crash_and_is_saved_by_its_path() {
     screen.press("Return");
     screen.wait_for("the recovered scene", |screen| screen.title().ends_with("(edited)").then_some(()));
 
-    // Where no dialog can ask for a path, it is typed.
+    // Where no dialog can ask for a path, it is typed, once the window asks.
+    let before = screen.shot();
     screen.press("ctrl+shift+s");
     let typed = other.to_str().unwrap();
-    screen.wait_for("the other file", |screen| {
-        screen.press("ctrl+a");
-        screen.act(&["type", typed]);
-        screen.press("Return");
-        sleep(Duration::from_millis(500));
-        other.exists().then_some(())
-    });
+    screen.wait_for("a question", |screen| (difference(MIDDLE, &before, &screen.shot()) > 10.0).then_some(()));
+    screen.press("ctrl+a");
+    screen.act(&["type", typed]);
+    screen.press("Return");
+    screen.wait_for("the other file", |_| other.exists().then_some(()));
     let saved = std::fs::read_to_string(&other).unwrap();
     assert!(saved.contains("gravity_m_s2"), "{saved}");
     screen.wait_for("a saved scene", |screen| (screen.title() == format!("soapfilm – {typed}")).then_some(()));

@@ -24,7 +24,7 @@ fn xyz(desk: &Desk, arguments: &str) -> DVec3 {
 fn the_probe_says_what_the_command_says() {
     let desk = Desk::new();
     for (front_nm, back_nm, angle_deg, light) in
-        [(320.0, 500.0, 45.0, "D65"), (12.5, 1750.0, 80.0, "A"), (104.0, 104.0, 0.0, "F2")]
+        [(320.0, 500.0, 45.0, "D65"), (12.5, 1750.0, 80.0, "A"), (104.0, 104.0, 0.0, "LED-B1")]
     {
         let illuminant: Illuminant = light.parse().unwrap();
         let optics = OpticsKey { film: FilmMaterial::default(), illuminant: illuminant.into() };

@@ -40,7 +40,7 @@ impl Model {
 
     /// Takes the last step back.
     pub fn undo(&mut self) {
-        let Some(step) = self.undo.last() else { return };
+        let Some(step) = self.undo.last_done() else { return };
         let step = self.reverse(step);
         self.messages.note(format!("Undone: {}", step.name));
         self.undo.undone(step);
@@ -48,7 +48,7 @@ impl Model {
 
     /// Makes the step again that was taken back last.
     pub fn redo(&mut self) {
-        let Some(step) = self.undo.next() else { return };
+        let Some(step) = self.undo.last_undone() else { return };
         let step = self.reverse(step);
         self.messages.note(format!("Redone: {}", step.name));
         self.undo.redone(step);

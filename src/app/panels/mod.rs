@@ -57,8 +57,9 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     let (now_s, is_held) = ui.input(|input| (input.time, input.pointer.any_down()));
     model.undo.pass(now_s, is_held);
     // Who is asked a question answers it first.
-    let obeys_keys = model.question.is_none() && !model.stands_alone;
-    let actions = if obeys_keys { keys::pressed(ui.ctx()) } else { Vec::new() };
+    let is_asked = model.question.is_some() || model.shows_gallery;
+    let is_deaf = is_asked || model.stands_alone;
+    let actions = if is_deaf { Vec::new() } else { keys::pressed(ui.ctx()) };
     for action in &actions {
         model.act(*action);
     }

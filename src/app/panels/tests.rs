@@ -418,6 +418,10 @@ fn files_and_lights_are_asked_for() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::P);
     window.run();
     click(&mut window, "Presets");
+    press(&mut window, Modifiers::NONE, Key::K);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!window.state().model.shows_gallery && window.state().model.compare.wants.is_none());
+    click(&mut window, "Presets");
     window.get_by_label_contains("lamplight: ");
     window.get_by_role_and_label(Role::Button, "lamplight").click_accesskit();
     window.run();
