@@ -149,7 +149,7 @@ impl Screen {
 
     fn ends_well(&mut self) {
         let start = Instant::now();
-        while start.elapsed() < Duration::from_secs(20) {
+        while start.elapsed() < PATIENCE {
             if let Some(status) = self.program.0.try_wait().unwrap() {
                 assert!(status.success(), "soapfilm ended with {status}");
                 return;
