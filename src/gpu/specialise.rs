@@ -111,7 +111,8 @@ mod tests {
     fn backdrop(on_bath: bool) -> Result<Specialised, ShaderError> {
         let composed = Library::Embedded.compose("backdrop").unwrap();
         let on_bath = f64::from(u8::from(on_bath));
-        let constants = [("ON_BATH", on_bath), ("FULL_PRECISION", 0.0), ("BACKDROP_IS_ENVIRONMENT", 1.0)];
+        let constants =
+            [("ON_BATH", on_bath), ("FULL_PRECISION", 0.0), ("BACKDROP_IS_ENVIRONMENT", 1.0), ("LAMPS", 0.0)];
         specialised(&composed, "backdrop", &constants)
     }
 

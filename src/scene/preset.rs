@@ -50,7 +50,7 @@ pub fn preset_names() -> impl ExactSizeIterator<Item = &'static str> {
 
 /// The presets as people look for them: each group with its title.
 pub const PRESET_GROUPS: [(&str, &[&str]); 5] = [
-    ("One bubble", &["default", "fresh", "bands", "draining", "stirred", "glycerol", "weightless", "giant"]),
+    ("One bubble", &["default", "tent", "fresh", "bands", "draining", "stirred", "glycerol", "weightless", "giant"]),
     ("Its life", &["life", "black", "bursting"]),
     ("Where a film ends", &["bath", "ring", "drop"]),
     ("Light", &["windows", "park", "studio", "bright", "lamplight", "sodium", "two_lights", "polarised"]),
