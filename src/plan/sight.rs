@@ -21,7 +21,7 @@ pub(super) fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, di
 /// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples per pixel
 /// see that better than a filter which takes the film to change evenly from pixel to pixel.
 pub(super) fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
-    let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < MAGNIFIED_CELL_PIXELS);
+    let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < 1.0);
     is_finer && samples(radius_pixels) == 1
 }
 

@@ -5,7 +5,6 @@ mod crowd;
 mod extremes;
 mod flow;
 mod free_film;
-mod hard_light;
 pub mod interaction;
 mod optics;
 mod phenomena;

@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use glam::{DVec2, DVec3};
 
-use super::{Extent, Run, hard_light, random::Random, reference};
+use super::{Extent, Run, random::Random, reference};
 use crate::{
     gpu::{GpuError, Renderer},
     physics::{
@@ -32,7 +32,6 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     let lamps = ["sodium", "A"].into_iter().take(run.short_or_full(1, 2));
     let lamps: Vec<_> = lamps.map(mixed_light_scene).collect::<Result<_, _>>()?;
     measure(run, &mut renderer, "daylight and a lamp", lamps)?;
-    hard_light::run(run, &mut renderer)?;
     // A truth takes a minute: a short run computes only the room with a lamp, where all kinds of light meet.
     if run.extent == Extent::Short {
         return Ok(());

@@ -27,7 +27,7 @@ fn plated(preset: &str) -> LoadedScene {
 fn a_photograph_is_seen_through_films_as_in_f64() {
     let Some(mut renderer) = renderer() else { return };
     // On a bath, and in light whose red is faint in blue.
-    for (preset, illuminant) in [("default", "D65"), ("bath", "D65"), ("default", "sodium")] {
+    for (preset, illuminant) in [("tent", "D65"), ("bath", "D65"), ("tent", "sodium")] {
         let mut loaded = plated(preset);
         loaded.resources.illuminant = Arc::new(illuminant.parse().unwrap());
         let request = still(&loaded, [64, 36], 0.0);
@@ -46,7 +46,7 @@ fn a_photograph_is_seen_through_films_as_in_f64() {
 #[test]
 fn rectangles_of_a_picture_are_what_the_picture_shows_there() {
     let Some(mut renderer) = renderer() else { return };
-    let request = still(&plated("default"), [64, 36], 0.0);
+    let request = still(&plated("tent"), [64, 36], 0.0);
     let whole = radiance(&mut renderer, &request);
     for (columns, rows) in [(0..20, 0..36), (20..64, 3..17), (31..33, 17..19)] {
         let draw = request.picture.draw.cut(&columns, &rows);
