@@ -18,7 +18,7 @@ import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, W
 import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
 import package::sphere::others::OtherBubble;
-import package::sphere::path::{Footprint, Path, cone, footprint, polarisation_along};
+import package::sphere::path::{Path, footprint, polarisation_along};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
 // Samples along each side of a pixel: 1, or more near the outline, and for bubbles of a few pixels, whose film is finer than a pixel.
@@ -102,8 +102,6 @@ struct ListPart {
 @group(0) @binding(21) var backdrop_map: texture_cube<f32>;
 @group(0) @binding(22) var<uniform> lamps: array<Lamp, 12>;
 
-// The most cones along the longer side of a reflection's footprint.
-const MAX_CONES: f32 = 4.0;
 // Sides of the polygons that rings are made of.
 override SIDES: u32;
 
@@ -166,19 +164,6 @@ fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
     return environment_radiance(environment, environment_sampler, light, upward(direction), footprint);
 }
 
-// Light from around a reflected direction. Near the limb a pixel mirrors a strip that is many times as long as wide: cones side by side cover it.
-fn mirrored_surroundings(path: Path, direction: vec3f, turns: f32) -> vec3f {
-    let whole = footprint(path, direction, turns);
-    let cones = clamp(round(whole.along / whole.across), 1.0, MAX_CONES);
-    let width = cone(Footprint(whole.along / cones, whole.across));
-    let step = min(whole.along, 1.0) / cones / max(length(path.across), 1e-6) * cross(path.across, direction);
-    var total = vec3f(0.0);
-    for (var k = 0.0; k < cones; k += 1.0) {
-        total += surroundings(direction + (k + 0.5 - 0.5 * cones) * step, width);
-    }
-    return total / cones;
-}
-
 fn dimmed(steps: mat4x3f, first: vec3f, later: vec3f) -> mat4x3f {
     return mat4x3f(first * steps[0], later * steps[1], later * steps[2], later * steps[3]);
 }
@@ -223,7 +208,7 @@ struct Followed {
 
 fn followed(path: Path, before: Followed) -> Followed {
     var after = reflected_inside(path, before);
-    after.light *= mirrored_surroundings(path, after.hop.direction, -2.0 * after.reflections);
+    after.light *= surroundings(after.hop.direction, footprint(path, after.hop.direction, -2.0 * after.reflections));
     return after;
 }
 
@@ -330,11 +315,11 @@ struct MirroredRays {
 
 // Light from both, with other bubbles in it.
 fn outer_and_first(path: Path, rays: MirroredRays, is_inside: bool) -> array<vec3f, 2> {
+    let outer = footprint(path, rays.outward, 2.0);
+    let first = footprint(path, rays.inward, -2.0);
     if (MIRRORS_OTHERS == 0u) {
-        return array(mirrored_surroundings(path, rays.outward, 2.0), mirrored_surroundings(path, rays.inward, -2.0));
+        return array(surroundings(rays.outward, outer), surroundings(rays.inward, first));
     }
-    let outer = cone(footprint(path, rays.outward, 2.0));
-    let first = cone(footprint(path, rays.inward, -2.0));
     var seen = array(vec3f(0.0), vec3f(0.0));
     // In a loop, so that its code stands once.
     for (var k = select(0u, 1u, is_inside); k < 2u; k++) {
@@ -527,6 +512,6 @@ fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     let path = path_along(edge.inside, 1.0, position.xy);
     let direction = mirrored(path, path.foot - path.half_chord * path.round);
-    let shown = light.seen * surroundings(direction, cone(footprint(path, direction, 2.0)));
+    let shown = light.seen * surroundings(direction, footprint(path, direction, 2.0));
     return vec4f(storable(mix(behind, shown, edge.coverage)), 1.0);
 }

@@ -28,23 +28,12 @@ struct Path {
     position: vec2f,
 }
 
-// What a sample spans around a reflected direction, as angles: in the plane of incidence, where the sphere's curvature widens it, and across,
-// where it turns about the axis through the center.
-struct Footprint {
-    along: f32,
-    across: f32,
-}
-
-fn footprint(path: Path, direction: vec3f, turns: f32) -> Footprint {
+// Footprint of a reflected direction: its spread in the plane of incidence, where the sphere's curvature widens it, and across,
+// where it turns about the axis through the center. The geometric mean, but no finer than a quarter of the wider one.
+fn footprint(path: Path, direction: vec3f, turns: f32) -> f32 {
     let along = path.pixel * abs(1.0 + turns * path.theta_rate);
     let across = path.pixel * length(cross(direction, path.to_center)) / max(path.sin_view, 1e-6);
-    return Footprint(along, across);
-}
-
-// The angle of the cone that stands for a footprint: the geometric mean, but no finer than a quarter of the wider side.
-fn cone(footprint: Footprint) -> f32 {
-    let wider = max(footprint.along, footprint.across);
-    return max(sqrt(footprint.along * footprint.across), 0.25 * wider);
+    return max(sqrt(along * across), 0.25 * max(along, across));
 }
 
 // Shares of s and p light that a polariser leaves which passes fields along a direction: theirs stand across the plane of incidence and in it.
