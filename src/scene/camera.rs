@@ -24,7 +24,9 @@ impl Camera {
 
     /// Full vertical field of view, radians: that of the lens, if there is one.
     pub fn fov_y_rad(&self) -> f64 {
-        self.focal_mm.map_or(self.fov_y_deg.to_radians(), |focal_mm| 2.0 * (0.5 * self.sensor_mm / focal_mm).atan())
+        let of_lens = |focal_mm: f64| 2.0 * (0.5 * self.sensor_mm / focal_mm).atan();
+        // What `fov_y_deg` may be.
+        self.focal_mm.map_or(self.fov_y_deg.to_radians(), |focal_mm| of_lens(focal_mm).min(170f64.to_radians()))
     }
 
     /// Unit vector along the view, from the eye to the target; defined at distance 0 too.
