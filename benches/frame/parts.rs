@@ -36,7 +36,7 @@ const DITHER: Edit = edit("colour/display.wgsl", "    let first = hash(", "    r
 const ENVIRONMENT: Edit = edit(
     "light/environment.wgsl",
     "textureSampleLevel(environment, environment_sampler, turned, level).rgb;",
-    "(turned * turned + level)",
+    "(turned * turned + level);",
 );
 const FILM: Edit = edit(
     "film/shown.wgsl",

@@ -1,7 +1,6 @@
 //! Photographs to stand behind the bubbles.
 
 use std::{
-    fs::File,
     io::{self, BufRead, BufReader, Seek},
     path::Path,
 };
@@ -54,7 +53,7 @@ pub fn read_plate(path: &Path, notes: &mut Vec<String>) -> Result<Plate, InputEr
 type Decoded = ([usize; 2], Vec<[f32; 3]>, Vec<String>);
 
 /// Decodes a picture that is made for screens.
-fn encoded(path: &Path, file: BufReader<File>, format: ImageFormat) -> Result<Decoded, InputError> {
+fn encoded(path: &Path, file: impl BufRead + Seek, format: ImageFormat) -> Result<Decoded, InputError> {
     let in_words = |error| in_words(path, error);
     let mut decoder = ImageReader::with_format(file, format).into_decoder().map_err(in_words)?;
     let (width, height) = decoder.dimensions();

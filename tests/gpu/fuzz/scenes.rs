@@ -18,7 +18,7 @@ const MAX_CELLS: u32 = 24;
 const MAX_MADE: u32 = 60;
 const MAX_FILMS: u32 = 2;
 /// Keys that decide which pipelines and tables draw a scene, for each of which a software driver works for a second.
-const OF_PIPELINES: [&str; 16] = [
+const OF_PIPELINES: [&str; 15] = [
     "boundary",
     "state",
     "cells",
@@ -27,7 +27,6 @@ const OF_PIPELINES: [&str; 16] = [
     "index",
     "skin_nm",
     "fov_y_deg",
-    "focal_mm",
     "illuminant",
     "constant",
     "radiance",
