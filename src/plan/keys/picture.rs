@@ -259,7 +259,9 @@ impl DrawKey {
     /// What is seen of one of the lights behind the bubbles, where that is an environment out of focus.
     #[must_use]
     pub fn defocus(&self, Lighting { light, environment, .. }: &Lighting) -> Option<DefocusKey> {
-        if light.backdrop != BackdropKey::Environment || light.defocus_rad == 0.0 {
+        // Even light is the same in focus and out of it.
+        let is_even = environment.size() == 1;
+        if light.backdrop != BackdropKey::Environment || light.defocus_rad == 0.0 || is_even {
             return None;
         }
         let [width, height] = self.size.map(f64::from);
