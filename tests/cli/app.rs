@@ -242,9 +242,9 @@ fn a_film_is_stirred_and_a_bubble_is_moved() {
     let scene = folder.path().join("still.toml");
     std::fs::write(&scene, STILL).unwrap();
     let mut screen = Screen::open(&["app", scene.to_str().unwrap()]);
-    // The panels show the time that passes.
+    // The panels and the time line show the time that passes.
     screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 4.0).then_some(()));
-    screen.press("h");
+    screen.press("F11");
     let still = screen.settled("a film at rest while time runs");
 
     screen.press("2");
