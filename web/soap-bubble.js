@@ -68,7 +68,7 @@ export class SoapBubbleElement extends HTMLElement {
     this.toggleAttribute("paused", Boolean(value));
   }
 
-  /** Whether the pointer turns the view and moves the film. */
+  /** Whether the pointer turns, shifts and zooms the view. */
   get controls() {
     return this.hasAttribute("controls");
   }

@@ -125,7 +125,7 @@ fn knee(front: &[Place], error: impl Fn(&Place) -> f64) -> Option<usize> {
     inner.iter().max_by(|a, b| below(a).total_cmp(&below(b))).map(|place| place.count)
 }
 
-/// Two walls at each quality: wavelengths, milliseconds to fit them, and nanoseconds per point; and the cost of a frame of the default scene beside
+/// Two walls at each quality: wavelengths, milliseconds to fit them, and nanoseconds per point; and the cost of a frame of the preset `tent` beside
 /// a plain mirror sphere.
 pub fn qualities(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
     let columns = ["bands", "max_nm", "fit_cpu_ms", "ns_per_point", "max_dE", "mean_dE", "over_mirror"];

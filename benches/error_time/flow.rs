@@ -66,7 +66,7 @@ fn exact(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     draw("flow_exact", ["CPU time of a wavelength, s", "l2 of vorticity"], &all)
 }
 
-/// The default scene's film: soon after it was blown, where it still is what the same film with a finer flow is, and sorted.
+/// The film of the preset `tent`: soon after it was blown, where it still is what the same film with a finer flow is, and sorted.
 fn sorting(gpu: &Gpu, smoke: bool) -> anyhow::Result<()> {
     let cells = if smoke { 32 } else { 256 };
     let film = Sorting { viscosity_m2_s: 1e-4, diffusion_m2_s: 5e-7, cells, ..Sorting::LABORATORY };

@@ -47,7 +47,7 @@ pub fn run(gpu: Gpu, smoke: bool) -> anyhow::Result<()> {
     report.save()
 }
 
-/// A frame of the default scene's film at a tick, moved by a flow.
+/// A frame of the film of the preset `tent` at a tick, moved by a flow.
 fn frame_request(flow: Flow, cells: u32, tick: u64) -> anyhow::Result<FrameRequest> {
     let mut loaded = load_scene("tent")?;
     loaded.scene.bubbles[0].film.cells = cells;

@@ -51,12 +51,12 @@ fn frame(criterion: &mut Criterion) {
     }
 }
 
-/// The default scene a few ticks in, so that every pass has something to do, a whole step and the part of one included.
+/// The preset `tent` a few ticks in, so that every pass has something to do, a whole step and the part of one included.
 fn frame_request(size: [u32; 2], yardstick: bool) -> FrameRequest {
     frame_request_of(size, yardstick, Moment { tick: 2, fraction: 0.5 }, |_| ())
 }
 
-/// The default scene with a change, at a moment.
+/// The preset `tent` with a change, at a moment.
 fn frame_request_of(size: [u32; 2], yardstick: bool, moment: Moment, change: impl FnOnce(&mut Scene)) -> FrameRequest {
     let mut loaded = load_scene("tent").expect("the preset");
     change(&mut loaded.scene);

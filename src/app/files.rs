@@ -47,10 +47,6 @@ pub enum Arrival {
     TakenUp,
     /// A file was chosen.
     Chosen(Target, PathBuf),
-    /// The scene is in its file.
-    Saved,
-    /// The scene is not in its file: that failed, or its user thought better of it.
-    NotSaved,
 }
 
 /// The workers.
@@ -92,8 +88,11 @@ impl Files {
         self.begin_load(model, "the light");
         let folder = model.folder.clone();
         let known = &model.scene.light;
-        let same = (&known.environment, known.constant, &known.patches, &known.lamps)
-            == (&light.environment, light.constant, &light.patches, &light.lamps);
+        // The colours of lamps of a temperature are relative to the illuminant.
+        let whites = known.illuminant == light.illuminant || light.lamps.iter().all(|lamp| lamp.kelvin.is_none());
+        let same = whites
+            && (&known.environment, known.constant, &known.patches, &known.lamps)
+                == (&light.environment, light.constant, &light.patches, &light.lamps);
         let resources = model.resources.clone();
         self.run(move || match load_light(&light, &folder, same, resources) {
             Ok((resources, notes)) => Outcome::Light(Box::new(light), resources, notes),
@@ -203,21 +202,19 @@ impl Files {
             }
             Outcome::Chosen(target, path) => return Some(Arrival::Chosen(target, path)),
             Outcome::NoDialog(target) => model.question = Some(Question::path(target, &model.name, &model.folder)),
-            Outcome::Saved(path, state) => {
-                model.saved(path, state);
-                return Some(Arrival::Saved);
-            }
+            Outcome::Saved(path, state) => model.saved(path, state),
             Outcome::NotSaved(text) => {
                 model.messages.problem(text);
-                return Some(Arrival::NotSaved);
+                model.once_saved = None;
             }
             Outcome::Map(map) => model.compare.map = model.compare.kept.as_ref().map(|_| map),
             Outcome::Done(text) => model.messages.note(text),
             Outcome::Failed(text) => {
                 model.messages.problem(text);
                 model.loading = model.loading.take().filter(|_| !current);
+                model.once_saved = None;
             }
-            Outcome::Nothing => return Some(Arrival::NotSaved),
+            Outcome::Nothing => model.once_saved = None,
             Outcome::Scene(_) | Outcome::TakenUp(..) | Outcome::Light(..) => {}
         }
         None

@@ -8,7 +8,7 @@ use web_time::Instant;
 use crate::{
     gpu::{GpuError, Renderer, readback::Readback},
     physics::sphere::{CubedSphere, HaloTable, PaddedField},
-    plan::Moment,
+    plan::{FieldKey, Moment},
     studio::FilmsRead,
 };
 
@@ -19,8 +19,8 @@ const PERIOD: Duration = Duration::from_millis(150);
 #[derive(Default)]
 pub struct FilmReader {
     films: FilmsRead,
-    /// The moment of each film that was read.
-    moments: BTreeMap<usize, Moment>,
+    /// Which film each of them was, and its moment: after an edit another film may stand at the same moment.
+    read: BTreeMap<usize, (FieldKey, Moment)>,
     halos: BTreeMap<usize, HaloTable>,
     pending: Option<Pending>,
     next: Option<Instant>,
@@ -29,7 +29,7 @@ pub struct FilmReader {
 /// A film on its way from the device.
 struct Pending {
     film: usize,
-    moment: Moment,
+    of: (FieldKey, Moment),
     grid: CubedSphere,
     thickness: Readback,
     flow: Option<(CubedSphere, Readback)>,
@@ -44,7 +44,7 @@ impl FilmReader {
 
     /// The moment of a film that was read.
     pub fn moment(&self, film: usize) -> Option<Moment> {
-        self.moments.get(&film).copied()
+        self.read.get(&film).map(|(_, moment)| *moment)
     }
 
     /// Reads a film if it has changed since; returns whether what is here is what the picture shows, or has just arrived: a film that moves is
@@ -55,21 +55,21 @@ impl FilmReader {
     pub fn read(&mut self, renderer: &Renderer, film: usize, now: Instant) -> Result<bool, GpuError> {
         let arrived = self.collect(renderer)?;
         let Some(Some(field)) = renderer.state().fields.get(film) else { return Ok(true) };
-        let moment = field.shown.unwrap_or(field.key.moment);
-        if arrived == Some(film) || self.moments.get(&film) == Some(&moment) {
+        let of = (field.key.clone(), field.shown.unwrap_or(field.key.moment));
+        if arrived == Some(film) || self.read.get(&film) == Some(&of) {
             return Ok(true);
         }
         if self.pending.is_none() && self.next.is_none_or(|next| now >= next) {
             self.next = Some(now + PERIOD);
-            self.begin(renderer, film, moment)?;
+            self.begin(renderer, film, of)?;
         }
         Ok(false)
     }
 
-    fn begin(&mut self, renderer: &Renderer, film: usize, moment: Moment) -> Result<(), GpuError> {
+    fn begin(&mut self, renderer: &Renderer, film: usize, of: (FieldKey, Moment)) -> Result<(), GpuError> {
         let Some((grid, thickness)) = renderer.read_film(film)? else { return Ok(()) };
         let flow = renderer.read_flow(film);
-        self.pending = Some(Pending { film, moment, grid, thickness, flow, thickness_nm: None });
+        self.pending = Some(Pending { film, of, grid, thickness, flow, thickness_nm: None });
         Ok(())
     }
 
@@ -98,7 +98,7 @@ impl FilmReader {
     }
 
     fn put(&mut self, pending: Pending, velocity: Option<(CubedSphere, Vec<u8>)>) {
-        let Pending { film, moment, grid, thickness_nm, .. } = pending;
+        let Pending { film, of, grid, thickness_nm, .. } = pending;
         let cells: Vec<f32> = bytemuck::pod_collect_to_vec(&thickness_nm.unwrap_or_default());
         let halo = self.halos.entry(grid.n()).or_insert_with(|| HaloTable::new(grid));
         let thickness_nm = PaddedField::from_cells(grid, halo, |cell| f64::from(cells[cell]));
@@ -109,6 +109,6 @@ impl FilmReader {
             let field = PaddedField::from_padded(grid, values.iter().map(vector).collect());
             self.films.velocity_rad_s.insert(film, field);
         }
-        self.moments.insert(film, moment);
+        self.read.insert(film, of);
     }
 }

@@ -205,7 +205,7 @@ impl View {
         self.rests_until = None;
         if self.redraws < PANELS_FIRST {
             self.redraws += 1;
-            model.loading = Some(FIRST_PICTURE.to_owned());
+            model.loading.get_or_insert_with(|| FIRST_PICTURE.to_owned());
             due.after(Duration::ZERO);
             return false;
         }

@@ -2,23 +2,16 @@
 
 use egui::{Event, RawInput};
 
-/// Takes what came between two frames apart, so that each part has one press or release at most, with what came before it. Whoever samples the state
+/// Takes what came between two frames apart, so that each part has at most one press, or release of a button, with what came before it. Whoever samples the state
 /// of a button once a part then sees every press, at its place.
 #[must_use]
 pub fn one_by_one(mut input: RawInput) -> Vec<RawInput> {
     let events = std::mem::take(&mut input.events);
-    let mut parts = vec![Vec::new()];
-    for event in events {
-        let ends = ends_part(&event);
-        parts.last_mut().into_iter().for_each(|part| part.push(event.clone()));
-        if ends {
-            parts.push(Vec::new());
-        }
+    // A frame without input is a frame.
+    if events.is_empty() {
+        return vec![input];
     }
-    if parts.len() > 1 && parts.last().is_some_and(Vec::is_empty) {
-        parts.pop();
-    }
-    parts.into_iter().map(|events| part(&mut input, events)).collect()
+    events.split_inclusive(ends_part).map(|events| part(&mut input, events.to_vec())).collect()
 }
 
 /// Whether an event is a press or a release that must be seen by itself.

@@ -46,23 +46,25 @@ impl Keeper {
         Some(self.next)
     }
 
-    fn keep_all(&mut self, model: &mut Model, state: Option<u64>) {
+    /// Keeps settings and work; returns whether the work is safe.
+    fn keep_all(&mut self, model: &mut Model, state: Option<u64>) -> bool {
         if self.settings != model.settings {
             self.settings = model.settings.clone();
             self.storage.keep_settings(&self.settings);
         }
         if self.state == state {
-            return;
+            return true;
         }
         self.state = state;
-        match model.unsaved() {
-            None => self.storage.drop_kept(),
-            Some(work) => {
-                if let Err(error) = self.storage.keep(&work) {
-                    model.messages.problem(format!("unsaved work cannot be kept in case of a crash: {error}"));
-                }
-            }
+        let Some(work) = model.unsaved() else {
+            self.storage.drop_kept();
+            return true;
+        };
+        let kept = self.storage.keep(&work);
+        if let Err(error) = &kept {
+            model.messages.problem(format!("unsaved work cannot be kept in case of a crash: {error}"));
         }
+        kept.is_ok()
     }
 
     /// What an earlier window left, if it shall go on here.
@@ -76,10 +78,11 @@ impl Keeper {
         None
     }
 
-    /// What an earlier window left goes on here: kept as this window's work, it need not be kept twice.
+    /// What an earlier window left goes on here: once it is kept as this window's work, it need not be kept twice.
     pub fn taken_up(&mut self, model: &mut Model) {
-        self.keep_all(model, Some(model.undo.state()));
-        self.storage.drop_left();
+        if self.keep_all(model, Some(model.undo.state())) {
+            self.storage.drop_left();
+        }
     }
 
     /// The window closes; what is not saved is kept if nobody has decided to lose it.

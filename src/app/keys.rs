@@ -123,7 +123,7 @@ pub const BINDINGS: [Binding; 33] = [
     bare(Key::H, Action::Panels, "Show or hide the panels"),
     bare(Key::F1, Action::Help, "This help"),
     bare(Key::Questionmark, Action::Help, "This help"),
-    bare(Key::Escape, Action::Dismiss, "Close help and messages"),
+    bare(Key::Escape, Action::Dismiss, "Leave full screen; close help, messages and the probe"),
 ];
 
 /// What the pointer does, for the help.

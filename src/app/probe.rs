@@ -25,8 +25,6 @@ pub struct WallReading {
     pub thickness_nm: f64,
     /// Cosine of the angle of incidence in air.
     pub cos_theta: f64,
-    /// Unit vector from the bubble's center.
-    pub place: DVec3,
     /// Speed of the liquid along the film, m/s, if it is known.
     pub speed_m_s: Option<f64>,
     /// XYZ of white light after reflection; a perfect mirror has Y = 1.
@@ -181,7 +179,6 @@ fn reading(optics: &FilmOptics, wall: &WallInSight, thickness_nm: f64, is_front:
         is_front,
         thickness_nm,
         cos_theta,
-        place: wall.place,
         speed_m_s: wall.speed_m_s,
         xyz,
         path_nm: 2.0 * n * thickness_nm * cos_refracted(n, cos_theta),

@@ -71,7 +71,7 @@ pub enum Request {
 }
 
 impl Request {
-    /// What of the work that is not saved is in danger, as a question names it.
+    /// Before what work that is not saved would be lost, as a question says it; `None` if nothing would be.
     #[must_use]
     pub fn danger(&self) -> Option<&'static str> {
         match self {

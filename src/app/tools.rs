@@ -246,7 +246,7 @@ pub fn outline(story: &Story, tick: u64, bubble: usize) -> Option<(DVec2, f64)> 
     if depth <= 0.0 || distance <= radius_m {
         return None;
     }
-    let height = 2.0 * (0.5 * camera.fov_y_deg.to_radians()).tan();
+    let height = 2.0 * (0.5 * camera.fov_y_rad()).tan();
     let middle = DVec2::new(to_center.dot(camera.right()), to_center.dot(camera.up())) / (depth * height);
     // As of a sphere straight ahead: off the axis its outline is an ellipse, a little longer.
     Some((middle, radius_m / (distance * distance - radius_m * radius_m).sqrt() / height))

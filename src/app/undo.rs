@@ -5,7 +5,7 @@ use std::mem::discriminant;
 use super::edit::Edit;
 use crate::{
     plan::Resources,
-    scene::{Bubble, Camera, Change, Event, Film, Generator, Key, Light, Motion, MotionChange, Scene, View},
+    scene::{Bubble, Camera, Change, Event, Film, Generator, Key, Lens, Light, Motion, MotionChange, Scene, View},
 };
 
 /// Steps that are remembered.
@@ -123,6 +123,12 @@ impl Undo {
         self.past.last().map_or(self.oldest, |step| step.id)
     }
 
+    /// How many steps can be taken back.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.past.len()
+    }
+
     /// Whether the scene differs from the one in its file.
     #[must_use]
     pub fn is_dirty(&self) -> bool {
@@ -145,6 +151,7 @@ fn name(back: &Edit, scene: &Scene) -> String {
     match back {
         Edit::Camera(before) => camera(before, &scene.camera),
         Edit::View(before) => one_of(before, &scene.view, View::ALL_KEYS, "View"),
+        Edit::Lens(before) => one_of(before, &scene.lens, Lens::ALL_KEYS, "Lens"),
         Edit::Light(before) => one_of(before, &scene.light, Light::ALL_KEYS, "Light"),
         Edit::Films(bubbles, generators) => films(bubbles, generators, scene),
         Edit::History(motion, events) => history(motion, events, scene),
@@ -154,8 +161,13 @@ fn name(back: &Edit, scene: &Scene) -> String {
 }
 
 fn camera(before: &Camera, after: &Camera) -> String {
-    let moved = Camera { fov_y_deg: before.fov_y_deg, follow_deg: before.follow_deg, ..after.clone() };
-    if moved == *before { one_of(before, after, Camera::ALL_KEYS, "Camera") } else { "Camera".to_owned() }
+    // A drag changes place and direction, a row of a panel one of the others.
+    let Camera { fov_y_deg, focal_mm, sensor_mm, follow_deg, .. } = *before;
+    if *before == (Camera { fov_y_deg, focal_mm, sensor_mm, follow_deg, ..after.clone() }) {
+        one_of(before, after, Camera::ALL_KEYS, "Camera")
+    } else {
+        "Camera".to_owned()
+    }
 }
 
 fn films(bubbles: &[Bubble], generators: &[Generator], scene: &Scene) -> String {

@@ -262,8 +262,6 @@ impl Handler {
                     path.iter().for_each(|path| self.model.settings.remember(&path.display().to_string()));
                 }
                 Arrival::TakenUp => self.keeper.taken_up(&mut self.model),
-                Arrival::Saved => {}
-                Arrival::NotSaved => self.model.once_saved = None,
                 Arrival::Chosen(target, path) => self.chosen(target, path),
             }
         }

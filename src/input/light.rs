@@ -40,7 +40,18 @@ pub fn load_environment(
             Arc::new(CubeMap::from_equirect(&picture))
         }
     };
-    without_patches(light, with_lamps(light, map, folder, notes)?, folder, notes)
+    lit(light, map, folder, notes)
+}
+
+/// An environment in which the patches of a light have a spectrum of their own, with the light's lamps before both.
+pub(super) fn lit(
+    light: &Light,
+    map: Arc<CubeMap>,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<(Arc<CubeMap>, Vec<SpectralLight>), LoadError> {
+    let (rest, spectral_lights) = without_patches(light, map, folder, notes)?;
+    Ok((with_lamps(light, rest, folder, notes)?, spectral_lights))
 }
 
 /// An environment with the lamps of a light before it.
@@ -83,7 +94,7 @@ fn lamp_of(lamp: &LightLamp, illuminant: &Illuminant) -> Result<Lamp, LoadError>
 }
 
 /// An environment without the light of its patches, and these patches as spectral lights.
-pub(super) fn without_patches(
+fn without_patches(
     light: &Light,
     map: Arc<CubeMap>,
     folder: &Path,

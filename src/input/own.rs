@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{LoadError, LoadedScene, light::without_patches, scene::with_resources};
+use super::{LoadError, LoadedScene, light::lit, scene::with_resources};
 use crate::{
     physics::environment::CubeMap,
     scene::{Scene, SceneSource},
@@ -39,15 +39,15 @@ impl LoadedScene {
         with_resources(scene, source, "scene".to_owned(), PathBuf::new())
     }
 
-    /// The same scene in another environment, in linear BT.2020, which takes the place of `light.environment` and `light.constant`. Patches of
-    /// the light remain. A scene file cannot name such an environment: [`Scene::to_toml`] still writes the old one.
+    /// The same scene in another environment, in linear BT.2020, which takes the place of `light.environment` and `light.constant`. Patches and lamps
+    /// of the light remain. A scene file cannot name such an environment: [`Scene::to_toml`] still writes the old one.
     ///
     /// # Errors
-    /// The illuminant of a patch cannot be loaded.
+    /// An illuminant cannot be loaded.
     pub fn with_environment(mut self, environment: CubeMap) -> Result<Self, LoadError> {
         self.scene.light.constant = None;
         let light = &self.scene.light;
-        let (environment, spectral_lights) = without_patches(light, environment.into(), &self.folder, &mut self.notes)?;
+        let (environment, spectral_lights) = lit(light, environment.into(), &self.folder, &mut self.notes)?;
         self.resources.environment = environment;
         self.resources.spectral_lights = spectral_lights;
         Ok(self)

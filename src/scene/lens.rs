@@ -13,10 +13,10 @@ section! {
 }
 
 /// Largest half angle of the disc that a far point is blurred to, in radians.
-pub const MAX_DEFOCUS_RAD: f64 = 0.5;
+const MAX_DEFOCUS_RAD: f64 = 0.5;
 
 impl Lens {
-    /// Half angle of the cone of directions that an infinitely far background is averaged over, in radians, 0 to [`MAX_DEFOCUS_RAD`]: the lens as
+    /// Half angle of the cone of directions that an infinitely far background is averaged over, in radians, 0 to 0.5: the lens as
     /// it is seen from the point in focus.
     #[must_use]
     pub fn defocus_rad(&self, camera: &Camera) -> f64 {

@@ -38,7 +38,7 @@ section! {
     elevation_deg: f64 = 30.0, [-90.0 ..= 90.0], "Elevation", "°", "elevation of its center above the horizon";
     roll_deg: f64 = 0.0, [finite], "Roll", "°", "angle by which it is turned about its center, counter-clockwise as it is seen";
     width_deg: f64 = 30.0, [0.05 ..= 120.0], "Width", "°", "angle that its width spans; of a disc, its diameter";
-    height_deg: f64 = 40.0, [0.05 ..= 120.0], "Height", "°", "angle that its height spans; of no matter for a disc";
+    height_deg: f64 = 40.0, [0.05 ..= 120.0], "Height", "°", "angle that its height spans; ignored for a disc";
     edge_deg: f64 = 1.0, [0.0 ..= 30.0], "Edge", "°", "width of its soft edge";
     luminance: f64 = 10.0, [0.0 ..= 1000000.0], "Luminance", "", "its luminance; a white surface in full light has 1";
     kelvin: Option<f64> = None, [1000.0 ..= 25000.0], "Temperature", " K", "its colour, as that of a black body, K; without it, that of the illuminant";

@@ -36,7 +36,7 @@ pub use check::Fault;
 pub use error::{Problem, SceneError};
 pub use event::{Blow, BlowKeys, Change, Drag, DragKeys, Event, Prick, PrickKeys, Stir, StirKeys};
 pub use generator::{Generator, GeneratorKeys, Layout};
-pub use lens::{Lens, LensKeys, MAX_DEFOCUS_RAD};
+pub use lens::{Lens, LensKeys};
 pub use light::{
     Backdrop, Environment, LampShape, Light, LightKeys, LightLamp, LightLampKeys, LightPatch, LightPatchKeys,
     MAX_LAMPS, MAX_PATCHES, Quality, View, ViewKeys,

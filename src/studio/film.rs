@@ -166,7 +166,7 @@ impl MovedFilm {
         Ok(self.grid.areas().into_iter().enumerate().map(cell).collect())
     }
 
-    /// The same in some directions of the film's own axes.
+    /// Thickness in nm in some directions of the film's own axes.
     fn at(&self, directions: &[DVec3]) -> Result<Vec<f64>, Error> {
         let thickness_nm = self.thickness_nm()?;
         let to_world = self.key.to_film.transpose();

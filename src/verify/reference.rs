@@ -132,10 +132,13 @@ fn in_light(
     let optics: Vec<FilmOptics> = keys().map(sampled).collect();
     let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
     let out_of_focus = key.defocus(lighting).map(|key| key.map());
-    let behind = |direction: DVec3| match (light.backdrop, &out_of_focus) {
-        (BackdropKey::Colour(radiance), _) => radiance,
-        (_, Some(map)) => light.gain * map.sample(turned(light, direction)),
-        _ => surroundings(direction),
+    let behind = |direction: DVec3| match light.backdrop {
+        BackdropKey::Colour(radiance) => radiance,
+        BackdropKey::Environment => {
+            let (environment, direction) = (&lighting.environment.0, turned(light, direction));
+            let far = out_of_focus.as_ref().unwrap_or(environment).far(direction);
+            light.gain * (environment.lamps_from(direction, light.defocus_rad.tan()) + far)
+        }
     };
     let sphere = |bubble: &BubbleKey| {
         let (center_m, radius_m, stretch) = (bubble.center_m, bubble.radius_m, bubble.stretch);
@@ -168,7 +171,7 @@ const SAMPLES: u32 = 2;
 
 /// Part of light below which a branch of a ray in one bubble is not split any further.
 const NEGLIGIBLE_OF_ONE: f64 = 1e-6;
-/// The same with several bubbles, where each branch has branches of its own: a hundred times less would take a dense crowd of forty ten
+/// That part with several bubbles, where each branch has branches of its own: a hundred times less would take a dense crowd of forty ten
 /// times as long. The light is not lost but taken from the direction that the branch has by then: two bubbles are within 1e-5 of a picture with a
 /// hundredth of this, forty within 2e-4, for surroundings of about 1.
 const NEGLIGIBLE_OF_MANY: f64 = 1e-4;

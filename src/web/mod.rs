@@ -11,10 +11,7 @@ use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
 use self::page::{Bubble, add};
-use crate::{
-    app::{model::Model, request::Request},
-    input::load_scene,
-};
+use crate::{app::model::Model, input::load_scene};
 
 /// Prepares messages of errors for the browser's console.
 #[wasm_bindgen(start)]
@@ -71,9 +68,14 @@ impl SoapBubble {
         Ok(Self { bubble: add(model, canvas, told)? })
     }
 
-    /// Loads another scene, by a preset's or a kept file's name.
-    pub fn load(&self, scene: &str) {
-        self.change(|model| model.requests.push(Request::LoadScene(scene.to_owned())));
+    /// Shows another scene, by a preset's or a kept file's name.
+    ///
+    /// # Errors
+    /// The scene cannot be loaded; the one before stays.
+    pub fn load(&self, scene: &str) -> Result<(), JsError> {
+        let loaded = load_scene(scene)?;
+        self.change(|model| model.adopt(loaded));
+        Ok(())
     }
 
     /// Opens a kept file: a scene, or an environment for the scene.

@@ -18,7 +18,7 @@ use crate::support::{display, load, mean_and_max, radiance, renderer, short_or_l
 
 const SIZE: [u32; 2] = [160, 90];
 
-/// The default scene at rest, in the light of a preset, which also stands behind it.
+/// The preset `tent` at rest, in the light of a preset, which also stands behind it.
 fn at_rest(environment: &str) -> LoadedScene {
     let mut loaded = load("tent");
     loaded.resources = load(environment).resources;

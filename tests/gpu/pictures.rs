@@ -19,7 +19,7 @@ use crate::support::{display, load, mean_and_max, radiance, renderer, short_or_l
 
 const SIZE: [u32; 2] = [320, 180];
 
-/// The default scene with one uniform film, at rest, in some light that also stands behind it.
+/// The preset `tent` with one uniform film, at rest, in some light that also stands behind it.
 fn uniform(thickness_nm: f64, light: CubeMap) -> LoadedScene {
     let mut loaded = load("tent");
     let film = &mut loaded.scene.bubbles[0].film;

@@ -6,7 +6,7 @@ export class SoapBubbleElement extends HTMLElement {
   time: number;
   /** Whether time stands. Set at first where `prefers-reduced-motion` asks for it. */
   paused: boolean;
-  /** Whether the pointer turns the view, zooms and moves the film. */
+  /** Whether the pointer turns, shifts and zooms the view. */
   controls: boolean;
   /** The scene with all that was done to it, as a scene file has it; empty before the first picture. */
   toToml(): string;

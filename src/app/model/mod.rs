@@ -154,9 +154,10 @@ impl Model {
         self.undo = Undo::default();
         self.clock.reset();
         self.furthest_tick = 0;
-        self.time_line.selected = None;
+        self.behind_ticks = 0;
+        (self.time_line.selected, self.time_line.dragged) = (None, None);
         self.probe = Probe::default();
-        (self.selected, self.selected_generator) = (0, 0);
+        (self.selected, self.outlines, self.selected_generator) = (0, false, 0);
         self.motion_draft = None;
         // What the hand held is gone.
         self.hand = Hand::default();
@@ -228,7 +229,8 @@ impl Model {
         self.settings.remember(&self.name);
         self.file = Some(path);
         self.undo.saved(state);
-        self.requests.extend(self.once_saved.take());
+        // What was changed while the file was written must not be lost with what follows.
+        self.once_saved.take().into_iter().for_each(|request| self.ask_for(request));
     }
 
     /// The title of the window.

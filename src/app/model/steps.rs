@@ -35,7 +35,15 @@ impl Model {
         {
             self.clock.reset();
         }
+        self.forget_selection(&back);
         Some(back)
+    }
+
+    /// An event is selected by its index, which another list of events gives to another one.
+    fn forget_selection(&mut self, back: &Edit) {
+        if matches!(back, Edit::History(..) | Edit::Forget(_)) {
+            self.time_line.selected = None;
+        }
     }
 
     /// Takes the last step back.
@@ -59,6 +67,7 @@ impl Model {
         let (owners, tick) = (self.scene.owners().to_vec(), self.clock.tick);
         let edits = std::mem::take(&mut step.back).into_iter().rev();
         step.back = self.scene.change(|scene| edits.map(|edit| edit.apply(scene, tick)).collect());
+        step.back.iter().for_each(|edit| self.forget_selection(edit));
         step.resources = step.resources.map(|before| std::mem::replace(&mut self.resources, before));
         if begins_anew(&owners, self.scene.owners()) {
             self.clock.reset();

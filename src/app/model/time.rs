@@ -29,7 +29,9 @@ impl Model {
         let moved = event.clone();
         // Events stand in the order of their ticks; those of one tick keep theirs.
         events.sort_by_key(|event| event.tick);
-        self.time_line.selected = events.iter().position(|event| *event == moved);
-        self.edit(Edit::History(self.scene.motion.clone().into(), events));
+        let place = events.iter().position(|event| *event == moved);
+        if self.edit(Edit::History(self.scene.motion.clone().into(), events)) {
+            self.time_line.selected = place;
+        }
     }
 }

@@ -1,16 +1,17 @@
-//! All keys of the scene's sections in rows that follow from their declarations: what the other panels leave out is here, and each can be set back.
+//! Keys of the scene's sections in rows that follow from their declarations, each with a way back to its default. Those of the motion have a panel of
+//! their own, and a key without a value has no row.
 
 use egui::{ComboBox, DragValue, Grid, Response, Ui};
 use serde::{Serialize, de::DeserializeOwned};
 use toml::Value;
 
-use super::widgets::tooltip;
+use super::{light, widgets::tooltip};
 use crate::{
     app::{edit::Edit, model::Model},
-    scene::{Bubble, Camera, Film, Generator, Key, Light, Range, View},
+    scene::{Bubble, Camera, Film, Generator, Key, Lens, Light, Range, View},
 };
 
-/// Shows and edits all keys of the selected bubble and generator, the camera, the light and the view.
+/// Shows and edits the keys of the selected bubble and generator, the camera, the view, the lens and the light.
 pub fn show(ui: &mut Ui, model: &mut Model) {
     if let Some(bubble) = model.scene.bubbles.get(model.selected) {
         let mut edited = bubble.clone();
@@ -35,11 +36,16 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     if section(ui, "View", &mut view, View::ALL_KEYS) {
         model.edit(Edit::View(view));
     }
+    let mut lens = model.scene.lens.clone();
+    if section(ui, "Lens", &mut lens, Lens::ALL_KEYS) {
+        model.edit(Edit::Lens(lens));
+    }
     let mut light = model.scene.light.clone();
-    let (environment, illuminant) = (light.environment.clone(), light.illuminant.clone());
-    if section(ui, "Light", &mut light, Light::ALL_KEYS) {
-        // What must be loaded is chosen in the panel of the light.
-        model.edit(Edit::Light(Light { environment, illuminant, ..light }));
+    // What must be loaded is chosen in the panel of the light.
+    let keys: Vec<Key> =
+        Light::ALL_KEYS.iter().filter(|key| !["environment", "illuminant"].contains(&key.name)).copied().collect();
+    if section(ui, "Light", &mut light, &keys) {
+        light::change(model, light);
     }
 }
 
@@ -63,7 +69,10 @@ where
     }
     match Value::Table(table).try_into() {
         Ok(changed) => *value = changed,
-        Err(error) => log::warn!("{title} cannot be changed so: {error}"),
+        Err(error) => {
+            log::warn!("{title} cannot be changed so: {error}");
+            return false;
+        }
     }
     true
 }

@@ -44,14 +44,14 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
 fn bubbles(ui: &mut Ui, model: &mut Model) {
     let selected = model.scene.bubbles.get(model.selected).cloned();
     group(ui, "", |ui| {
-        if ui.button("Add").on_hover_text("Another bubble, as they begin").clicked() {
+        if ui.button("Add").on_hover_text("Add a bubble with the default film").clicked() {
             model.add_bubble(Bubble::default());
         }
         let Some(selected) = selected else { return };
         if ui.button("Duplicate").on_hover_text("Another bubble like this one (Ctrl+D)").clicked() {
             model.add_bubble(selected);
         }
-        if ui.button("Delete").on_hover_text("Without this bubble, and what happens to it").clicked() {
+        if ui.button("Delete").on_hover_text("Delete this bubble and its events").clicked() {
             model.delete_bubble();
         }
     });
@@ -121,6 +121,6 @@ fn index(ui: &mut Ui, index: &mut FilmIndexName) {
         }
     });
     if let (FilmIndexName::Constant(n), Range::Within(lowest, highest)) = (index, Film::KEYS.index.range) {
-        slider(ui, "Value", n, lowest..=highest, "Refractive index of all films", |slider| slider.fixed_decimals(3));
+        slider(ui, "Value", n, lowest..=highest, "Refractive index of the film", |slider| slider.fixed_decimals(3));
     }
 }

@@ -31,7 +31,7 @@ pub fn show(ctx: &Context, model: &mut Model) {
     let modal = Modal::new(Id::unique("gallery")).show(ctx, |ui| {
         ui.set_width((room.x - 60.0).clamp(60.0, 940.0));
         ScrollArea::vertical().max_height((room.y - 90.0).max(60.0)).show(ui, |ui| {
-            let tests = [("To test with", &TEST_PRESETS[..])];
+            let tests = [("For testing", &TEST_PRESETS[..])];
             for (title, names) in PRESET_GROUPS.iter().chain(&tests) {
                 ui.heading(*title);
                 ui.horizontal_wrapped(|ui| {

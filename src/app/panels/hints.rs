@@ -5,7 +5,8 @@ use egui::{Align2, Area, Context, Frame, Id, Rect, vec2};
 use crate::app::model::Model;
 
 /// The line.
-const HINTS: &str = "Drag to turn, scroll to zoom. 2 stirs the film, 6 measures it. Space pauses, Ctrl+Z takes back, F1 shows all keys.";
+const HINTS: &str =
+    "Drag to turn, scroll to zoom. 2 stirs the film, 6 measures it. Space pauses, Ctrl+Z undoes, F1 shows all keys.";
 
 /// Shows the hints over the lower edge of the picture.
 pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
@@ -24,8 +25,8 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
         });
     });
     // Who has changed something knows how.
-    model.settings.knows_hints |= model.undo.is_dirty() && model.undo.state() > HINTED_STEPS;
+    model.settings.knows_hints |= model.undo.steps() > HINTED_STEPS;
 }
 
 /// Steps after which the hints have done their work.
-const HINTED_STEPS: u64 = 12;
+const HINTED_STEPS: usize = 12;

@@ -36,7 +36,14 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     number(ui, &Light::KEYS.intensity, &mut light.intensity, |slider| {
         slider.logarithmic(true).smallest_positive(0.01).max_decimals(2)
     });
-    if light != model.scene.light {
+    change(model, light);
+}
+
+/// Changes the light. Before lamps, even light is a part of the map of the surroundings, which is then computed anew.
+pub(super) fn change(model: &mut Model, light: Light) {
+    if light.constant != model.scene.light.constant && !light.lamps.is_empty() {
+        model.requests.push(Request::LoadLight(light));
+    } else if light != model.scene.light {
         model.edit(Edit::Light(light));
     }
 }

@@ -18,7 +18,7 @@ pub fn show(ctx: &Context, model: &mut Model) {
 }
 
 fn unsaved(ctx: &Context, model: &mut Model, request: Request) {
-    let question = format!("Save the changes of {} {}?", model.name, request.danger().unwrap_or_default());
+    let question = format!("Save changes to {} {}?", model.name, request.danger().unwrap_or_default());
     match ask(ctx, &question, &["Save", "Do not save", "Cancel"], |_| {}) {
         Some(0) => {
             model.once_saved = Some(request);

@@ -46,8 +46,7 @@ fn clock(ui: &mut Ui, model: &mut Model) {
     if ui.button("Reset").on_hover_text("Return to the beginning (R)").clicked() {
         model.clock.reset();
     }
-    ui.toggle_value(&mut model.time_line.loops, "Loop")
-        .on_hover_text("Play from the beginning to the length again and again (L)");
+    ui.toggle_value(&mut model.time_line.loops, "Loop").on_hover_text("Repeat from 0 to this length (L)");
     let length = DragValue::new(&mut model.time_line.length_s).range(0.1..=36_000.0).speed(0.05).suffix(" s");
     let label = ui.label("Length");
     ui.add(length).labelled_by(label.id).on_hover_text("How far the time line reaches, and where a loop begins again");

@@ -57,7 +57,7 @@ fn lens(ui: &mut Ui, model: &mut Model) {
 
 fn focus(ui: &mut Ui, lens: &mut Lens, distance_m: f64) {
     let mut is_held = lens.focus_m.is_some();
-    row(ui, "Hold focus", "Focus at a distance of its own; without it, at the camera's target", |ui| {
+    row(ui, "Hold focus", "Focus at a fixed distance; otherwise at the camera's target", |ui| {
         ui.checkbox(&mut is_held, "")
     });
     lens.focus_m = is_held.then(|| lens.focus_m.unwrap_or(distance_m).clamp(0.01, 1000.0));

@@ -29,7 +29,7 @@ pub fn show(ctx: &Context, model: &mut Model) {
 /// The menu.
 pub fn menu(ui: &mut Ui, model: &mut Model) {
     ui.checkbox(&mut model.settings.is_light, "Light panels");
-    ui.label("Size of letters").on_hover_text("Ctrl and + or -");
+    ui.label("Text size").on_hover_text("Ctrl and + or -");
     ui.horizontal(|ui| {
         for zoom in ZOOMS {
             if ui.selectable_label(model.settings.zoom == zoom, format!("{:.0} %", 100.0 * zoom)).clicked() {

@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::{Painter, carry_out};
 use crate::{
     cli::{finished::Passage, progress::Progress},
-    plan::{DrawKey, FrameRequest, TonemapKey},
+    plan::{DrawKey, Finish, FrameRequest, TonemapKey},
     verify::reference::radiance,
 };
 
@@ -62,7 +62,8 @@ impl Painter<'_> {
 
     fn draw_tile(&mut self, request: &FrameRequest, draw: DrawKey, progress: &Progress) -> anyhow::Result<Vec<Vec3>> {
         let renderer = self.renderer()?;
-        let picture = TonemapKey { draw, ..request.picture.clone() };
+        // Only radiance is read.
+        let picture = TonemapKey { draw, finish: Finish::default(), ..request.picture.clone() };
         carry_out(renderer, &FrameRequest { picture, ..request.clone() }, progress)?;
         let bytes = renderer.read_radiance().context("no picture was drawn")?.wait(&renderer.gpu)?;
         let rgba: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);

@@ -341,7 +341,8 @@ impl Renderer {
         // Without an environment key nothing of it is read; a black one fills the binding.
         let environment =
             products.environment.get_or_insert_with(|| Environment::upload(&self.gpu, &CubeMap::constant(DVec3::ZERO)));
-        let backdrop = products.defocused.as_ref().unwrap_or(environment);
+        // The map of a picture before may still be there.
+        let backdrop = key.defocus(lighting).and(products.defocused.as_ref()).unwrap_or(environment);
         let (films, holes) = (&self.products.films, &self.products.holes);
         let hole = |film: usize| holes.get(film).and_then(Option::as_ref);
         let film = |film: usize| films.get(film).and_then(Option::as_ref).map(|film| film.field.shown());

@@ -66,8 +66,8 @@ impl Display {
         self.bytes(encoded(self.linear(radiance)), pixel)
     }
 
-    /// The same of light that is added to what a page shows, of which the part `left` remains in each of the display's channels: with straight
-    /// alpha, for programs that mix encoded values, as nearly all do that show PNG files.
+    /// The encoded bytes and the straight alpha of a pixel that adds light to a page and leaves the part `left` of the page's own light in each
+    /// channel of the display. They are meant for programs that mix encoded values, as nearly all do that show PNG files.
     ///
     /// Alpha is how much less white a white page is, beside what is added: with P the encoded picture before black and W that before white it
     /// is 1 − (W − P), the mean of the channels. It is no less than P, so that a colour times alpha is P, and the picture before black is exact.

@@ -29,7 +29,7 @@ impl CubeFace {
     pub const ALL: [Self; 6] =
         [Self::PositiveX, Self::NegativeX, Self::PositiveY, Self::NegativeY, Self::PositiveZ, Self::NegativeZ];
 
-    /// Whether a cone about a unit vector may meet this face, for a half angle in radians; near edges and corners it may also not.
+    /// Whether a cone about a unit vector meets this face, for a half angle in radians; also true for some that pass just outside.
     pub fn meets_cone(self, axis: DVec3, half_angle_rad: f64) -> bool {
         let DVec3 { x, y, z: depth } = self.local(axis);
         // A face's corners are farthest from its middle.

@@ -21,8 +21,6 @@ pub struct CubeLevel {
 pub struct CubeMap {
     mips: Vec<CubeLevel>,
     lamps: Vec<Lamp>,
-    /// Tangent of the half angle of the cones that it is averaged over.
-    defocus: f64,
     id: u64,
     neutral: bool,
     repairs: Repairs,
@@ -42,7 +40,7 @@ impl CubeMap {
             store_mips(&mut mips, face, texels);
         }
         let (id, neutral) = (content_id(&mips[0]), mips[0].is_neutral());
-        Self { mips, lamps: Vec::new(), defocus: 0.0, id, neutral, repairs }
+        Self { mips, lamps: Vec::new(), id, neutral, repairs }
     }
 
     /// The same radiance from every direction.
@@ -71,11 +69,6 @@ impl CubeMap {
             self.lamps.push(lamp);
         }
         self
-    }
-
-    /// The map as one that is averaged over cones of a half angle, in radians, already; lamps still are to be.
-    pub(super) fn seen_through(self, half_angle_rad: f64) -> Self {
-        Self { defocus: half_angle_rad.tan(), ..self }
     }
 
     /// The lamps before the map.
@@ -110,12 +103,16 @@ impl CubeMap {
 
     /// Radiance from `direction` (of any length but zero): the lamps', and the largest level's, interpolated across the faces' edges too.
     pub fn sample(&self, direction: DVec3) -> DVec3 {
-        let unit = direction.normalize();
-        let lamps: DVec3 = self.lamps.iter().map(|lamp| lamp.radiance_from(unit, self.defocus, 0.0)).sum();
-        lamps + self.far(direction)
+        self.lamps_from(direction, 0.0) + self.far(direction)
     }
 
-    /// The same without the lamps'.
+    /// Radiance of the lamps from `direction` (of any length but zero), averaged over cones whose half angle has the tangent `defocus`.
+    pub fn lamps_from(&self, direction: DVec3, defocus: f64) -> DVec3 {
+        let unit = direction.normalize();
+        self.lamps.iter().map(|lamp| lamp.radiance_from(unit, defocus, 0.0)).sum()
+    }
+
+    /// Radiance from `direction` (of any length but zero) without the lamps, from the largest level.
     pub fn far(&self, direction: DVec3) -> DVec3 {
         self.sample_level(0, direction)
     }

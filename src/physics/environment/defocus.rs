@@ -21,7 +21,7 @@ const RESULT_TEXELS: f64 = 8.0;
 const MAX_SIZE: f64 = 1024.0;
 
 impl CubeMap {
-    /// The map averaged over cones of a half angle in radians, 0 to 0.5: what stands behind a scene, out of focus. Only some faces are made, in
+    /// The map, without its lamps, averaged over cones of a half angle in radians, from about a texel to 0.5: what stands behind a scene, out of focus. Only some faces are made, in
     /// the order of [`CubeFace::ALL`]; the others are black. As large as shows no texels.
     #[must_use]
     pub fn defocused(&self, half_angle_rad: f64, faces: [bool; 6]) -> Self {
@@ -29,8 +29,7 @@ impl CubeMap {
         // Discs of less than a texel leave the map nearly as it is.
         let size = if half_angle_rad * (self.size() as f64) < 2.0 { self.size() as f64 } else { size };
         let cones = Cones::new(self, half_angle_rad, faces);
-        let map = Self::from_fn((size as usize).next_multiple_of(16), 1, |direction| cones.mean(direction));
-        map.seen_through(half_angle_rad).with_lamps(self.lamps().iter().copied())
+        Self::from_fn((size as usize).next_multiple_of(16), 1, |direction| cones.mean(direction))
     }
 }
 

@@ -259,14 +259,15 @@ impl DrawKey {
     /// What is seen of one of the lights behind the bubbles, where that is an environment out of focus.
     #[must_use]
     pub fn defocus(&self, Lighting { light, environment, .. }: &Lighting) -> Option<DefocusKey> {
-        // Even light is the same in focus and out of it.
-        let is_even = environment.size() == 1;
-        if light.backdrop != BackdropKey::Environment || light.defocus_rad == 0.0 || is_even {
+        // Discs narrower than a texel leave the map as it is.
+        let is_sharp = light.defocus_rad * f64::from(environment.size()) < 1.0;
+        if light.backdrop != BackdropKey::Environment || is_sharp {
             return None;
         }
-        let [width, height] = self.size.map(f64::from);
-        // To the corners of the picture and a little farther: faces are interpolated across their edges.
-        let half_angle = (0.5 * self.camera.pixel_height_m * width.hypot(height)).atan() + light.defocus_rad;
+        // From the line of sight, which a part of a picture may lie aside of, to the farthest corner, and a pixel more: faces are interpolated across
+        // their edges.
+        let reach = 0.5 * DVec2::from(self.size.map(f64::from)) + self.camera.shift.abs();
+        let half_angle = ((reach.length() + 1.0) * self.camera.pixel_height_m).atan() + light.defocus_rad;
         let forward = DMat3::from_rotation_z(-light.rotation_rad) * self.camera.forward;
         let meets = |face: CubeFace| {
             face.meets_cone(forward, half_angle)

@@ -108,8 +108,10 @@ fn a_lens_blurs_the_faces_in_sight_once() {
     (scene.camera.azimuth_deg, scene.camera.elevation_deg) = (0.0, 0.0);
     let sharp = scene.clone();
     scene.lens.aperture_mm = 10.0;
+    let surroundings = Arc::new(CubeMap::from_fn(256, 1, |direction| direction.abs()));
+    let resources = Resources { environment: surroundings, ..resources() };
     let made = |from: &GpuState, scene: &Scene| -> (Vec<(usize, bool)>, GpuState) {
-        let plan = plan(&frame_request(scene, 0, Pace::Whole), from);
+        let plan = plan(&request(scene, &resources, &shot(0, Pace::Whole)).unwrap(), from);
         let blurred = plan.steps.iter().filter_map(|(pass, _)| match pass {
             Pass::DefocusBackdrop { key, adds, .. } => Some((key.faces.iter().filter(|face| **face).count(), *adds)),
             _ => None,
@@ -129,6 +131,24 @@ fn a_lens_blurs_the_faces_in_sight_once() {
     let (other, seen) = made(&seen, &scene);
     assert_eq!((other, made(&seen, &sharp).0), (vec![(1, false)], vec![]));
     assert!(made(&seen, &sharp).1.lights[0].defocused.is_none());
+    // Discs narrower than a texel.
+    scene.lens.aperture_mm = 1e-6;
+    assert_eq!(made(&start, &scene).0, vec![]);
+}
+
+#[test]
+fn a_part_of_a_picture_asks_for_the_faces_that_it_shows() {
+    let mut scene = uniform_scene();
+    scene.view.backdrop = Backdrop::Environment;
+    (scene.camera.azimuth_deg, scene.camera.elevation_deg, scene.camera.fov_y_deg) = (30.0, 0.0, 30.0);
+    scene.lens.aperture_mm = 10.0;
+    let surroundings = Arc::new(CubeMap::from_fn(256, 1, |direction| direction.abs()));
+    let resources = Resources { environment: surroundings, ..resources() };
+    let whole = request(&scene, &resources, &shot(0, Pace::Whole)).unwrap().picture.draw;
+    let faces = |draw: &DrawKey| draw.defocus(&draw.lighting).map(|key| key.faces.iter().filter(|face| **face).count());
+    assert_eq!(faces(&whole), Some(2));
+    let tiles = [0, 32].map(|x| whole.cut(&(x..x + 32), &(0..36)));
+    assert!(tiles.iter().any(|tile| faces(tile) == Some(2)), "the face that the whole picture sees at its edge");
 }
 
 #[test]

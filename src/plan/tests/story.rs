@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// The default scene, stirred, dragged and blown at once a second.
+/// The preset `tent`, stirred, dragged and blown at once a second.
 fn eventful(seconds: u64) -> Scene {
     let happens = |second: u64| match second % 3 {
         0 => Change::Stir(Stir { ticks: 90, ..Stir::default() }),
