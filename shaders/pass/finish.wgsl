@@ -1,7 +1,5 @@
-// What a lens and a film do to the linear picture before it is shown: glare, vignetting, grain.
-//
-// Glare is a part of the light that the lens scatters. Its point-spread function is a sum of bells, each twice as wide as the last: the picture
-// is halved again and again, and the halves are added up from the smallest on, each with its share. Both filters keep the light's sum.
+// What a lens and a film do to the linear picture before it is shown: glare, vignetting, grain. What they are stands in
+// `physics/picture/finish.rs`.
 
 import package::colour::display::{hash, uniform_of};
 

@@ -28,11 +28,13 @@ impl Passage {
     }
 }
 
-/// What a display shows of a picture.
+/// What a display shows of a picture, with what the lens does to it.
 pub fn display(key: &TonemapKey, size: [u32; 2], radiance: &[Vec3]) -> Picture {
     let display = shown_by(key);
-    encoded(key, size, radiance, |radiance, pixel| {
-        let [r, g, b] = display.encode(radiance.as_dvec3(), pixel);
+    let radiance = radiance.iter().map(|radiance| radiance.as_dvec3()).collect();
+    let finished = key.finish.applied(size, key.exposure_ev.exp2(), radiance);
+    encoded(key, size, &finished, |radiance, pixel| {
+        let [r, g, b] = display.encode(*radiance, pixel);
         [r, g, b, u8::MAX]
     })
 }

@@ -27,9 +27,9 @@ pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary,
-    FilmColours, FilmKey, Finish, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment,
-    OpenHoleKey, Opening, OpticsKey, PlateKey, QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey,
-    exposed_ev, range_nm, remaining_nm,
+    FilmColours, FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey,
+    Opening, OpticsKey, PlateKey, QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm,
+    remaining_nm,
 };
 pub use lender::film_owners;
 pub use pass::{Pass, Reason};

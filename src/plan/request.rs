@@ -5,8 +5,8 @@ use std::{collections::BTreeMap, sync::Arc};
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, Finish, FrameRequest, LentFilm,
-    LightKey, Lighting, OpticsKey, PlateKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LentFilm, LightKey,
+    Lighting, OpticsKey, PlateKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
@@ -21,7 +21,7 @@ use crate::{
         environment::CubeMap,
         film::fold_seed,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
-        picture::Plate,
+        picture::{Finish, Plate},
     },
     scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Lens, Quality, Scene},
 };

@@ -181,10 +181,11 @@ fn black(run: &mut Run<'_>) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// An hour of a blown film, most of which it rests.
+/// An hour of a blown film, most of which it rests. In the short form more drag brings it to rest sooner.
 fn an_hour(run: &mut Run<'_>) -> Result<(), GpuError> {
     const HOUR_S: f64 = 3600.0;
-    let scene = blown();
+    let slower = run.short_or_full(4.0, 1.0);
+    let scene = blown_with(|motion| motion.drag_1_s *= slower);
     let mut played = Played::new(run.gpu, &scene)?;
     let before = played.thickness()?;
     played.play_to((HOUR_S / scene.motion.tick_s).round() as u64)?;

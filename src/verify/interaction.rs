@@ -143,8 +143,7 @@ fn swing(run: &mut Run<'_>, name: &str, events: Vec<Event>) -> Result<(), GpuErr
 
 /// Interactions as wild as scenes allow, then peace.
 fn anything(run: &mut Run<'_>, name: &str, events: u64, reach_m: f64) -> Result<(), GpuError> {
-    // Half a minute, or a third of it with as much more drag.
-    let (drag_1_s, peace_s) = run.short_or_full((6.0, 10.0), (2.0, 30.0));
+    let (drag_1_s, peace_s) = (2.0, run.short_or_full(2.0, 30.0));
     let mut random = Random::new(7);
     let mut scene = Scene::default();
     scene.bubbles[0].film.cells = 16;

@@ -20,7 +20,7 @@ use crate::{
 /// Points of each measurement.
 const POINTS: usize = 20_000;
 /// Points of a short one, of films to 3 µm: they have the same mean, and miss some of the worst.
-const FEW_POINTS: usize = 5_000;
+const FEW_POINTS: usize = 2_500;
 /// Rays flatter than this count in the mean, but not in the maximum of two walls: films reflect like mirrors there.
 const STEEP_COS: f64 = 0.26;
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::DVec3;
 use soapfilm::{
     input::LoadedScene,
+    physics::colour::Display,
     scene::{Backdrop, Lens, Scene},
 };
 
@@ -84,6 +85,38 @@ fn glare_spreads_light_and_keeps_its_sum() {
     assert!(at(&spread, 0) < 0.49 && at(&spread, 20) > at(&spread, 40) && at(&spread, 40) > 0.0);
     // No darker in the middle.
     assert!((at(&dark, 0) - at(&sharp, 0)).abs() < 0.01 && sum(&dark) < sum(&sharp));
+}
+
+/// Glare, vignetting and grain, of a lamp near the picture's edge: within rounding of half floats, where a bright pixel's is a step of 8 bits.
+#[test]
+fn the_finish_of_a_picture_matches_its_f64_twin() {
+    let Some(mut renderer) = renderer() else { return };
+    let size = [150, 101];
+    let mut request = still(&lamp("glare = 0.3\nvignetting_ev = 1.5\ngrain = 0.05"), size, 0.5);
+    let sharp = radiance(&mut renderer, &request);
+    request.picture.draw.full_precision = false;
+    let seen = display(&mut renderer, &request);
+    let key = &request.picture;
+    let shown = Display { exposure_ev: key.exposure_ev, balance: key.balance, gamut: key.gamut, dither: key.dither };
+    let finished = key.finish.applied(size, key.exposure_ev.exp2(), sharp);
+    let truth = finished.iter().flat_map(|radiance| shown.encode(*radiance, [0, 0]));
+    let seen = seen.chunks(4).flat_map(|pixel| &pixel[..3]);
+    let (mean, most) = mean_and_max(seen.zip(truth).map(|(seen, truth)| f64::from(seen.abs_diff(truth))));
+    eprintln!("measured: finish, levels of 8 bits: mean {mean:.4}, at most {most}");
+    assert!(mean < 0.05 && most <= 1.0, "{mean} {most}");
+}
+
+#[test]
+fn a_lens_is_forgotten_with_its_scene() {
+    let (Some(mut used), Some(mut fresh)) = (renderer(), renderer()) else { return };
+    let out_of_focus = load("default");
+    let mut sharp = load("default");
+    sharp.scene.lens = Lens::default();
+    let moment = |loaded| still(loaded, SIZE, 0.0);
+    let blurred = radiance(&mut used, &moment(&out_of_focus));
+    let then = radiance(&mut used, &moment(&sharp));
+    assert!(then == radiance(&mut fresh, &moment(&sharp)), "as if there had never been a lens");
+    assert!(then != blurred);
 }
 
 #[test]

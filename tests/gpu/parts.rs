@@ -27,7 +27,7 @@ fn plated(preset: &str) -> LoadedScene {
 fn a_photograph_is_seen_through_films_as_in_f64() {
     let Some(mut renderer) = renderer() else { return };
     // On a bath, and in light whose red is faint in blue.
-    for (preset, illuminant) in [("tent", "D65"), ("bath", "D65"), ("tent", "sodium")] {
+    for (preset, illuminant) in [("bath", "D65"), ("tent", "sodium")] {
         let mut loaded = plated(preset);
         loaded.resources.illuminant = Arc::new(illuminant.parse().unwrap());
         let request = still(&loaded, [64, 36], 0.0);

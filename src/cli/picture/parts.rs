@@ -6,7 +6,8 @@ use glam::Vec3;
 use super::{Painter, carry_out};
 use crate::{
     cli::{finished::Passage, progress::Progress},
-    plan::{DrawKey, Finish, FrameRequest, TonemapKey},
+    physics::picture::Finish,
+    plan::{DrawKey, FrameRequest, TonemapKey},
     verify::reference::radiance,
 };
 

@@ -10,7 +10,8 @@ use crate::{
         target::Target,
         timing::Recorder,
     },
-    plan::{Finish, TonemapKey},
+    physics::picture::Finish,
+    plan::TonemapKey,
 };
 
 shader_struct! {
@@ -66,24 +67,6 @@ pub struct Finished {
     picture: Option<Target>,
 }
 
-/// Widths of glare: bells of an eighth of the picture's height, and so on down to a 256th.
-const WIDTHS: u32 = 6;
-
-/// Part of the glare of each level, the first half as large as the picture. Each bell takes 1.4 times the light of the next wider one, so the
-/// point-spread function falls about as the power −2.5 of the distance, as those of lenses do, of −2 to −3 (McCann and Rizzi, The Art and Science
-/// of HDR Imaging, 2012). Bells narrower than two pixels stay with the sharp picture.
-fn shares(height: u32) -> Vec<f64> {
-    let levels = f64::from(height.max(1)).log2().round() as usize;
-    let of_width = |width: u32| 0.5f64.sqrt().powi(WIDTHS as i32 - 1 - width as i32);
-    let total: f64 = (0..WIDTHS).map(of_width).sum();
-    // Width 0 is an eighth of the height: level log2(height) − 3.
-    let share = |level: usize| match levels.saturating_sub(3).checked_sub(level) {
-        Some(width) if (width as u32) < WIDTHS => of_width(width as u32) / total,
-        _ => 0.0,
-    };
-    (1..=levels.saturating_sub(3)).map(share).collect()
-}
-
 impl Finished {
     /// Records the finish of a linear picture, and returns its result.
     pub fn record(
@@ -93,10 +76,8 @@ impl Finished {
         radiance: &Target,
     ) -> Result<&Target, GpuError> {
         let (gpu, format) = (recorder.gpu, radiance_format(false));
-        let Finish { glare, vignetting_ev, grain, grain_seed } = key.finish;
-        let [width, height] = key.draw.size;
-        let shares = if glare > 0.0 { shares(width.min(height)) } else { Vec::new() };
-        let shares: Vec<f32> = shares.into_iter().map(|share| (glare * share) as f32).collect();
+        let Finish { vignetting_ev, grain, grain_seed, .. } = key.finish;
+        let shares: Vec<f32> = key.finish.shares(key.draw.size).into_iter().map(|share| share as f32).collect();
         self.fit_halves(gpu, key.draw.size, shares.len());
         let glare = self.record_glare(recorder, radiance, &shares)?;
         let uniform = FinishUniform {
@@ -156,20 +137,4 @@ impl Finished {
 fn draw(recorder: &mut Recorder<'_>, target: &Target, drawable: &Drawable) {
     recorder.render("finish", &target.view, None, |pass| drawable.draw(pass, 3));
     recorder.counts.draws += 1;
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn glare_has_the_same_widths_in_pictures_of_all_sizes() {
-        let (small, large) = (shares(256), shares(2048));
-        assert_eq!((small.len(), large.len()), (5, 8));
-        // From the widest on; the narrowest of the small picture is less than two pixels wide.
-        let widest = |shares: &[f64]| shares.iter().rev().copied().take(5).collect::<Vec<_>>();
-        assert_eq!(widest(&small), widest(&large));
-        assert!((large.iter().sum::<f64>() - 1.0).abs() < 1e-12 && small.iter().sum::<f64>() < 1.0);
-        assert!(shares(4).is_empty());
-    }
 }

@@ -25,8 +25,8 @@ use super::{
     timing::{Counts, Recorder, TimeLog},
 };
 use crate::{
-    physics::{environment::CubeMap, sphere::CubedSphere},
-    plan::{DrawKey, FilmKey, Finish, FrameRequest, GpuState, Lighting, Pass, Plan, TableKey, TonemapKey, plan},
+    physics::{environment::CubeMap, picture::Finish, sphere::CubedSphere},
+    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Lighting, Pass, Plan, TableKey, TonemapKey, plan},
 };
 
 /// Everything that is on the device.

@@ -178,14 +178,14 @@ fn dither([column, row]: [u32; 2], seed: u32) -> f64 {
 }
 
 /// The output permutation of PCG (M. O'Neill 2014), by M. Jarzynski and M. Olano, "Hash functions for GPU rendering", JCGT 9 (2020).
-fn hash(value: u32) -> u32 {
+pub(in crate::physics) fn hash(value: u32) -> u32 {
     let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     (word >> 22) ^ word
 }
 
 /// Uniform in [0, 1).
-fn uniform(bits: u32) -> f64 {
+pub(in crate::physics) fn uniform(bits: u32) -> f64 {
     f64::from(bits >> 8) / f64::from(1 << 24)
 }
 

@@ -27,6 +27,7 @@ pub use built_in::{BUILT_IN, BuiltIn, Line};
 pub use cie::Observer;
 pub use delta_e::{Lab, ciede2000, xyz_to_lab};
 pub use display::{Display, Gamut};
+pub(in crate::physics) use display::{hash, uniform};
 pub use film::{FilmOptics, SpectrumPoint, m2_delta_e, m2_exposure};
 pub use illuminant::{Illuminant, UnknownIlluminant};
 pub use quadrature::{QuadratureTask, QuadratureWavelength, fit_quadrature, responses};

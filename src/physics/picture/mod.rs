@@ -26,6 +26,7 @@
 //! film's thickness). What stands behind the bubbles is seen straight through them only, not in reflections.
 
 mod bath;
+mod finish;
 mod front;
 mod light_path;
 mod plate;
@@ -37,6 +38,7 @@ use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::colour::{ColourWeights, FilmOptics};
+pub use finish::Finish;
 pub use front::{FrontBubble, FrontPixel, FrontScene, FrontWall};
 use light_path::LightPath;
 pub use plate::Plate;

@@ -15,8 +15,8 @@ pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};
 pub use optics::{OpticsKey, QuadratureKey, TableKey, range_nm};
 pub(in crate::plan) use picture::samples;
 pub use picture::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, FilmColours, Finish, LentFilm, LightKey, Lighting, SmallBubble,
-    TonemapKey, exposed_ev,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, FilmColours, LentFilm, LightKey, Lighting, SmallBubble, TonemapKey,
+    exposed_ev,
 };
 pub use plate::PlateKey;
 pub use rest::RestingFilm;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{DefocusKey, EnvironmentKey, FilmKey, OpenHoleKey, Opening, PlateKey, QuadratureKey, TableKey};
-use crate::physics::{colour::Gamut, environment::CubeFace, film::Cap};
+use crate::physics::{colour::Gamut, environment::CubeFace, film::Cap, picture::Finish};
 
 /// One bubble as the picture sees it.
 #[derive(Clone, Debug, PartialEq)]
@@ -351,19 +351,6 @@ impl Lighting {
             "the colours of films"
         }
     }
-}
-
-/// What a lens and a film do to the picture before it is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Finish {
-    /// Part of light that the lens scatters.
-    pub glare: f64,
-    /// Stops that the corners lose.
-    pub vignetting_ev: f64,
-    /// Relative grain of a radiance that is exposed as 1.
-    pub grain: f64,
-    /// Seed of the grain; 0 without grain.
-    pub grain_seed: u32,
 }
 
 /// The finished picture.
