@@ -1,14 +1,14 @@
 //! `soapfilm film`: the thickness of a bubble's film as numbers, as a map, and as the material of a model.
 
-mod map;
 mod model;
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{AdapterArguments, SceneSettings, parse, progress::Progress};
+use super::{AdapterArguments, SceneSettings, parse, progress::progress};
 use crate::{
+    export::map::{Map, Projection},
     input::LoadedScene,
     output::{CsvWriter, ExrChannels, Metadata, check_target, print, write_atomically},
     physics::film::{
@@ -19,7 +19,6 @@ use crate::{
     scene::Scene,
     studio::{FilmCell, Studio, reference_film, reference_film_at},
 };
-use map::{Map, Projection};
 use model::Model;
 
 /// Write the thickness of a bubble's film: as numbers, as a map, or as a glTF model
@@ -123,7 +122,7 @@ fn mapped(arguments: &Arguments, scene: &LoadedScene, map: &Map) -> anyhow::Resu
         let mut studio = Studio::on(arguments.adapter.open()?);
         return Ok(studio.film_at(scene, arguments.bubble, arguments.time, &directions)?);
     }
-    let progress = Progress::new("film", 1);
+    let progress = progress("film", 1);
     let part = progress.part((arguments.time / scene.scene.motion.tick_s).ceil() as u64);
     let film = (arguments.bubble, arguments.time);
     Ok(reference_film_at(scene, film, &directions, &|ticks| part.add(ticks))?)
@@ -151,7 +150,7 @@ fn cells(arguments: &Arguments, scene: &LoadedScene) -> anyhow::Result<Vec<FilmC
     if !arguments.reference {
         return Ok(Studio::on(arguments.adapter.open()?).film(scene, arguments.bubble, arguments.time)?);
     }
-    let progress = Progress::new("film", 1);
+    let progress = progress("film", 1);
     let ticks = (arguments.time / scene.scene.motion.tick_s).ceil() as u64;
     let part = progress.part(ticks);
     Ok(reference_film(scene, arguments.bubble, arguments.time, &|ticks| part.add(ticks))?)
