@@ -105,7 +105,7 @@ fn files() -> MutexGuard<'static, Files> {
 }
 
 /// Removes all temporary files, and prevents new ones from then on: for the end of the program.
-pub(super) fn abandon_files() {
+pub fn abandon_files() {
     let files = files();
     for path in &files.unfinished {
         let _ = fs::remove_file(path);

@@ -25,7 +25,7 @@ mod table;
 mod video;
 
 #[cfg(not(target_arch = "wasm32"))]
-pub use atomic::{UnfinishedFile, check_target, write_atomically};
+pub use atomic::{UnfinishedFile, abandon_files, check_target, write_atomically};
 #[cfg(target_arch = "wasm32")]
 pub use download::write_atomically;
 pub use error::OutputError;

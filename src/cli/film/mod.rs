@@ -8,9 +8,9 @@ use clap::Args;
 
 use super::{AdapterArguments, SceneSettings, parse, progress::progress};
 use crate::{
-    export::map::{Map, Projection},
+    export::map::{FilmMap, Map, Projection},
     input::LoadedScene,
-    output::{CsvWriter, ExrChannels, Metadata, check_target, print, write_atomically},
+    output::{CsvWriter, Metadata, check_target, print, write_atomically},
     physics::film::{
         Flow,
         properties::{SURFACE_VISCOSITY, VISCOSITY, kinematic_viscosity},
@@ -72,11 +72,7 @@ impl Arguments {
     }
 
     fn metadata(&self, scene: &LoadedScene) -> Metadata {
-        Metadata::new()
-            .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
-            .with("Scene", &scene.name)
-            .with("Bubble", &self.bubble.to_string())
-            .with("Time", &format!("{} s", self.time))
+        Metadata::of_scene(&scene.name, self.time).with("Bubble", &self.bubble.to_string())
     }
 }
 
@@ -89,13 +85,10 @@ fn save_cells(arguments: &Arguments, scene: &LoadedScene) -> anyhow::Result<()> 
 }
 
 fn save_map(arguments: &Arguments, scene: &LoadedScene, map: &Map, path: &Path) -> anyhow::Result<()> {
-    let thickness_nm: Vec<f32> = mapped(arguments, scene, map)?.into_iter().map(|nm| nm as f32).collect();
-    // Y is what viewers show of a picture without colours.
-    let channels = ["thickness_nm", "Y"].map(|name| (name.to_owned(), thickness_nm.clone()));
-    let metadata = map.described(arguments.metadata(scene));
-    ExrChannels { size: map.size(), channels: &channels, metadata: &metadata }.save(path)?;
+    let film = FilmMap::new(*map, mapped(arguments, scene, map)?);
+    film.save(path, &arguments.metadata(scene))?;
     let [width, height] = map.size();
-    Ok(print(format_args!("{width}x{height} pixels: {}\n", range(&thickness_nm)))?)
+    Ok(print(format_args!("{width}x{height} pixels: {}\n", range(&film.thickness_nm)))?)
 }
 
 fn save_model(arguments: &Arguments, scene: &LoadedScene, map: &Map, path: &Path) -> anyhow::Result<()> {

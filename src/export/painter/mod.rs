@@ -93,10 +93,7 @@ impl Painter {
 
     /// The metadata of the file.
     pub fn metadata(&self, time_s: f64) -> Metadata {
-        Metadata::new()
-            .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
-            .with("Scene", &self.loaded.name)
-            .with("Time", &format!("{time_s} s"))
+        Metadata::of_scene(&self.loaded.name, time_s)
     }
 
     /// Opens the device if a picture needs one. Called before a bar is shown, so that the adapter's name does not run into it.
