@@ -42,7 +42,9 @@ pub struct Arguments {
 struct Frames(RangeInclusive<u64>);
 
 fn frames(text: &str) -> Result<Frames, String> {
-    let numbers = text.split_once("..").and_then(|(first, last)| Some((first.parse().ok()?, last.parse().ok()?)));
+    // Render farms write A-B.
+    let ends = text.split_once("..").or_else(|| text.split_once('-'));
+    let numbers = ends.and_then(|(first, last)| Some((first.parse().ok()?, last.parse().ok()?)));
     match numbers {
         Some((first, last)) if first <= last => Ok(Frames(first..=last)),
         Some((first, last)) => {
@@ -81,8 +83,8 @@ mod tests {
     #[test]
     fn frames_are_a_range_that_holds_both_ends() {
         assert_eq!(frames("3..3"), Ok(Frames(3..=3)));
-        assert_eq!(frames("0..299"), Ok(Frames(0..=299)));
-        for wrong in ["5", "5..4", "-1..2", "a..b", "1..=2", ""] {
+        assert_eq!([frames("0..299"), frames("0-299")], [Ok(Frames(0..=299)), Ok(Frames(0..=299))]);
+        for wrong in ["5", "5..4", "-1..2", "a..b", "1..=2", "", "-", "1--2", "1-2-3"] {
             assert!(frames(wrong).unwrap_err().contains("A..B"), "{wrong}");
         }
     }
