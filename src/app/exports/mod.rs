@@ -10,7 +10,7 @@ pub use queue::{Entry, Watch};
 
 use std::{path::Path, sync::Arc};
 
-use super::model::Model;
+use super::{model::Model, system};
 use crate::{
     export::Job,
     input::LoadedScene,
@@ -24,6 +24,8 @@ pub struct Exports {
     pub form: Form,
     /// What waits and runs, in the order in which it was asked for.
     pub entries: Vec<Entry>,
+    /// Whether the window closes once all of them have ended.
+    pub then_quits: bool,
     /// Exports so far.
     count: u64,
 }
@@ -92,7 +94,7 @@ pub fn snapshot(model: &Model) -> LoadedScene {
 pub fn open_dialog(model: &mut Model, size: [u32; 2]) {
     let stem = Path::new(&model.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
     let end_s = (model.last_tick().max(60) as f64) * model.scene.motion.tick_s;
-    model.exports.form.open(&model.folder.join(stem), size, end_s);
+    model.exports.form.open(&system::whole_path(&model.folder.join(stem)), size, end_s);
 }
 
 #[cfg(test)]

@@ -31,7 +31,8 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
         return;
     }
     ctx.request_repaint_after_secs(PERIOD_S);
-    let corner = picture.right_bottom() + vec2(-12.0, -12.0);
+    // Above the hints.
+    let corner = picture.right_bottom() + vec2(-12.0, if model.settings.knows_hints { -12.0 } else { -56.0 });
     let area = Area::new(Id::unique("exports")).fixed_pos(corner).pivot(Align2::RIGHT_BOTTOM).constrain_to(picture);
     let cancelled = area.show(ctx, |ui| {
         let shown =
@@ -56,22 +57,26 @@ fn line(ui: &mut Ui, entry: &Entry) -> Option<u64> {
 
 fn dialog(ctx: &Context, model: &mut Model) {
     let mut form = std::mem::take(&mut model.exports.form);
+    let before = form.clone();
     let (time_s, room) = (model.clock.time_s(&model.scene.motion), ctx.content_rect().size());
     let modal = Modal::new(Id::unique("export")).show(ctx, |ui| {
         ui.set_width((room.x - 40.0).clamp(60.0, 520.0));
         ui.heading("Export");
         let mut clicked = Clicked::default();
         ScrollArea::vertical().max_height((room.y - 140.0).max(60.0)).show(ui, |ui| {
-            let before = (form.kind, form.picture_format, form.sequence_format);
             choice_of(ui, "What", &mut form.kind, Kind::CHOICES);
             ui.weak(form.kind.help());
             ui.add_space(4.0);
             fields(ui, &mut form, time_s, model.selected);
-            if before != (form.kind, form.picture_format, form.sequence_format) {
+            if form.ending() != before.ending() {
                 form.name_file();
             }
             clicked.chooses = file(ui, &mut form);
         });
+        // What was refused may be right now.
+        if form != before {
+            form.refused = None;
+        }
         if let Some(refused) = &form.refused {
             ui.colored_label(ui.visuals().warn_fg_color, refused);
         }
@@ -138,12 +143,9 @@ fn fields(ui: &mut Ui, form: &mut Form, time_s: f64, selected: usize) {
                 rate,
             );
             if let Ok(frames) = form.frames() {
-                ui.weak(format!(
-                    "{} frames, {} to {}",
-                    frames.end() - frames.start() + 1,
-                    frames.start(),
-                    frames.end()
-                ));
+                let (first, last) = (frames.start(), frames.end());
+                let plural = if first == last { "" } else { "s" };
+                ui.weak(format!("{} frame{plural}, {first} to {last}", last - first + 1));
             }
             picture(ui, form);
         }

@@ -36,7 +36,9 @@ fn exporting(_: &Context, _: &mut Model) {}
 
 #[cfg(not(target_arch = "wasm32"))]
 fn exporting(ctx: &Context, model: &mut Model) {
-    match ask(ctx, "Exports are not finished.", &["Go on exporting", "Stop them and quit"], |_| {}) {
+    let answers = ["Quit when they are done", "Stop them and quit", "Cancel"];
+    match ask(ctx, "Exports are not finished.", &answers, |_| {}) {
+        Some(0) => model.exports.then_quits = true,
         Some(1) => {
             model.exports.cancel_all();
             model.ask_for(Request::Quit);

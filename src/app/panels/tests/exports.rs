@@ -115,7 +115,7 @@ fn exports_show_how_far_they_are_and_can_be_stopped() {
     // The window asks before they are lost.
     window.state_mut().model.ask_for(Request::Quit);
     window.run_steps(3);
-    window.get_by_label("Go on exporting").click();
+    window.get_by_label("Cancel").click();
     window.run_steps(3);
     assert!(!window.state().model.requests.contains(&Request::Quit));
     window.get_by_label("Stop").click();
