@@ -227,7 +227,7 @@ impl Files {
             Outcome::Map(map) => model.compare.map = model.compare.kept.as_ref().map(|_| map),
             Outcome::Done(text) => model.messages.note(text),
             #[cfg(not(target_arch = "wasm32"))]
-            Outcome::Exported(id, result) => exported(model, id, result),
+            Outcome::Exported(id, result) => super::exports::ended(model, id, result),
             Outcome::Failed(text) => {
                 model.messages.problem(text);
                 model.loading = model.loading.take().filter(|_| !current);
@@ -237,23 +237,6 @@ impl Files {
             Outcome::Scene(_) | Outcome::TakenUp(..) | Outcome::Light(..) => {}
         }
         None
-    }
-}
-
-/// An export has ended.
-#[cfg(not(target_arch = "wasm32"))]
-fn exported(model: &mut Model, id: u64, result: Result<(), String>) {
-    match model.exports.end(id, result) {
-        Some(Ok(text)) => model.messages.note(text),
-        Some(Err(text)) => {
-            // Who waits for all of them must read this.
-            model.exports.then_quits = false;
-            model.messages.problem(text);
-        }
-        None => {}
-    }
-    if model.exports.then_quits && !model.exports.are_wanted() {
-        model.ask_for(super::request::Request::Quit);
     }
 }
 

@@ -10,7 +10,7 @@ pub use queue::{Entry, Watch};
 
 use std::{path::Path, sync::Arc};
 
-use super::{model::Model, system};
+use super::{model::Model, request::Request, system};
 use crate::{
     export::Job,
     input::LoadedScene,
@@ -95,6 +95,22 @@ pub fn open_dialog(model: &mut Model, size: [u32; 2]) {
     let stem = Path::new(&model.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
     let end_s = (model.last_tick().max(60) as f64) * model.scene.motion.tick_s;
     model.exports.form.open(&system::whole_path(&model.folder.join(stem)), size, end_s);
+}
+
+/// An export has ended: what came of it is told, and the window closes if it was waited for.
+pub fn ended(model: &mut Model, id: u64, result: Result<(), String>) {
+    match model.exports.end(id, result) {
+        Some(Ok(text)) => model.messages.note(text),
+        Some(Err(text)) => {
+            // Who waits for all of them must read this.
+            model.exports.then_quits = false;
+            model.messages.problem(text);
+        }
+        None => {}
+    }
+    if model.exports.then_quits && !model.exports.are_wanted() {
+        model.ask_for(Request::Quit);
+    }
 }
 
 #[cfg(test)]

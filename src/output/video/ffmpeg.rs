@@ -68,6 +68,9 @@ impl Ffmpeg {
         let mut command = Command::new("ffmpeg");
         command.args(arguments(video)).arg(file);
         command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+        // An interrupt at the terminal is for this program: ffmpeg ends when its frames do.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut program = command.spawn()?;
         let frames = program.stdin.take();
         let mut errors = program.stderr.take();

@@ -25,6 +25,11 @@ fn write(window: &mut Harness<'static, State>, name: &str, text: &str) {
     window.run();
 }
 
+fn export(window: &mut Harness<'static, State>) {
+    window.get_by_role_and_label(Role::Button, "Export").click();
+    window.run();
+}
+
 fn waiting(window: &Harness<'static, State>) -> Vec<Job> {
     let entries = window.state().model.exports.entries.iter();
     let job = |entry: &Entry| match &entry.state {
@@ -51,7 +56,7 @@ fn a_picture_of_any_size_is_exported() {
     write(&mut window, "Samples", "4");
     window.get_by_role_and_label(Role::CheckBox, "Alpha").click();
     window.run();
-    click(&mut window, "Export");
+    export(&mut window);
     let model = &window.state().model;
     assert!(!model.exports.form.is_open, "{:?}", model.exports.form.refused);
     let [Job::Picture { options, path, .. }] = &waiting(&window)[..] else { panic!("no picture waits") };
@@ -64,11 +69,11 @@ fn what_is_wrong_stands_beside_its_field_and_nothing_begins() {
     let (mut window, _folder) = dialog();
     write(&mut window, "Width", "wide");
     window.get_by_label("write a number of pixels");
-    click(&mut window, "Export");
+    export(&mut window);
     assert!(waiting(&window).is_empty());
     write(&mut window, "Width", "640");
     write(&mut window, "File", "/no/such/folder/a.png");
-    click(&mut window, "Export");
+    export(&mut window);
     window.get_by_label_contains("folder /no/such/folder does not exist");
     assert!(waiting(&window).is_empty());
 }
@@ -82,10 +87,10 @@ fn a_video_is_exported_from_a_time_to_another() {
     write(&mut window, "To", "2.5 s");
     write(&mut window, "Frame rate", "60");
     window.get_by_label("90 frames, 60 to 149");
-    click(&mut window, "Export");
+    export(&mut window);
     window.get_by_label_contains("--fps 50");
     write(&mut window, "Frame rate", "20");
-    click(&mut window, "Export");
+    export(&mut window);
     let [Job::Sequence { sequence, .. }] = &waiting(&window)[..] else { panic!("no video waits") };
     assert_eq!((sequence.frames.clone(), sequence.target.format()), (20..=49, crate::export::Format::Png));
     assert_eq!(waiting(&window)[0].path(), folder.path().join("furnace.gif"));
@@ -99,7 +104,7 @@ fn a_map_is_exported() {
     click(&mut window, "Film map");
     click(&mut window, "Cube");
     write(&mut window, "Map height", "64");
-    click(&mut window, "Export");
+    export(&mut window);
     let [Job::Map { bubble: 0, map, path, .. }] = &waiting(&window)[..] else { panic!("no map waits") };
     assert_eq!((map.size(), path.clone()), ([64, 384], folder.path().join("furnace.exr")));
 }
@@ -107,7 +112,7 @@ fn a_map_is_exported() {
 #[test]
 fn exports_show_how_far_they_are_and_can_be_stopped() {
     let (mut window, _folder) = dialog();
-    click(&mut window, "Export");
+    export(&mut window);
     let (_, _, _, watch) = window.state_mut().model.exports.begin_next().unwrap();
     watch.hear(0.25);
     window.run_steps(3);
