@@ -100,7 +100,7 @@ fn a_sequence_cut_over_machines_is_that_of_one() {
     let places = [format!("Scene={scene}"), format!("Output={farm}"), format!("Soapfilm={program}")];
     let mut command = Command::new("openjd");
     command.args(["run", "sequence.yaml"]).current_dir(desk.path(""));
-    parameters.iter().chain(&places).for_each(|parameter| drop(command.args(["-p", parameter])));
+    command.args(parameters.iter().chain(&places).flat_map(|parameter| ["-p", parameter.as_str()]));
     let run = command.output().unwrap();
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stdout));
     for frame in 0..=4 {

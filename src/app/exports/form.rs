@@ -76,9 +76,9 @@ pub struct Form {
     /// Whether an EXR holds what the picture is made of.
     pub layers: bool,
     /// When a sequence begins, s.
-    pub from_s: String,
+    pub begin_s: String,
     /// When it ends, s.
-    pub to_s: String,
+    pub end_s: String,
     /// Frames per second.
     pub fps: String,
     /// How a map lays out the sphere.
@@ -105,8 +105,8 @@ impl Default for Form {
             gamut: Gamut::Srgb,
             alpha: false,
             layers: false,
-            from_s: "0".to_owned(),
-            to_s: String::new(),
+            begin_s: "0".to_owned(),
+            end_s: String::new(),
             fps: "30".to_owned(),
             projection: Projection::Equirect,
             map_height: "512".to_owned(),
@@ -133,7 +133,7 @@ impl Form {
         let [width, height] = size.map(|length| (length / 2 * 2).max(2));
         fill(&mut self.width, width.to_string());
         fill(&mut self.height, height.to_string());
-        fill(&mut self.to_s, format!("{end_s:.2}"));
+        fill(&mut self.end_s, format!("{end_s:.2}"));
         fill(&mut self.path, stem.display().to_string());
         self.name_file();
     }
@@ -192,17 +192,17 @@ impl Form {
     }
 
     /// When a sequence begins, s.
-    pub fn from_s(&self) -> Read<f64> {
-        seconds(&self.from_s)
+    pub fn begin_s(&self) -> Read<f64> {
+        seconds(&self.begin_s)
     }
 
     /// When it ends, s.
-    pub fn to_s(&self) -> Read<f64> {
-        let to_s = seconds(&self.to_s)?;
-        if self.from_s().is_ok_and(|from_s| from_s >= to_s) {
+    pub fn end_s(&self) -> Read<f64> {
+        let end_s = seconds(&self.end_s)?;
+        if self.begin_s().is_ok_and(|begin_s| begin_s >= end_s) {
             Err("ends before it begins".to_owned())
         } else {
-            Ok(to_s)
+            Ok(end_s)
         }
     }
 
@@ -213,11 +213,11 @@ impl Form {
 
     /// First and last frame: those whose times lie from the beginning to the end, without the end.
     pub fn frames(&self) -> Read<std::ops::RangeInclusive<u64>> {
-        let ([from_s, to_s], rate) = ([self.from_s()?, self.to_s()?], self.rate()?);
+        let ([begin_s, end_s], rate) = ([self.begin_s()?, self.end_s()?], self.rate()?);
         // A time that is a frame's own, but for rounding, is that frame's.
         let after = |time_s: f64| (time_s / rate.time_s(1) - 1e-6).ceil().max(0.0) as u64;
-        let first = after(from_s);
-        Ok(first..=after(to_s).saturating_sub(1).max(first))
+        let first = after(begin_s);
+        Ok(first..=after(end_s).saturating_sub(1).max(first))
     }
 
     /// Height of a map, pixels.

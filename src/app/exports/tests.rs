@@ -35,7 +35,7 @@ fn a_video_has_the_frames_from_its_beginning_to_its_end() {
         ("0", "1001", "24000/1001", 0..=23999),
         ("0.01", "0.02", "30", 1..=1),
     ] {
-        (form.from_s, form.to_s, form.fps) = (from.to_owned(), to.to_owned(), fps.to_owned());
+        (form.begin_s, form.end_s, form.fps) = (from.to_owned(), to.to_owned(), fps.to_owned());
         assert_eq!(form.frames(), Ok(frames), "{from} to {to} at {fps}");
     }
     let Ok(Job::Sequence { sequence: Sequence { target, .. }, .. }) = form.job(0.0, 0) else { panic!("no video") };
@@ -56,8 +56,8 @@ fn what_cannot_be_read_is_told_at_its_field() {
     assert!(wrong(&|form| form.width = "-3".to_owned()).contains("pixels"));
     assert!(wrong(&|form| (form.width, form.height) = ("100000".into(), "100000".into())).contains("8192x8192"));
     assert!(wrong(&|form| form.samples = "0".to_owned()).contains("1 to 64"));
-    assert!(wrong(&|form| form.to_s = "0".to_owned()).contains("before it begins"));
-    assert!(wrong(&|form| form.from_s = "nan".to_owned()).contains("seconds"));
+    assert!(wrong(&|form| form.end_s = "0".to_owned()).contains("before it begins"));
+    assert!(wrong(&|form| form.begin_s = "nan".to_owned()).contains("seconds"));
     assert!(wrong(&|form| form.fps = "fast".to_owned()).contains("24000/1001"));
     assert!(wrong(&|form| form.path = "a/life.png".to_owned()).contains("end it in .mp4"));
     assert!(wrong(&|form| form.path.clear()).contains("name a file"));

@@ -131,9 +131,9 @@ fn fields(ui: &mut Ui, form: &mut Form, time_s: f64, selected: usize) {
         }
         Kind::Sequence => {
             choice_of(ui, "Format", &mut form.sequence_format, SequenceFormat::CHOICES);
-            let (from, to, rate) = (form.from_s().err(), form.to_s().err(), form.rate().err());
-            number(ui, "From", "When the first frame is, in seconds of the film's time", &mut form.from_s, "s", from);
-            number(ui, "To", "When the last frame ends, in seconds of the film's time", &mut form.to_s, "s", to);
+            let (from, to, rate) = (form.begin_s().err(), form.end_s().err(), form.rate().err());
+            number(ui, "From", "When the first frame is, in seconds of the film's time", &mut form.begin_s, "s", from);
+            number(ui, "To", "When the last frame ends, in seconds of the film's time", &mut form.end_s, "s", to);
             number(
                 ui,
                 "Frame rate",

@@ -12,8 +12,8 @@ use image::{RgbaImage, imageops};
 use super::{Encoder, Video, VideoError};
 use crate::{output::FrameRate, physics::colour::Gamut};
 
-/// Of a frame's pixels, one in this many teaches the palette; 1 to 30.
-const LEARNS_FROM_ONE_IN: i32 = 4;
+/// Of a larger frame's pixels, about as many as this teach the palette.
+const LEARNS_FROM: usize = 250_000;
 const COLOURS: usize = 256;
 /// Viewers show frames that are shorter than 1/50 s for much longer.
 const MAX_RATE: u32 = 50;
@@ -57,7 +57,8 @@ impl Encoder for Gif {
         let [width, height] = self.size;
         let wrong = || io::Error::other("a frame has another size than the video");
         let mut image = RgbaImage::from_raw(width, height, rgba.to_vec()).ok_or_else(wrong)?;
-        let palette = NeuQuant::new(LEARNS_FROM_ONE_IN, COLOURS, rgba);
+        let one_in = (rgba.len() / 4).div_ceil(LEARNS_FROM).clamp(1, 10);
+        let palette = NeuQuant::new(one_in as i32, COLOURS, rgba);
         imageops::dither(&mut image, &palette);
         let indices = imageops::index_colors(&image, &palette).into_raw();
         let mut frame = Frame::from_palette_pixels(width as u16, height as u16, indices, palette.color_map_rgb(), None);
