@@ -81,3 +81,60 @@ impl Job {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    use super::*;
+    use crate::{export::Quality, input::load_scene, output::VideoFormat, physics::colour::Gamut};
+
+    /// Hears how far the work is in hundredths, and has enough at some of them.
+    struct Ear {
+        enough: u64,
+        heard: AtomicU64,
+    }
+
+    impl Observer for Ear {
+        fn is_watching(&self) -> bool {
+            true
+        }
+
+        fn hear(&self, done: f64) {
+            self.heard.fetch_max((100.0 * done).round() as u64, Ordering::Relaxed);
+        }
+
+        fn has_cancelled(&self) -> bool {
+            self.heard.load(Ordering::Relaxed) >= self.enough
+        }
+    }
+
+    /// A video of ten frames that needs no device.
+    fn video(path: &Path) -> Job {
+        let quality = Some(Quality::Reference);
+        let options =
+            PictureOptions { size: [16, 8], quality, gamut: Gamut::Srgb, alpha: false, layers: false, samples: 1 };
+        let target = SequenceTarget::Video { path: path.to_owned(), format: VideoFormat::Gif };
+        Job::Sequence { options, sequence: Sequence { frames: 0..=9, rate: "10".parse().unwrap(), target } }
+    }
+
+    fn run(job: &Job, enough: u64) -> (anyhow::Result<()>, u64) {
+        let ear = Arc::new(Ear { enough, heard: AtomicU64::new(0) });
+        let result = job.run(load_scene("furnace").unwrap(), Box::new(|| unreachable!("no device")), ear.clone());
+        (result, ear.heard.load(Ordering::Relaxed))
+    }
+
+    #[test]
+    fn work_that_is_stopped_ends_early_and_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.gif");
+        let job = video(&path);
+        job.check().unwrap();
+        let (result, heard) = run(&job, 30);
+        assert_eq!((result.unwrap_err().to_string(), heard), ("cancelled".to_owned(), 30));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        let (result, heard) = run(&job, 101);
+        assert!(result.is_ok() && path.exists(), "{result:?}");
+        assert_eq!(heard, 100);
+    }
+}
