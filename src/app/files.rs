@@ -227,7 +227,7 @@ impl Files {
             Outcome::Map(map) => model.compare.map = model.compare.kept.as_ref().map(|_| map),
             Outcome::Done(text) => model.messages.note(text),
             #[cfg(not(target_arch = "wasm32"))]
-            Outcome::Exported(id, result) => super::exports::ended(model, id, result),
+            Outcome::Exported(id, result) => model.export_ended(id, result),
             Outcome::Failed(text) => {
                 model.messages.problem(text);
                 model.loading = model.loading.take().filter(|_| !current);

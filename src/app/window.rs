@@ -19,8 +19,6 @@ use winit::{
     window::{Window, WindowAttributes, WindowId},
 };
 
-#[cfg(not(target_arch = "wasm32"))]
-use super::exports;
 use super::{
     AppError,
     files::{Arrival, Files},
@@ -256,7 +254,7 @@ impl Handler {
                 Err(text) => self.model.messages.problem(text),
             },
             #[cfg(not(target_arch = "wasm32"))]
-            Request::Export => exports::open_dialog(&mut self.model, view.picture_size),
+            Request::Export => self.model.open_export(view.picture_size),
             Request::Save => self.model.file.iter().for_each(|file| self.files.save_scene(file.clone(), &self.model)),
             Request::Typed(target, text) => self.typed(target, text),
             Request::Left(fate) => {

@@ -8,14 +8,9 @@ pub use form::{Form, Kind, SequenceFormat};
 pub use queue::State;
 pub use queue::{Entry, Watch};
 
-use std::{path::Path, sync::Arc};
+use std::sync::Arc;
 
-use super::{model::Model, request::Request, system};
-use crate::{
-    export::Job,
-    input::LoadedScene,
-    scene::{Scene, SceneSource},
-};
+use crate::{export::Job, input::LoadedScene};
 
 /// The dialog, and all exports that have not ended.
 #[derive(Default)]
@@ -73,43 +68,6 @@ impl Exports {
     pub fn cancel(&mut self, id: u64) {
         self.entries.iter().filter(|entry| entry.id == id).for_each(|entry| entry.watch.cancel());
         self.entries.retain(|entry| entry.id != id || entry.is_running());
-    }
-}
-
-/// A scene as a window has it now, for work that goes on while it is edited.
-pub fn snapshot(model: &Model) -> LoadedScene {
-    let scene = Scene::clone(&model.scene);
-    LoadedScene {
-        // What is refused is told with its place in the file that this scene would be saved to.
-        source: SceneSource::new(&model.name, &scene.to_toml(), &[]),
-        scene,
-        name: model.name.clone(),
-        folder: model.folder.clone(),
-        resources: model.resources.clone(),
-        notes: Vec::new(),
-    }
-}
-
-/// Opens the dialog for a scene, with a place for its file where there is none yet.
-pub fn open_dialog(model: &mut Model, size: [u32; 2]) {
-    let stem = Path::new(&model.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
-    let end_s = (model.last_tick().max(60) as f64) * model.scene.motion.tick_s;
-    model.exports.form.open(&system::whole_path(&model.folder.join(stem)), size, end_s);
-}
-
-/// An export has ended: what came of it is told, and the window closes if it was waited for.
-pub fn ended(model: &mut Model, id: u64, result: Result<(), String>) {
-    match model.exports.end(id, result) {
-        Some(Ok(text)) => model.messages.note(text),
-        Some(Err(text)) => {
-            // Who waits for all of them must read this.
-            model.exports.then_quits = false;
-            model.messages.problem(text);
-        }
-        None => {}
-    }
-    if model.exports.then_quits && !model.exports.are_wanted() {
-        model.ask_for(Request::Quit);
     }
 }
 

@@ -1,5 +1,7 @@
 //! The dialog's texts, and the queue.
 
+use std::path::Path;
+
 use super::*;
 use crate::{
     app::model::tests::model,
@@ -68,7 +70,7 @@ fn exports_are_done_one_by_one_and_can_be_stopped() {
     let model = model();
     let mut exports = Exports { form: opened(), ..Exports::default() };
     let job = exports.form.job(0.0, 0).unwrap();
-    (0..3).for_each(|_| exports.add(job.clone(), snapshot(&model)));
+    (0..3).for_each(|_| exports.add(job.clone(), model.snapshot()));
     let (first, .., watch) = exports.begin_next().unwrap();
     assert!(exports.begin_next().is_none(), "one at a time");
     assert_eq!([0, 1].map(|k: usize| exports.entries[k].told()), ["starting", "waiting"]);
@@ -83,7 +85,7 @@ fn exports_are_done_one_by_one_and_can_be_stopped() {
     assert_eq!(exports.end(first, Err("cancelled".to_owned())), None);
     let (third, ..) = exports.begin_next().unwrap();
     assert_eq!(exports.end(third, Err("no room".to_owned())), Some(Err("no room".to_owned())));
-    exports.add(job, snapshot(&model));
+    exports.add(job, model.snapshot());
     let (fourth, ..) = exports.begin_next().unwrap();
     assert_eq!(exports.end(fourth, Ok(())), Some(Ok("Exported a/life.png".to_owned())));
     assert!(exports.entries.is_empty());

@@ -1,6 +1,8 @@
 //! What the window shows and what its user has changed: everything that needs neither a window nor a GPU.
 
 mod bubbles;
+#[cfg(not(target_arch = "wasm32"))]
+mod exports;
 mod steps;
 mod time;
 

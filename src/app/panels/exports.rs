@@ -6,7 +6,7 @@ use super::widgets::{choice_of, group, options_of, row};
 use crate::{
     Words,
     app::{
-        exports::{Entry, Form, Kind, SequenceFormat, snapshot},
+        exports::{Entry, Form, Kind, SequenceFormat},
         model::Model,
         request::{Request, Target},
     },
@@ -113,7 +113,7 @@ fn begin(model: &mut Model, form: &mut Form, time_s: f64) {
     form.refused = checked.as_ref().err().cloned();
     form.is_open = checked.is_err();
     if let Ok(job) = checked {
-        let scene = snapshot(model);
+        let scene = model.snapshot();
         model.exports.add(job, scene);
     }
 }

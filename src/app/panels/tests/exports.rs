@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    app::exports::{Entry, Kind, SequenceFormat, State as Stage, open_dialog},
+    app::exports::{Entry, Kind, SequenceFormat, State as Stage},
     export::{Job, Observer},
 };
 
@@ -11,7 +11,7 @@ fn dialog() -> (Harness<'static, State>, tempfile::TempDir) {
     let (mut window, folder) = (window(), tempfile::tempdir().unwrap());
     let model = &mut window.state_mut().model;
     model.folder = folder.path().to_owned();
-    open_dialog(model, [801, 500]);
+    model.open_export([801, 500]);
     window.run();
     (window, folder)
 }
