@@ -20,6 +20,7 @@
 //! |---|---|---|
 //! | `web` | who asks in a browser: the page around the window; on `wasm32` alone | the command line |
 //! | [`cli`], [`app`] | who asks: the command line, and the window | each other |
+//! | `export` | files that take long, for both of them: large pictures, sequences, video; not on `wasm32` | the command line, windows |
 //! | [`studio`] | the library's front door: a picture, a film or a colour in a few lines | the command line, windows |
 //! | [`output`], [`input`] | files: pictures, tables and reports out; environments and spectra in | windows, GPUs |
 //! | [`verify`] | whether it is right: measurements against references | windows, files |
@@ -36,6 +37,8 @@
 pub mod app;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;
+#[cfg(not(target_arch = "wasm32"))]
+mod export;
 pub mod gpu;
 pub mod input;
 pub mod output;

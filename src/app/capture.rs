@@ -55,8 +55,5 @@ impl Capture {
 }
 
 fn metadata(model: &Model) -> Metadata {
-    Metadata::new()
-        .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
-        .with("Scene", &model.name)
-        .with("Time", &format!("{} s", model.clock.time_s(&model.scene.motion)))
+    Metadata::of_scene(&model.name, model.clock.time_s(&model.scene.motion))
 }

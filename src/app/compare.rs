@@ -62,6 +62,8 @@ pub enum Want {
     Keep,
     /// To be compared with A.
     Map,
+    /// To go to the clipboard.
+    Copy,
 }
 
 /// A kept picture, and how it is compared.

@@ -33,6 +33,8 @@ enum Outcome {
     Saved(PathBuf, u64),
     Map(Map),
     Done(String),
+    #[cfg(not(target_arch = "wasm32"))]
+    Exported(u64, Result<(), String>),
     Failed(String),
     NotSaved(String),
     Nothing,
@@ -146,6 +148,12 @@ impl Files {
         });
     }
 
+    /// Makes an export; what came of it arrives with its number.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn export(&self, id: u64, work: impl FnOnce() -> Result<(), String> + Send + 'static) {
+        self.run_or(move || Outcome::Exported(id, work()), move |fault| Outcome::Exported(id, Err(fault)));
+    }
+
     /// Asks for a file.
     pub fn ask(&self, target: Target, model: &Model, window: &winit::window::Window) {
         let (tell, name) = (self.teller(), target.file_name(&model.name));
@@ -169,14 +177,23 @@ impl Files {
     }
 
     fn run(&self, work: impl FnOnce() -> Outcome + Send + 'static) {
+        self.run_or(work, Outcome::Failed);
+    }
+
+    /// Runs a piece of work on a thread of its own, or tells why it could not be done.
+    fn run_or(
+        &self,
+        work: impl FnOnce() -> Outcome + Send + 'static,
+        failed: impl FnOnce(String) -> Outcome + Clone + Send + 'static,
+    ) {
         let tell = self.teller();
-        let told = tell.clone();
+        let (told, refused) = (tell.clone(), failed.clone());
         let job = move || {
-            let broken = |_| Outcome::Failed("an internal error stopped the work: please report it".to_owned());
+            let broken = |_| failed("an internal error stopped the work: please report it".to_owned());
             tell(catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(broken));
         };
         if let Err(error) = system::spawn(job) {
-            told(Outcome::Failed(format!("no thread could be started: {error}")));
+            told(refused(format!("no thread could be started: {error}")));
         }
     }
 
@@ -209,6 +226,8 @@ impl Files {
             }
             Outcome::Map(map) => model.compare.map = model.compare.kept.as_ref().map(|_| map),
             Outcome::Done(text) => model.messages.note(text),
+            #[cfg(not(target_arch = "wasm32"))]
+            Outcome::Exported(id, result) => model.export_ended(id, result),
             Outcome::Failed(text) => {
                 model.messages.problem(text);
                 model.loading = model.loading.take().filter(|_| !current);

@@ -285,6 +285,11 @@ impl View {
         let Some(bytes) = readback.try_take() else { return due.after(FETCH) };
         self.compared = None;
         match bytes {
+            Ok(rgba) if want == Want::Copy => {
+                let size = size.map(|length| length as usize);
+                self.egui.egui_ctx().copy_image(egui::ColorImage::from_rgba_unmultiplied(size, &rgba));
+                model.messages.note("The picture is on the clipboard");
+            }
             Ok(rgba) => files.compare(model, want, Pixels { size, rgba: Arc::new(rgba) }),
             Err(error) => model.messages.problem(format!("the picture cannot be read: {error}")),
         }

@@ -35,6 +35,9 @@ pub enum Action {
     Save,
     /// Saves the scene to another file.
     SaveAs,
+    /// Opens the dialog for exports.
+    #[cfg(not(target_arch = "wasm32"))]
+    Export,
     /// Saves the picture as PNG.
     SavePng,
     /// Saves the picture as EXR.
@@ -82,7 +85,7 @@ const fn command(key: Key, action: Action, help: &'static str) -> Binding {
 const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 /// All keys. Those with more modifiers stand first, for a shortcut also matches with more held than it asks for.
-pub const BINDINGS: [Binding; 33] = [
+pub const BINDINGS: &[Binding] = &[
     Binding {
         shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::P),
         action: Action::SaveExr,
@@ -98,6 +101,8 @@ pub const BINDINGS: [Binding; 33] = [
     command(Key::Y, Action::Redo, "Redo"),
     command(Key::D, Action::Duplicate, "Add a bubble like the selected one"),
     command(Key::P, Action::SavePng, "Save the picture as PNG"),
+    #[cfg(not(target_arch = "wasm32"))]
+    command(Key::E, Action::Export, "Export a picture of any size, a video or a map of the film"),
     command(Key::O, Action::Open, "Open a scene"),
     command(Key::S, Action::Save, "Save the scene with its history"),
     command(Key::Q, Action::Quit, "Quit"),
@@ -162,7 +167,7 @@ mod tests {
 
     #[test]
     fn every_binding_does_what_it_says() {
-        for binding in &BINDINGS {
+        for binding in BINDINGS {
             let KeyboardShortcut { modifiers, logical_key } = binding.shortcut;
             // A keyboard reports the command key as ctrl too, as egui's winit layer does.
             let modifiers = Modifiers { ctrl: modifiers.command, ..modifiers };

@@ -8,6 +8,7 @@
 //! | `edit`, [`undo`] | the one gate for changes of the scene, and what takes them back |
 //! | [`files`], [`storage`], `keeper` | the system: dialogs, loading and saving; settings and unsaved work |
 //! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
+//! | `exports` | the dialog for pictures, video and maps, and the queue of what is being made |
 //! | [`request`] | what goes from the model to the system, and the questions that come before |
 //! | [`compare`] | a kept picture beside the one that is shown |
 //! | [`probe`], `film_reader` | numbers of the film under the pointer |
@@ -18,6 +19,8 @@ pub mod clock;
 pub mod compare;
 pub mod costs;
 mod edit;
+#[cfg(not(target_arch = "wasm32"))]
+mod exports;
 pub mod files;
 pub mod history;
 pub mod keys;

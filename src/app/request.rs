@@ -19,6 +19,8 @@ pub enum Target {
     SaveExr,
     /// Where the numbers and spectra of the probe go.
     SaveCsv,
+    /// Where an export goes: a file with this ending, or a folder.
+    Export(Option<&'static str>),
 }
 
 impl Target {
@@ -31,6 +33,11 @@ impl Target {
             Self::SavePng => ("PNG picture", &["png"]),
             Self::SaveExr => ("OpenEXR picture", &["exr"]),
             Self::SaveCsv => ("Table", &["csv"]),
+            Self::Export(None) => ("Folder", &[]),
+            Self::Export(Some(ending)) => {
+                let known = EXPORTED.iter().find(|known| known[0] == ending);
+                ("Export", known.map_or(&[], |known| known.as_slice()))
+            }
         }
     }
 
@@ -38,7 +45,7 @@ impl Target {
     #[must_use]
     pub fn file_name(self, scene: &str) -> String {
         let stem = Path::new(scene).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
-        format!("{stem}.{}", self.file_type().1[0])
+        self.file_type().1.first().map_or(stem.to_owned(), |ending| format!("{stem}.{ending}"))
     }
 
     /// Whether the file is there already.
@@ -47,6 +54,9 @@ impl Target {
         matches!(self, Self::OpenScene | Self::OpenEnvironment)
     }
 }
+
+/// Endings of files that are exported.
+const EXPORTED: [[&str; 1]; 6] = [["png"], ["exr"], ["mp4"], ["webm"], ["gif"], ["apng"]];
 
 /// What a panel or key asks for that takes more than the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +70,9 @@ pub enum Request {
     /// A link to this page that holds the scene.
     #[cfg(target_arch = "wasm32")]
     CopyLink,
+    /// The dialog for exports.
+    #[cfg(not(target_arch = "wasm32"))]
+    Export,
     /// The scene goes to its file.
     Save,
     /// A file by the path that was typed.
@@ -100,6 +113,8 @@ pub enum Question {
     Unsaved(Request),
     /// Whether work shall be taken up that an earlier window left when it ended; the name of its scene.
     Left(String),
+    /// Whether the window closes before its exports are done.
+    Exporting,
     /// Which path a file has, where no dialog of the system can ask: what is typed, and what is wrong with it.
     Path(Target, String, Option<String>),
 }

@@ -223,6 +223,18 @@ impl Handler {
         for request in std::mem::take(&mut self.model.requests) {
             self.serve(event_loop, request);
         }
+        #[cfg(not(target_arch = "wasm32"))]
+        self.export();
+    }
+
+    /// Begins the next export, if none is being done, on a device of its own: what fails there leaves the window alone.
+    #[cfg(not(target_arch = "wasm32"))]
+    fn export(&mut self) {
+        let Some(gpu) = self.view.as_ref().map(|view| &view.stage.renderer.gpu) else { return };
+        let Some((id, job, scene, watch)) = self.model.exports.begin_next() else { return };
+        let gpu = gpu.clone();
+        let open = Box::new(move || pollster::block_on(gpu.another()));
+        self.files.export(id, move || job.run(scene, open, watch).map_err(|error| format!("{error:#}")));
     }
 
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: AppError) {
@@ -241,6 +253,8 @@ impl Handler {
                 Ok(()) => self.model.messages.note("The link is on the clipboard"),
                 Err(text) => self.model.messages.problem(text),
             },
+            #[cfg(not(target_arch = "wasm32"))]
+            Request::Export => self.model.open_export(view.picture_size),
             Request::Save => self.model.file.iter().for_each(|file| self.files.save_scene(file.clone(), &self.model)),
             Request::Typed(target, text) => self.typed(target, text),
             Request::Left(fate) => {
@@ -279,12 +293,20 @@ impl Handler {
                 csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
             }
             Target::OpenScene | Target::OpenEnvironment => self.open_file(&path),
+            #[cfg(not(target_arch = "wasm32"))]
+            Target::Export(ending) => {
+                let path = ending.map_or(path.clone(), |ending| with_ending(path, ending));
+                self.model.exports.form.path = path.display().to_string();
+            }
+            #[cfg(target_arch = "wasm32")]
+            Target::Export(_) => {}
         }
     }
 
     /// Takes a typed path; one that would replace a file must be typed twice, as the dialogs of systems ask too.
     fn typed(&mut self, target: Target, text: String) {
-        let path = with_ending(from_home(&text), target.file_type().1[0]);
+        let path = from_home(&text);
+        let path = target.file_type().1.first().map_or(path.clone(), |ending| with_ending(path, ending));
         let replaces = format!("{} is there already; Enter replaces it", path.display());
         let wrong = match (target.is_read(), path.exists(), self.model.question.take()) {
             (true, false, _) => format!("there is no file {}", path.display()),
@@ -394,6 +416,11 @@ impl ApplicationHandler<Outside> for Handler {
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
         self.keeper.close(&mut self.model, self.failure.is_none());
+        // Their threads end with the program: what they have begun must not stay behind.
+        #[cfg(not(target_arch = "wasm32"))]
+        if !self.model.exports.entries.is_empty() {
+            crate::output::abandon_files();
+        }
         // The surface must go before the display that it belongs to.
         self.view = None;
     }

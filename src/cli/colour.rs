@@ -7,8 +7,9 @@ use clap::{Args, ValueEnum};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{AdapterArguments, parse, progress::Progress, strip};
+use super::{AdapterArguments, parse, progress::progress, strip};
 use crate::{
+    export,
     gpu::passes::probe_colour::{ColourProbe, ProbePoint},
     input::{load_illuminant, load_liquid, read_table_text},
     output::{Metadata, print, write_text},
@@ -58,7 +59,7 @@ pub struct Arguments {
     illuminant: String,
     /// `fast`, `standard`, `spectral` (as in pictures of that quality) or `reference` (f64 on the CPU, no GPU needed)
     #[arg(long, value_name = "QUALITY", default_value = "standard", value_parser = parse::quality)]
-    quality: parse::Quality,
+    quality: export::Quality,
     /// Add the reflectance every 5 nm from 360 to 780 nm in columns, or write the spectrum of one film in rows instead of its colour
     #[arg(long, value_name = "columns|rows", num_args = 0..=1, default_missing_value = "columns")]
     spectrum: Option<Spectrum>,
@@ -92,8 +93,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         return write(arguments, &spectrum_rows(&points, &optics)?);
     }
     let colours: Vec<DVec3> = match arguments.quality {
-        parse::Quality::Reference => in_f64(&optics, &points.films),
-        parse::Quality::Gpu(quality) => through_shaders(arguments, &key, quality, &points.films)?,
+        export::Quality::Reference => in_f64(&optics, &points.films),
+        export::Quality::Gpu(quality) => through_shaders(arguments, &key, quality, &points.films)?,
     };
     anyhow::ensure!(
         colours.iter().all(|xyz| xyz.is_finite()),
@@ -118,7 +119,7 @@ fn write(arguments: &Arguments, text: &str) -> anyhow::Result<()> {
 }
 
 fn in_f64(optics: &FilmOptics, films: &[FilmPoint]) -> Vec<DVec3> {
-    let progress = Progress::new("colour", 1);
+    let progress = progress("colour", 1);
     let part = progress.part(films.len() as u64);
     let colour = |film: &FilmPoint| {
         let xyz = optics.xyz(film.cos_theta, film.walls);

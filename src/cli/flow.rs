@@ -6,7 +6,7 @@ use clap::Args;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::{AdapterArguments, parse, progress::Progress};
+use super::{AdapterArguments, parse, progress::progress};
 use crate::{
     gpu::{
         flow::Cycles,
@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         cycles: Cycles::default(),
     };
     let gpu = arguments.adapter.open()?;
-    let progress = Progress::new("flow", 1);
+    let progress = progress("flow", 1);
     let part = progress.part(run.all_steps().into());
     let outcome = run.measure_watched(&gpu, &|steps| part.add(steps))?;
     drop(progress);

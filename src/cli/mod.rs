@@ -7,7 +7,6 @@
 mod colour;
 mod failure;
 mod film;
-mod finished;
 mod flow;
 mod info;
 mod lut;

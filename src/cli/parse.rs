@@ -3,24 +3,14 @@
 use std::ops::RangeInclusive;
 
 use crate::{
+    export::{Quality, parse_size},
     physics::colour::{BuiltIn, Gamut},
     scene,
 };
 
-/// Pixels of the largest picture: what a card of 4 GB can hold at full precision.
-const MAX_PIXELS: u64 = 1 << 26;
-
 /// `1280x720`.
 pub fn size(text: &str) -> Result<[u32; 2], String> {
-    let parts = text.split_once(['x', 'X']).ok_or("write a size as WIDTHxHEIGHT, as in 1280x720")?;
-    let number = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is not a number of pixels"));
-    let size = [number(parts.0)?, number(parts.1)?];
-    let pixels = size.map(u64::from).iter().product::<u64>();
-    match pixels {
-        0 => Err("a picture needs at least one pixel in width and height".to_owned()),
-        pixels if pixels > MAX_PIXELS => Err(format!("that is {pixels} pixels; at most {MAX_PIXELS} (8192x8192) fit")),
-        _ => Ok(size),
-    }
+    parse_size(text).map_err(|error| error.to_string())
 }
 
 /// A time in seconds, from 0.
@@ -102,15 +92,6 @@ pub fn skin_nm(text: &str) -> Result<f64, String> {
     if (0.0..=5.0).contains(&value) { Ok(value) } else { Err("a skin is from 0 to 5 nm thick".to_owned()) }
 }
 
-/// How colours are found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quality {
-    /// By shaders.
-    Gpu(scene::Quality),
-    /// In f64 on the CPU.
-    Reference,
-}
-
 /// `fast`, `standard`, `spectral` or `reference`.
 pub fn quality(text: &str) -> Result<Quality, String> {
     let named = scene::Quality::ALL.into_iter().find(|quality| quality.name() == text).map(Quality::Gpu);
@@ -137,14 +118,6 @@ pub fn gamut(text: &str) -> Result<Gamut, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn sizes() {
-        assert_eq!(size("1280x720"), Ok([1280, 720]));
-        for wrong in ["0x0", "0x5", "100000x100000", "12", "axb", "-1x5", "99999999999x1", ""] {
-            assert!(size(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn numbers_must_be_finite() {

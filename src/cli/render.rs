@@ -5,12 +5,9 @@ use std::path::PathBuf;
 use anyhow::bail;
 use clap::Args;
 
-use super::{
-    measure, parse,
-    picture::{Format, Painter, PictureArguments},
-    progress::Progress,
-};
+use super::{measure, parse, picture::PictureArguments, progress::progress};
 use crate::{
+    export::{Format, Painter},
     output::{Picture, check_target, print},
     plan::FrameRequest,
 };
@@ -50,23 +47,23 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     for file in std::iter::once(&arguments.output).chain(&arguments.stats) {
         check_target(file)?;
     }
-    let mut painter = Painter::new(&arguments.picture, format, &arguments.scene)?;
+    let mut painter = arguments.picture.painter(format, &arguments.scene)?;
     let moment = painter.moment(arguments.time, &format!("--time {}", arguments.time))?;
     let request = painter.request(moment)?;
     let picture = draw(arguments, &mut painter, &request)?;
     Ok(picture.save(&arguments.output, &painter.metadata(arguments.time))?)
 }
 
-fn draw(arguments: &Arguments, painter: &mut Painter<'_>, request: &FrameRequest) -> anyhow::Result<Picture> {
+fn draw(arguments: &Arguments, painter: &mut Painter, request: &FrameRequest) -> anyhow::Result<Picture> {
     let measures = arguments.repeat > 0 || arguments.stats.is_some();
-    let is_plain = arguments.picture.is_plain();
+    let is_plain = arguments.picture.options().is_plain();
     if !is_plain && (arguments.explain || measures) {
         bail!(
             "--explain, --repeat and --stats report on one frame on the GPU; leave them out with --quality reference, --alpha, --layers and --samples"
         );
     }
     painter.prepare(request)?;
-    let progress = Progress::new("render", painter.parts());
+    let progress = progress("render", painter.parts());
     if !is_plain {
         return painter.paint(request, &progress);
     }

@@ -11,11 +11,9 @@ use cpu_time::ProcessTime;
 use glam::DVec3;
 use serde_json::json;
 
-use super::{
-    AdapterArguments, parse,
-    progress::{Part, Progress},
-};
+use super::{AdapterArguments, parse, progress::progress};
 use crate::{
+    export::Part,
     gpu::{
         Gpu, GpuError,
         film::Field,
@@ -166,7 +164,7 @@ struct Moved {
 
 /// Moves the tracer and compares it with the exact answer.
 fn measured(gpu: &Gpu, case: &Case) -> Result<(Moved, Measured), GpuError> {
-    let progress = Progress::new("transport", 2);
+    let progress = progress("transport", 2);
     let moved = advance(gpu, case, &progress.part(case.steps))?;
     let answers = progress.part(case.grid.cells() as u64);
     let norms = case.measure_watched(&moved.values, &|| answers.add(1));

@@ -1,12 +1,13 @@
 //! `soapfilm verify`: measures this machine's GPU against the references.
 
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::Arc};
 
 use clap::Args;
 use serde_json::json;
 
-use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN, failure, progress::Progress};
+use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN, failure, progress::Bar};
 use crate::{
+    export::Progress,
     gpu::Gpu,
     output::{check_target, print, write_text},
     verify::{Check, Extent, Part, Run},
@@ -58,8 +59,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
 /// Runs the parts and prints each check.
 fn measure(arguments: &Arguments, gpu: &Gpu) -> anyhow::Result<Vec<Check>> {
     let parts: Vec<Part> = arguments.parts.iter().flat_map(|parts| parts.0.iter().copied()).collect();
-    let progress = Progress::new("verify", parts.iter().map(|part| part.seconds()).sum());
-    let print = |line: &str| progress.print(|| print(format_args!("{line}\n")));
+    let bar = Arc::new(Bar::new("verify"));
+    let progress = Progress::new(parts.iter().map(|part| part.seconds()).sum(), bar.clone());
+    let print = |line: &str| bar.print(|| print(format_args!("{line}\n")));
     print(&format!("{:<5} {:<WIDTH$} {:>9} {:>9}", "", "check", "measured", "at most"))?;
     let mut checks: Vec<Check> = Vec::new();
     for part in &parts {

@@ -99,6 +99,9 @@ pub enum GpuError {
         /// How many there may be.
         most: u64,
     },
+    /// Who watches the work wants no more of it.
+    #[error("cancelled")]
+    Cancelled,
     /// The device went away while in use.
     #[error("the graphics device was lost: {0}")]
     Lost(String),

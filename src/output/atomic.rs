@@ -21,13 +21,62 @@ pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
 ) -> Result<(), OutputError> {
-    let target = target_of(path)?;
-    let failed = |reason| OutputError::Write { path: path.to_owned(), reason };
-    let mut temporary = temporary_beside(path, &target)?;
-    let mut writer = BufWriter::new(temporary.file.as_file_mut());
-    write(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
+    let mut unfinished = UnfinishedFile::begin(path)?;
+    let mut writer = BufWriter::new(unfinished.temporary.file.as_file_mut());
+    let written = write(&mut writer).and_then(|()| writer.flush());
     drop(writer);
-    temporary.put_at(&target).map_err(failed)
+    written.map_err(|reason| unfinished.failed(reason))?;
+    unfinished.finish()
+}
+
+/// A file that is written in steps, in a temporary file beside its place, which it takes at the end in one step. Dropped before that, it leaves
+/// nothing.
+pub struct UnfinishedFile {
+    path: PathBuf,
+    target: PathBuf,
+    temporary: Temporary,
+}
+
+impl UnfinishedFile {
+    /// An empty file that will stand at `path`.
+    ///
+    /// # Errors
+    /// As [`write_atomically`].
+    pub fn begin(path: &Path) -> Result<Self, OutputError> {
+        let target = target_of(path)?;
+        let temporary = temporary_beside(path, &target)?;
+        Ok(Self { path: path.to_owned(), target, temporary })
+    }
+
+    /// Another handle to the file, to write to.
+    ///
+    /// # Errors
+    /// The system gives none.
+    pub fn writer(&self) -> Result<File, OutputError> {
+        self.temporary.file.as_file().try_clone().map_err(|reason| self.failed(reason))
+    }
+
+    /// Where the file is for now, for another program that writes to it.
+    pub fn place(&self) -> &Path {
+        // Locks keep other programs out on Windows, where a file in use cannot be removed anyway.
+        #[cfg(windows)]
+        let _ = self.temporary.file.as_file().unlock();
+        self.temporary.file.path()
+    }
+
+    /// Why the file could not be written.
+    pub fn failed(&self, reason: io::Error) -> OutputError {
+        OutputError::Write { path: self.path.clone(), reason }
+    }
+
+    /// Puts the file in its place, whole.
+    ///
+    /// # Errors
+    /// The system refuses.
+    pub fn finish(self) -> Result<(), OutputError> {
+        let Self { path, target, temporary } = self;
+        temporary.put_at(&target).map_err(|reason| OutputError::Write { path, reason })
+    }
 }
 
 /// Tells before work begins whether its file could be made.
@@ -56,7 +105,7 @@ fn files() -> MutexGuard<'static, Files> {
 }
 
 /// Removes all temporary files, and prevents new ones from then on: for the end of the program.
-pub(super) fn abandon_files() {
+pub fn abandon_files() {
     let files = files();
     for path in &files.unfinished {
         let _ = fs::remove_file(path);

@@ -38,22 +38,29 @@ impl FrameRate {
         Some([seconds / 3600, seconds / 60 % 60, seconds % 60, frame % whole].map(|part| part as u8))
     }
 
+    /// Seconds that a frame lasts as a ratio, the nearest one whose numbers are at most `max`.
+    #[must_use]
+    pub fn delay(self, max: u16) -> [u16; 2] {
+        let ratio = nearest_ratio([self.denominator.into(), self.numerator.into()], max.into());
+        ratio.map(|number| u16::try_from(number).unwrap_or(max))
+    }
+
     /// The ratio, or the nearest one that has no larger numbers than [`MAX`].
     fn nearest(numerator: u128, denominator: u128) -> Option<Self> {
-        let [numerator, denominator] = nearest_ratio([numerator, denominator]);
+        let [numerator, denominator] = nearest_ratio([numerator, denominator], MAX);
         let (low, high) = (denominator <= numerator.checked_mul(1000)?, numerator <= denominator.checked_mul(10_000)?);
         let rate = Self { numerator: u32::try_from(numerator).ok()?, denominator: u32::try_from(denominator).ok()? };
         (low && high && rate.numerator > 0 && rate.denominator > 0).then_some(rate)
     }
 }
 
-/// The last convergent of a ratio's continued fraction whose numbers are at most [`MAX`]: the ratio itself in lowest terms, if it fits.
-fn nearest_ratio([mut a, mut b]: [u128; 2]) -> [u128; 2] {
+/// The last convergent of a ratio's continued fraction whose numbers are at most `max`: the ratio itself in lowest terms, if it fits.
+fn nearest_ratio([mut a, mut b]: [u128; 2], max: u128) -> [u128; 2] {
     let (mut last, mut ratio) = ([0, 1], [1, 0]);
     while b > 0 {
         let whole = a / b;
         let next = [0, 1].map(|k: usize| whole.saturating_mul(ratio[k]).saturating_add(last[k]));
-        if next.into_iter().any(|number| number > MAX) {
+        if next.into_iter().any(|number| number > max) {
             break;
         }
         (last, ratio) = (ratio, next);
@@ -146,6 +153,14 @@ mod tests {
         assert_eq!(film.time_s(1), 1001.0 / 24000.0);
         // A sum of steps, or a product with a rounded 1 / fps, is off here.
         assert_eq!("30".parse::<FrameRate>().unwrap().time_s(3_000_000_001), 3_000_000_001.0 / 30.0);
+    }
+
+    #[test]
+    fn frames_last_as_long_as_small_numbers_can_say() {
+        let delay = |rate: &str| rate.parse::<FrameRate>().unwrap().delay(u16::MAX);
+        assert_eq!((delay("24000/1001"), delay("25"), delay("0.001")), ([1001, 24000], [1, 25], [1000, 1]));
+        let [numerator, denominator] = delay("2147483647/71582788").map(f64::from);
+        assert!((numerator / denominator - 1.0 / 30.0).abs() < 1e-6);
     }
 
     #[test]

@@ -16,6 +16,14 @@ impl Metadata {
         Self::default()
     }
 
+    /// What every picture of a scene says: the program, the scene's name, and the time in seconds.
+    pub fn of_scene(name: &str, time_s: f64) -> Self {
+        Self::new()
+            .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
+            .with("Scene", name)
+            .with("Time", &format!("{time_s} s"))
+    }
+
     /// This and one entry more. Characters that would break the entry are replaced by spaces: line ends and other control
     /// characters, and in keys all that is not ASCII. Keys longer than 79 characters, the maximum in PNG, are cut; an
     /// empty key becomes `Comment`.

@@ -21,9 +21,11 @@ pub mod read_back;
 mod signals;
 mod stream;
 mod table;
+#[cfg(not(target_arch = "wasm32"))]
+mod video;
 
 #[cfg(not(target_arch = "wasm32"))]
-pub use atomic::{check_target, write_atomically};
+pub use atomic::{UnfinishedFile, abandon_files, check_target, write_atomically};
 #[cfg(target_arch = "wasm32")]
 pub use download::write_atomically;
 pub use error::OutputError;
@@ -39,3 +41,5 @@ pub use png::PngPicture;
 pub use signals::watch_signals;
 pub use stream::{StreamError, print, tell};
 pub use table::CsvWriter;
+#[cfg(not(target_arch = "wasm32"))]
+pub use video::{Video, VideoError, VideoFormat, VideoWriter};

@@ -35,31 +35,41 @@ impl PngPicture<'_> {
     /// # Errors
     /// The writer's, and a size that is zero or does not fit the count of bytes.
     pub fn encode(&self, writer: impl Write) -> io::Result<()> {
-        let mut info = png::Info::with_size(self.width, self.height);
-        info.color_type = png::ColorType::Rgba;
-        info.bit_depth = png::BitDepth::Eight;
-        if self.gamut == Gamut::DisplayP3 {
-            info.icc_profile = Some(display_p3_profile().into());
-        }
-        let mut encoder = png::Encoder::with_info(writer, info)?;
-        if self.gamut == Gamut::Srgb {
-            encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-            // The power that stands for sRGB where a reader knows no sRGB chunk (PNG specification, 11.3.2.5).
-            encoder.set_source_gamma(png::ScaledFloat::from_scaled(45455));
-        }
-        for (key, value) in self.metadata.entries() {
-            let (key, value) = (key.to_owned(), value.to_owned());
-            if value.is_ascii() {
-                encoder.add_text_chunk(key, value)?;
-            } else {
-                encoder.add_itxt_chunk(key, value)?;
-            }
-        }
-        let mut writer = encoder.write_header()?;
+        let mut writer = encoder(writer, [self.width, self.height], self.gamut, self.metadata)?.write_header()?;
         writer.write_image_data(self.rgba)?;
         writer.finish()?;
         Ok(())
     }
+}
+
+/// An encoder of RGBA with 8 bits, which knows what its colours are.
+pub(super) fn encoder<'a, W: Write>(
+    writer: W,
+    [width, height]: [u32; 2],
+    gamut: Gamut,
+    metadata: &Metadata,
+) -> io::Result<png::Encoder<'a, W>> {
+    let mut info = png::Info::with_size(width, height);
+    info.color_type = png::ColorType::Rgba;
+    info.bit_depth = png::BitDepth::Eight;
+    if gamut == Gamut::DisplayP3 {
+        info.icc_profile = Some(display_p3_profile().into());
+    }
+    let mut encoder = png::Encoder::with_info(writer, info)?;
+    if gamut == Gamut::Srgb {
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        // The power that stands for sRGB where a reader knows no sRGB chunk (PNG specification, 11.3.2.5).
+        encoder.set_source_gamma(png::ScaledFloat::from_scaled(45455));
+    }
+    for (key, value) in metadata.entries() {
+        let (key, value) = (key.to_owned(), value.to_owned());
+        if value.is_ascii() {
+            encoder.add_text_chunk(key, value)?;
+        } else {
+            encoder.add_itxt_chunk(key, value)?;
+        }
+    }
+    Ok(encoder)
 }
 
 #[cfg(test)]

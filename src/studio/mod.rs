@@ -159,8 +159,5 @@ fn moment(scene: &Scene, time_s: f64) -> Result<Moment, Error> {
 }
 
 fn metadata(scene: &LoadedScene, time_s: f64) -> Metadata {
-    Metadata::new()
-        .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
-        .with("Scene", &scene.name)
-        .with("Time", &format!("{time_s} s"))
+    Metadata::of_scene(&scene.name, time_s)
 }

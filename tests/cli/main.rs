@@ -16,6 +16,7 @@ mod sequence;
 mod streams;
 #[path = "../support/mod.rs"]
 mod support;
+mod video;
 
 use std::{
     path::{Path, PathBuf},

@@ -68,3 +68,43 @@ fn a_saved_history_replays() {
     request.picture.draw.full_precision = false;
     assert_eq!(support::display(&mut renderer, &request), pixels("once.png"), "another process, after scrubbing");
 }
+
+/// The template for render farms, which others run.
+const FARM: &str = include_str!("../../assets/openjd/sequence.yaml");
+
+#[test]
+fn the_farms_template_uses_options_that_there_are() {
+    let help = Desk::new().run("sequence --help").out;
+    let lines = FARM.lines().filter_map(|line| line.trim().strip_prefix("- "));
+    let options: Vec<_> = lines.filter(|word| word.starts_with('-')).collect();
+    assert_eq!(options, ["-o", "--frames", "--fps", "--size", "--samples", "--format"]);
+    assert!(options.iter().all(|option| help.contains(&format!("{option} <"))), "{help}");
+}
+
+/// Runs where `openjd` of the Python package `openjd-cli` is installed.
+#[test]
+fn a_sequence_cut_over_machines_is_that_of_one() {
+    if Command::new("openjd").arg("--help").output().is_err() {
+        eprintln!("skipped: openjd is not installed");
+        return;
+    }
+    let desk = Desk::new();
+    desk.write("small.toml", "version = 1\n[[bubble]]\n[bubble.film]\ncells = 32\n");
+    desk.write("sequence.yaml", FARM);
+    let scene = desk.path("small.toml").display().to_string();
+    if desk.done(&format!("sequence {scene} -o one --frames 0..4 --fps 10 --size 32x18")).is_none() {
+        return;
+    }
+    let (farm, program) = (desk.path("farm").display().to_string(), env!("CARGO_BIN_EXE_soapfilm"));
+    let parameters = ["Frames=0-4", "FramesPerTask=2", "FramesPerSecond=10", "Size=32x18"].map(str::to_owned);
+    let places = [format!("Scene={scene}"), format!("Output={farm}"), format!("Soapfilm={program}")];
+    let mut command = Command::new("openjd");
+    command.args(["run", "sequence.yaml"]).current_dir(desk.path(""));
+    command.args(parameters.iter().chain(&places).flat_map(|parameter| ["-p", parameter.as_str()]));
+    let run = command.output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stdout));
+    for frame in 0..=4 {
+        let bytes = |folder: &str| std::fs::read(desk.path(&format!("{folder}/frame_{frame:06}.png"))).unwrap();
+        assert!(bytes("one") == bytes("farm"), "frame {frame}");
+    }
+}

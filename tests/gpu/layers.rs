@@ -14,8 +14,9 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("input", &["plan", "scene", "physics"]),
     ("output", &["plan", "scene", "physics"]),
     ("studio", &["output", "input", "verify", "gpu", "plan", "scene", "physics"]),
-    ("cli", &["studio", "output", "input", "verify", "gpu", "plan", "scene", "physics"]),
-    ("app", &["studio", "output", "input", "gpu", "plan", "scene", "physics"]),
+    ("export", &["studio", "output", "input", "verify", "gpu", "plan", "scene", "physics"]),
+    ("cli", &["export", "studio", "output", "input", "verify", "gpu", "plan", "scene", "physics"]),
+    ("app", &["export", "studio", "output", "input", "gpu", "plan", "scene", "physics"]),
     ("web", &["app", "input", "gpu", "scene"]),
 ];
 

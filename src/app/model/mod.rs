@@ -1,6 +1,8 @@
 //! What the window shows and what its user has changed: everything that needs neither a window nor a GPU.
 
 mod bubbles;
+#[cfg(not(target_arch = "wasm32"))]
+mod exports;
 mod steps;
 mod time;
 
@@ -8,6 +10,8 @@ use std::path::PathBuf;
 
 use glam::{DMat3, DVec2, DVec3};
 
+#[cfg(not(target_arch = "wasm32"))]
+use super::exports::Exports;
 use super::{
     clock::{Clock, Rate},
     compare::{Compare, Want},
@@ -92,6 +96,9 @@ pub struct Model {
     pub requests: Vec<Request>,
     /// What the window keeps from one run to the next.
     pub settings: Settings,
+    /// What is exported, and the dialog for it.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub exports: Exports,
     /// What must be answered first.
     pub question: Option<Question>,
     /// What is asked for once the scene is saved.
@@ -137,6 +144,8 @@ impl Model {
             costs: Costs::default(),
             requests: Vec::new(),
             settings: Settings::default(),
+            #[cfg(not(target_arch = "wasm32"))]
+            exports: Exports::default(),
             question: None,
             once_saved: None,
         }
@@ -210,6 +219,11 @@ impl Model {
 
     /// Asks for something, and first what shall become of work that is not saved, if it would be lost.
     pub fn ask_for(&mut self, request: Request) {
+        #[cfg(not(target_arch = "wasm32"))]
+        if request == Request::Quit && self.exports.are_wanted() {
+            self.question = Some(Question::Exporting);
+            return;
+        }
         if request.danger().is_some() && self.undo.is_dirty() {
             self.question = Some(Question::Unsaved(request));
         } else {
@@ -303,6 +317,8 @@ impl Model {
             Action::SaveAs => self.requests.push(Request::Ask(Target::SaveScene)),
             Action::SavePng => self.requests.push(Request::Ask(Target::SavePng)),
             Action::SaveExr => self.requests.push(Request::Ask(Target::SaveExr)),
+            #[cfg(not(target_arch = "wasm32"))]
+            Action::Export => self.requests.push(Request::Export),
             Action::Quit => self.ask_for(Request::Quit),
             Action::Take(tool) => self.tool = tool,
             Action::TiltRight => self.tilt(TILT_DEG, 0.0),

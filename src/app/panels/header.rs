@@ -26,6 +26,10 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
             if ui.button("EXR…").on_hover_text("Save the scene radiance, linear BT.709 (Ctrl+Shift+P)").clicked() {
                 ask(&mut model.requests, Target::SaveExr);
             }
+            #[cfg(not(target_arch = "wasm32"))]
+            if ui.button("Copy").on_hover_text("Copy the picture to the clipboard").clicked() {
+                model.compare.wants = Some(crate::app::compare::Want::Copy);
+            }
         });
         #[cfg(target_arch = "wasm32")]
         if ui.button("Link").on_hover_text("Copy a link to this page that holds the scene with its history").clicked() {
@@ -70,6 +74,10 @@ fn file(ui: &mut Ui, model: &mut Model) {
     }
     if ui.button("Save as…").on_hover_text("Save the scene to another file (Ctrl+Shift+S)").clicked() {
         model.requests.push(Request::Ask(Target::SaveScene));
+    }
+    #[cfg(not(target_arch = "wasm32"))]
+    if ui.button("Export…").on_hover_text("A picture of any size, a video or a map of the film (Ctrl+E)").clicked() {
+        model.requests.push(Request::Export);
     }
     if !model.settings.recent.is_empty() {
         ui.separator();

@@ -3,6 +3,8 @@
 mod all_keys;
 pub mod compare;
 mod costs;
+#[cfg(not(target_arch = "wasm32"))]
+mod exports;
 mod film;
 pub mod gallery;
 mod generators;
@@ -57,7 +59,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     let (now_s, is_held) = ui.input(|input| (input.time, input.pointer.any_down()));
     model.undo.pass(now_s, is_held);
     // Who is asked a question answers it first.
-    let is_asked = model.question.is_some() || model.shows_gallery;
+    let is_asked = model.question.is_some() || model.shows_gallery || is_exporting(model);
     let is_deaf = is_asked || model.stands_alone;
     let actions = if is_deaf { Vec::new() } else { keys::pressed(ui.ctx()) };
     for action in &actions {
@@ -87,6 +89,15 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     picture
 }
 
+/// Whether the dialog for exports is open.
+#[cfg_attr(target_arch = "wasm32", allow(unused_variables, reason = "there is none in a browser"))]
+fn is_exporting(model: &Model) -> bool {
+    #[cfg(not(target_arch = "wasm32"))]
+    return model.exports.form.is_open;
+    #[cfg(target_arch = "wasm32")]
+    false
+}
+
 /// What stands over the picture, and the questions over everything.
 fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
     if !model.presents {
@@ -99,6 +110,8 @@ fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
     notices::show(ctx, picture, model);
     help::show(ctx, &mut model.shows_help);
     gallery::show(ctx, model);
+    #[cfg(not(target_arch = "wasm32"))]
+    exports::show(ctx, picture, model);
     question::show(ctx, model);
     window::show(ctx, model);
 }

@@ -13,6 +13,7 @@ pub fn show(ctx: &Context, model: &mut Model) {
     match question {
         Question::Unsaved(request) => unsaved(ctx, model, request),
         Question::Left(name) => left(ctx, model, name),
+        Question::Exporting => exporting(ctx, model),
         Question::Path(target, text, wrong) => path(ctx, model, target, text, wrong),
     }
 }
@@ -27,6 +28,23 @@ fn unsaved(ctx: &Context, model: &mut Model, request: Request) {
         Some(1) => model.requests.push(request),
         Some(_) => {}
         None => model.question = Some(Question::Unsaved(request)),
+    }
+}
+
+#[cfg(target_arch = "wasm32")]
+fn exporting(_: &Context, _: &mut Model) {}
+
+#[cfg(not(target_arch = "wasm32"))]
+fn exporting(ctx: &Context, model: &mut Model) {
+    let answers = ["Quit when they are done", "Stop them and quit", "Cancel"];
+    match ask(ctx, "Exports are not finished.", &answers, |_| {}) {
+        Some(0) => model.exports.then_quits = true,
+        Some(1) => {
+            model.exports.cancel_all();
+            model.ask_for(Request::Quit);
+        }
+        Some(_) => {}
+        None => model.question = Some(Question::Exporting),
     }
 }
 

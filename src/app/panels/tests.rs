@@ -1,5 +1,7 @@
 //! Panels driven through their accessible names, without window or GPU.
 
+mod exports;
+
 use egui::{Key, Modifiers, accesskit::Role, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
 

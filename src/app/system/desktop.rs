@@ -71,7 +71,7 @@ pub fn choose_file(
 ) {
     let dialog = rfd::AsyncFileDialog::new().set_parent(window).set_directory(folder);
     let (kind, endings) = target.file_type();
-    let dialog = dialog.add_filter(kind, endings);
+    let dialog = if endings.is_empty() { dialog } else { dialog.add_filter(kind, endings) };
     if target.is_read() {
         wait_for(dialog.pick_file(), answer);
     } else {

@@ -1,16 +1,16 @@
 //! `soapfilm film`: the thickness of a bubble's film as numbers, as a map, and as the material of a model.
 
-mod map;
 mod model;
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{AdapterArguments, SceneSettings, parse, progress::Progress};
+use super::{AdapterArguments, SceneSettings, parse, progress::progress};
 use crate::{
+    export::map::{FilmMap, Map, Projection},
     input::LoadedScene,
-    output::{CsvWriter, ExrChannels, Metadata, check_target, print, write_atomically},
+    output::{CsvWriter, Metadata, check_target, print, write_atomically},
     physics::film::{
         Flow,
         properties::{SURFACE_VISCOSITY, VISCOSITY, kinematic_viscosity},
@@ -19,7 +19,6 @@ use crate::{
     scene::Scene,
     studio::{FilmCell, Studio, reference_film, reference_film_at},
 };
-use map::{Map, Projection};
 use model::Model;
 
 /// Write the thickness of a bubble's film: as numbers, as a map, or as a glTF model
@@ -73,11 +72,7 @@ impl Arguments {
     }
 
     fn metadata(&self, scene: &LoadedScene) -> Metadata {
-        Metadata::new()
-            .with("Software", &format!("soapfilm {}", env!("CARGO_PKG_VERSION")))
-            .with("Scene", &scene.name)
-            .with("Bubble", &self.bubble.to_string())
-            .with("Time", &format!("{} s", self.time))
+        Metadata::of_scene(&scene.name, self.time).with("Bubble", &self.bubble.to_string())
     }
 }
 
@@ -90,13 +85,10 @@ fn save_cells(arguments: &Arguments, scene: &LoadedScene) -> anyhow::Result<()> 
 }
 
 fn save_map(arguments: &Arguments, scene: &LoadedScene, map: &Map, path: &Path) -> anyhow::Result<()> {
-    let thickness_nm: Vec<f32> = mapped(arguments, scene, map)?.into_iter().map(|nm| nm as f32).collect();
-    // Y is what viewers show of a picture without colours.
-    let channels = ["thickness_nm", "Y"].map(|name| (name.to_owned(), thickness_nm.clone()));
-    let metadata = map.described(arguments.metadata(scene));
-    ExrChannels { size: map.size(), channels: &channels, metadata: &metadata }.save(path)?;
+    let film = FilmMap::new(*map, mapped(arguments, scene, map)?);
+    film.save(path, &arguments.metadata(scene))?;
     let [width, height] = map.size();
-    Ok(print(format_args!("{width}x{height} pixels: {}\n", range(&thickness_nm)))?)
+    Ok(print(format_args!("{width}x{height} pixels: {}\n", range(&film.thickness_nm)))?)
 }
 
 fn save_model(arguments: &Arguments, scene: &LoadedScene, map: &Map, path: &Path) -> anyhow::Result<()> {
@@ -123,7 +115,7 @@ fn mapped(arguments: &Arguments, scene: &LoadedScene, map: &Map) -> anyhow::Resu
         let mut studio = Studio::on(arguments.adapter.open()?);
         return Ok(studio.film_at(scene, arguments.bubble, arguments.time, &directions)?);
     }
-    let progress = Progress::new("film", 1);
+    let progress = progress("film", 1);
     let part = progress.part((arguments.time / scene.scene.motion.tick_s).ceil() as u64);
     let film = (arguments.bubble, arguments.time);
     Ok(reference_film_at(scene, film, &directions, &|ticks| part.add(ticks))?)
@@ -151,7 +143,7 @@ fn cells(arguments: &Arguments, scene: &LoadedScene) -> anyhow::Result<Vec<FilmC
     if !arguments.reference {
         return Ok(Studio::on(arguments.adapter.open()?).film(scene, arguments.bubble, arguments.time)?);
     }
-    let progress = Progress::new("film", 1);
+    let progress = progress("film", 1);
     let ticks = (arguments.time / scene.scene.motion.tick_s).ceil() as u64;
     let part = progress.part(ticks);
     Ok(reference_film(scene, arguments.bubble, arguments.time, &|ticks| part.add(ticks))?)

@@ -6,8 +6,8 @@ use anyhow::Context;
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 
-use super::map::equirect;
 use crate::{
+    export::map::equirect,
     output::{Metadata, PngPicture, write_atomically, write_text},
     physics::colour::Gamut,
 };

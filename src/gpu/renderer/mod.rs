@@ -100,8 +100,9 @@ pub struct Renderer {
     pub times: TimeLog,
     /// Work done since the start.
     pub counts: Counts,
-    /// Hears how much of a plan's [`Plan::work`] the device has just done. With it, the end of each submission is waited for.
-    pub watcher: Option<Box<dyn Fn(u64) + Send>>,
+    /// Hears how much of a plan's [`Plan::work`] the device has just done, and tells whether the rest is still wanted. With it, the end of each
+    /// submission is waited for.
+    pub watcher: Option<Watcher>,
     state: GpuState,
     products: Products,
 }
@@ -396,13 +397,18 @@ impl Renderer {
     }
 }
 
+/// Hears how much work is done, and returns whether to go on.
+pub type Watcher = Box<dyn Fn(u64) -> bool + Send>;
+
 /// Reports work to the watcher once it is done; in browsers, where nothing may block, once it is submitted.
 #[cfg_attr(target_arch = "wasm32", allow(unused_variables, reason = "nothing is waited for"))]
-fn told(watcher: &Option<Box<dyn Fn(u64) + Send>>, gpu: &Gpu, work: u64) -> Result<(), GpuError> {
+fn told(watcher: &Option<Watcher>, gpu: &Gpu, work: u64) -> Result<(), GpuError> {
     if let Some(watcher) = watcher {
         #[cfg(not(target_arch = "wasm32"))]
         gpu.wait()?;
-        watcher(work);
+        if !watcher(work) {
+            return Err(GpuError::Cancelled);
+        }
     }
     Ok(())
 }

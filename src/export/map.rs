@@ -1,8 +1,13 @@
 //! Maps of a film's thickness: pictures whose pixels are places on the film.
 
+use std::path::Path;
+
 use glam::{DVec2, DVec3};
 
-use crate::{output::Metadata, physics::environment::CubeFace};
+use crate::{
+    output::{ExrChannels, Metadata, OutputError},
+    physics::environment::CubeFace,
+};
 
 /// How a map lays out the sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -14,7 +19,7 @@ pub enum Projection {
 }
 
 /// A map that is asked for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Map {
     pub projection: Projection,
     /// Pixels along the height of an equirectangular map, or along the edge of a cube's face.
@@ -54,6 +59,31 @@ impl Map {
             }
         };
         metadata.with("Values", "total thickness of the film in nm; 0 where there is none").with("Layout", layout)
+    }
+}
+
+/// A map with the thickness of the film at each of its pixels.
+pub struct FilmMap {
+    map: Map,
+    /// Thickness in nm, row by row from the top left.
+    pub thickness_nm: Vec<f32>,
+}
+
+impl FilmMap {
+    /// A map of the thickness in nm at each of its directions.
+    pub fn new(map: Map, thickness_nm: Vec<f64>) -> Self {
+        Self { map, thickness_nm: thickness_nm.into_iter().map(|nm| nm as f32).collect() }
+    }
+
+    /// Writes an EXR file, whole or not at all.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn save(&self, path: &Path, metadata: &Metadata) -> Result<(), OutputError> {
+        // Y is what viewers show of a picture without colours.
+        let channels = ["thickness_nm", "Y"].map(|name| (name.to_owned(), self.thickness_nm.clone()));
+        let metadata = self.map.described(metadata.clone());
+        ExrChannels { size: self.map.size(), channels: &channels, metadata: &metadata }.save(path)
     }
 }
 

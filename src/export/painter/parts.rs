@@ -3,9 +3,9 @@
 use anyhow::Context;
 use glam::Vec3;
 
-use super::{Painter, carry_out};
+use super::{Painter, carry_out, finished::Passage};
 use crate::{
-    cli::{finished::Passage, progress::Progress},
+    export::Progress,
     physics::picture::Finish,
     plan::{DrawKey, FrameRequest, TonemapKey},
     verify::reference::radiance,
@@ -24,7 +24,7 @@ pub(super) fn tiles([width, height]: [u32; 2], samples: u32) -> Vec<[[u32; 2]; 2
 /// Pictures that [`Painter::passages`] draws.
 pub(super) const PICTURES_OF_PASSAGES: u64 = 3;
 
-impl Painter<'_> {
+impl Painter {
     /// Radiance of each pixel of the file, linear BT.2020. `draw` is the linear picture of a request, or a part of it.
     pub(super) fn radiance(
         &mut self,
@@ -32,7 +32,7 @@ impl Painter<'_> {
         draw: DrawKey,
         progress: &Progress,
     ) -> anyhow::Result<Vec<Vec3>> {
-        if self.arguments.is_reference() {
+        if self.options.is_reference() {
             self.computed(request, draw, progress)
         } else {
             self.drawn(request, &draw, progress)
@@ -40,6 +40,7 @@ impl Painter<'_> {
     }
 
     fn computed(&mut self, request: &FrameRequest, draw: DrawKey, progress: &Progress) -> anyhow::Result<Vec<Vec3>> {
+        progress.check()?;
         let films = self.moved_films(request)?;
         let rows = u64::from(draw.size[1]) * draw.lights().count() as u64;
         let part = progress.part(rows);
@@ -48,7 +49,7 @@ impl Painter<'_> {
     }
 
     fn drawn(&mut self, request: &FrameRequest, draw: &DrawKey, progress: &Progress) -> anyhow::Result<Vec<Vec3>> {
-        let (size, samples) = (self.arguments.size, self.arguments.samples);
+        let (size, samples) = (self.options.size, self.options.samples);
         let mut whole = vec![Vec3::ZERO; size[0] as usize * size[1] as usize];
         for [[x, y], [columns, rows]] in tiles(size, samples) {
             let span = |start: u32, length: u32| samples * start..samples * (start + length);

@@ -6,12 +6,13 @@ use anyhow::Context;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{Painter, parts::PICTURES_OF_PASSAGES};
+use super::{
+    Painter,
+    finished::{alpha, colour_channels, in_bt709, vector_channels},
+    parts::PICTURES_OF_PASSAGES,
+};
 use crate::{
-    cli::{
-        finished::{alpha, colour_channels, in_bt709, vector_channels},
-        progress::Progress,
-    },
+    export::Progress,
     gpu::Renderer,
     output::Picture,
     physics::{
@@ -30,10 +31,10 @@ const NO_DEPTH: f32 = 1e10;
 
 type Channels = Vec<(String, Vec<f32>)>;
 
-impl Painter<'_> {
+impl Painter {
     /// The layers of a picture.
     pub(super) fn layers(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Picture> {
-        let size = self.arguments.size;
+        let size = self.options.size;
         let mut channels = self.colours(request, progress)?;
         let draw = self.at_pixels(&request.picture.draw);
         let films = self.films_in_sight(request, &draw)?;
@@ -48,7 +49,7 @@ impl Painter<'_> {
         let transmission: Vec<Vec3> = light.par_iter().map(|light| light.transmittance(&to_bt709).as_vec3()).collect();
         let arrays = |colours: &[Vec3]| colours.iter().map(Vec3::to_array).collect::<Vec<_>>();
         let mut channels = colour_channels("transmission.", &arrays(&transmission));
-        if self.arguments.alpha {
+        if self.options.alpha {
             let added = in_bt709(&light.iter().map(|light| light.added).collect::<Vec<_>>());
             channels.extend(colour_channels("reflection.", &added));
             channels.extend(colour_channels("", &added));
@@ -72,14 +73,14 @@ impl Painter<'_> {
 
     /// A linear picture with one sample per pixel.
     fn at_pixels(&self, draw: &DrawKey) -> DrawKey {
-        let samples = f64::from(draw.size[0]) / f64::from(self.arguments.size[0]);
+        let samples = f64::from(draw.size[0]) / f64::from(self.options.size[0]);
         let camera = CameraKey { pixel_height_m: draw.camera.pixel_height_m * samples, ..draw.camera };
-        DrawKey { size: self.arguments.size, camera, ..draw.clone() }
+        DrawKey { size: self.options.size, camera, ..draw.clone() }
     }
 
     /// The thickness of all films in sight at their moment.
     fn films_in_sight(&mut self, request: &FrameRequest, draw: &DrawKey) -> anyhow::Result<MovedFilms> {
-        if self.arguments.is_reference() {
+        if self.options.is_reference() {
             return self.moved_films(request);
         }
         let renderer: &Renderer = self.renderer()?;
