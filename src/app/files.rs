@@ -17,15 +17,17 @@ use super::{
     system,
 };
 use crate::{
-    input::{LoadError, LoadedScene, load_environment, load_illuminant, load_scene},
+    input::{LoadError, LoadedScene, Opened, load_environment, load_illuminant, load_step, open},
     output::{Metadata, Picture, write_text},
     plan::Resources,
-    scene::{Light, Scene},
+    scene::{Light, Scene, lesson::Lesson},
 };
 
 /// What came of a piece of work.
 enum Outcome {
     Scene(Box<LoadedScene>),
+    Lesson(Box<Lesson>, PathBuf),
+    Step(Box<LoadedScene>),
     Light(Box<Light>, Resources, Vec<String>),
     TakenUp(Box<LoadedScene>, Box<Unsaved>),
     Chosen(Target, PathBuf),
@@ -65,11 +67,22 @@ impl Files {
         Self { wake: Arc::new(wake), sender, receiver, load: 0 }
     }
 
-    /// Loads a scene by its path or a preset's name.
+    /// Loads a scene or a lesson by its path, or a preset by its name.
     pub fn load_scene(&mut self, model: &mut Model, name: String) {
         self.begin_load(model, &name);
-        self.run(move || match load_scene(&name) {
-            Ok(scene) => Outcome::Scene(Box::new(scene)),
+        self.run(move || match open(&name) {
+            Ok(Opened::Scene(scene)) => Outcome::Scene(scene),
+            Ok(Opened::Lesson(lesson, folder)) => Outcome::Lesson(lesson, folder),
+            Err(error) => Outcome::Failed(error.to_string()),
+        });
+    }
+
+    /// Loads the scene of the step that the lesson is at.
+    pub fn load_step(&mut self, model: &mut Model) {
+        let Some(course) = model.course.clone() else { return };
+        self.begin_load(model, "the scene of this step");
+        self.run(move || match load_step(&course.lesson, &course.folder, course.step) {
+            Ok(scene) => scene.map_or(Outcome::Nothing, |scene| Outcome::Step(scene.into())),
             Err(error) => Outcome::Failed(error.to_string()),
         });
     }
@@ -192,6 +205,11 @@ impl Files {
                 model.adopt(*loaded);
                 return Some(Arrival::Scene);
             }
+            Outcome::Lesson(lesson, folder) if current => {
+                model.loading = None;
+                model.begin_lesson(*lesson, folder);
+            }
+            Outcome::Step(loaded) if current => model.stage_step(*loaded),
             Outcome::Light(light, resources, notes) if current => {
                 model.adopt_light(*light, resources);
                 notes.into_iter().for_each(|note| model.messages.remark(note));
@@ -215,7 +233,11 @@ impl Files {
                 model.once_saved = None;
             }
             Outcome::Nothing => model.once_saved = None,
-            Outcome::Scene(_) | Outcome::TakenUp(..) | Outcome::Light(..) => {}
+            Outcome::Scene(_)
+            | Outcome::Lesson(..)
+            | Outcome::Step(_)
+            | Outcome::TakenUp(..)
+            | Outcome::Light(..) => {}
         }
         None
     }
@@ -262,6 +284,7 @@ mod tests {
 
     use crate::{
         app::model::tests::model,
+        input::load_scene,
         scene::{Environment, Scene},
     };
 

@@ -263,7 +263,7 @@ impl View {
         let moment = walls.first().and_then(|wall| self.reader.moment(wall.film));
         let moment = moment.unwrap_or(model.clock.moment(&model.scene.motion));
         let time_s = moment.ticks() * model.scene.motion.tick_s;
-        let is_new = model.probe.answer(Reading::new(&walls, time_s, model.scene.bubbles.len()), is_read);
+        let is_new = model.answer_probe(Reading::new(&walls, time_s, model.scene.bubbles.len()), is_read);
         if !is_read {
             due.after(FETCH);
         } else if is_new {

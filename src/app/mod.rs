@@ -10,6 +10,7 @@
 //! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
 //! | [`request`] | what goes from the model to the system, and the questions that come before |
 //! | [`compare`] | a kept picture beside the one that is shown |
+//! | [`lesson`] | a lesson that is taken, and how its answers are judged |
 //! | [`probe`], `film_reader` | numbers of the film under the pointer |
 //! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
@@ -21,6 +22,7 @@ mod edit;
 pub mod files;
 pub mod history;
 pub mod keys;
+pub mod lesson;
 #[cfg(any(target_arch = "wasm32", test))]
 pub mod link;
 pub mod messages;

@@ -7,14 +7,11 @@ use glam::{DVec2, DVec3};
 use crate::{
     physics::{
         colour::{BT709, FilmOptics, Walls, m2_exposure, srgb_encode},
-        optics::{Polarised, cos_refracted},
+        optics::{Polarised, newton_order},
     },
     plan::OpticsKey,
     studio::WallInSight,
 };
-
-/// Path difference of one order of interference, nm: that of the first red end of Newton's colours.
-pub const ORDER_NM: f64 = 551.0;
 
 /// One wall under the pointer.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +42,7 @@ impl WallReading {
     /// Order of Newton's colours, from 1 on.
     #[must_use]
     pub fn order(&self) -> u32 {
-        (self.path_nm / ORDER_NM) as u32 + 1
+        newton_order(self.path_nm)
     }
 
     /// What the wall is called.
@@ -173,7 +170,6 @@ impl Reading {
 fn reading(optics: &FilmOptics, wall: &WallInSight, thickness_nm: f64, is_front: bool) -> WallReading {
     let cos_theta = wall.cos_theta;
     let xyz = optics.xyz(cos_theta, Walls::One { thickness_nm });
-    let n = optics.film().reference_index();
     let exposed = m2_exposure(optics.film(), cos_theta, 1) * (BT709.from_xyz() * xyz);
     WallReading {
         is_front,
@@ -181,7 +177,7 @@ fn reading(optics: &FilmOptics, wall: &WallInSight, thickness_nm: f64, is_front:
         cos_theta,
         speed_m_s: wall.speed_m_s,
         xyz,
-        path_nm: 2.0 * n * thickness_nm * cos_refracted(n, cos_theta),
+        path_nm: optics.film().path_nm(thickness_nm, cos_theta),
         swatch: exposed.to_array().map(|part| (255.0 * srgb_encode(part.clamp(0.0, 1.0))).round() as u8),
     }
 }
@@ -215,10 +211,17 @@ impl Probe {
         self.clicked.or(self.place)
     }
 
-    /// Takes an answer, which is final once the film is read; returns whether it is another one than before.
+    /// Whether a click waits for its answer.
+    #[must_use]
+    pub fn is_clicked(&self) -> bool {
+        self.clicked.is_some()
+    }
+
+    /// Takes an answer, which is final once the film is read; returns whether it is another one than before, or pins a point.
     pub fn answer(&mut self, reading: Option<Reading>, is_read: bool) -> bool {
-        let is_new = self.hover != reading;
-        if is_read && self.clicked.take().is_some() {
+        let is_pinned = is_read && self.clicked.take().is_some();
+        let is_new = self.hover != reading || is_pinned;
+        if is_pinned {
             self.pinned = reading.clone().map(|reading| (reading.clone(), reading.spectrum()));
         }
         self.hover = reading;

@@ -55,6 +55,10 @@ pub enum Request {
     Ask(Target),
     /// Another scene, by path or preset's name.
     LoadScene(String),
+    /// A built-in lesson, by its name.
+    BeginLesson(String),
+    /// The scene of the lesson's step.
+    LoadStep,
     /// Another light, whose environment must be loaded.
     LoadLight(Light),
     /// A link to this page that holds the scene.
@@ -75,7 +79,7 @@ impl Request {
     #[must_use]
     pub fn danger(&self) -> Option<&'static str> {
         match self {
-            Self::LoadScene(_) => Some("before another scene is opened"),
+            Self::LoadScene(_) | Self::BeginLesson(_) => Some("before another scene is opened"),
             Self::Quit => Some("before the window closes"),
             _ => None,
         }

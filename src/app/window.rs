@@ -235,6 +235,11 @@ impl Handler {
         match request {
             Request::Ask(target) => self.files.ask(target, &self.model, &view.window),
             Request::LoadScene(name) => self.files.load_scene(&mut self.model, name),
+            Request::BeginLesson(name) => {
+                let lesson = crate::scene::lesson::lesson(&name);
+                lesson.into_iter().for_each(|lesson| self.model.begin_lesson(lesson, PathBuf::new()));
+            }
+            Request::LoadStep => self.files.load_step(&mut self.model),
             Request::LoadLight(light) => self.files.load_light(&mut self.model, light),
             #[cfg(target_arch = "wasm32")]
             Request::CopyLink => match system::copy_link(&self.model.scene.to_toml()) {

@@ -14,6 +14,7 @@ use super::{
     costs::Costs,
     edit::Edit,
     keys::Action,
+    lesson::Course,
     messages::Messages,
     orbit,
     probe::Probe,
@@ -54,6 +55,8 @@ pub struct Model {
     pub time_line: TimeLine,
     /// A kept picture beside the one that is shown.
     pub compare: Compare,
+    /// The lesson that is taken.
+    pub course: Option<Course>,
     /// What is measured under the pointer.
     pub probe: Probe,
     /// Index of the bubble that the film panel edits.
@@ -118,6 +121,7 @@ impl Model {
             rate: Rate::default(),
             time_line: TimeLine::default(),
             compare: Compare::default(),
+            course: None,
             probe: Probe::default(),
             selected: 0,
             outlines: false,

@@ -9,6 +9,7 @@ mod generators;
 mod header;
 mod help;
 mod hints;
+mod lesson;
 mod light;
 mod motion;
 mod notices;
@@ -106,6 +107,10 @@ fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
 fn sections(ui: &mut Ui, model: &mut Model) {
     header::show(ui, model);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        if let Some(course) = &model.course {
+            let title = format!("Lesson: {}", course.lesson.title);
+            section(ui, &title, true, |ui| lesson::show(ui, model));
+        }
         section(ui, "Film", true, |ui| film::show(ui, model));
         if !model.scene.generators.is_empty() {
             section(ui, "Generators", true, |ui| generators::show(ui, model));

@@ -17,6 +17,8 @@ use crate::{
     },
 };
 
+mod lesson;
+
 struct State {
     model: Model,
     picture: Option<Picture>,
