@@ -38,6 +38,11 @@ impl Capture {
         Ok(Self { readback, size, radiance, path, metadata: metadata(model) })
     }
 
+    /// A figure that is on its way.
+    pub fn of_figure((readback, size): (Readback, [u32; 2]), model: &Model, path: PathBuf) -> Self {
+        Self { readback, size, radiance: false, path, metadata: metadata(model) }
+    }
+
     /// Hands the picture to a worker once it has arrived; returns whether it is still pending.
     pub fn poll(&self, gpu: &Gpu, files: &Files) -> Result<bool, GpuError> {
         gpu.device.poll(wgpu::PollType::Poll).map_err(|error| GpuError::Lost(error.to_string()))?;

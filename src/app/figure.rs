@@ -58,8 +58,7 @@ fn submit(
     primitives: &[egui::ClippedPrimitive],
     texture: &wgpu::Texture,
 ) {
-    let screen =
-        ScreenDescriptor { size_in_pixels: [texture.width(), texture.height()], pixels_per_point: SCALE };
+    let screen = ScreenDescriptor { size_in_pixels: [texture.width(), texture.height()], pixels_per_point: SCALE };
     let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("figure") });
     // Callbacks would have buffers of their own; there are none.

@@ -233,11 +233,7 @@ impl Files {
                 model.once_saved = None;
             }
             Outcome::Nothing => model.once_saved = None,
-            Outcome::Scene(_)
-            | Outcome::Lesson(..)
-            | Outcome::Step(_)
-            | Outcome::TakenUp(..)
-            | Outcome::Light(..) => {}
+            Outcome::Scene(_) | Outcome::Lesson(..) | Outcome::Step(_) | Outcome::TakenUp(..) | Outcome::Light(..) => {}
         }
         None
     }

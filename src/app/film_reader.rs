@@ -47,6 +47,14 @@ impl FilmReader {
         self.read.get(&film).map(|(_, moment)| *moment)
     }
 
+    /// The moment that the thickness of a film is of, at a moment of the clock.
+    pub fn time(&self, renderer: &Renderer, film: usize, clock: Moment) -> Moment {
+        let field = renderer.state().fields.get(film).and_then(Option::as_ref);
+        // A film at rest, or without a field, is what it was; only evaporation goes on.
+        let moves = field.is_some_and(|field| field.rest.is_none());
+        self.moment(film).filter(|_| moves).unwrap_or(clock)
+    }
+
     /// Reads a film if it has changed since; returns whether what is here is what the picture shows, or has just arrived: a film that moves is
     /// always a little ahead.
     ///

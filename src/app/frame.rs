@@ -1,9 +1,10 @@
 //! One redraw: time, panels, picture, window, and when the next one is due.
 
+mod readbacks;
+
 use std::{sync::Arc, time::Duration};
 
 use egui::{Rect, ViewportInfo};
-use glam::DVec2;
 use web_time::Instant;
 use winit::{event_loop::ActiveEventLoop, window::Window};
 
@@ -11,14 +12,13 @@ use winit::{event_loop::ActiveEventLoop, window::Window};
 use super::reload::ShaderWatch;
 use super::{
     capture::Capture,
-    compare::{Pixels, Want},
+    compare::Want,
     files::Files,
     film_reader::FilmReader,
     input,
     model::Model,
     paint::{Contents, Painted},
     panels,
-    probe::Reading,
     request::Request,
     stage::Stage,
 };
@@ -26,7 +26,6 @@ use crate::{
     gpu::readback::Readback,
     physics::colour::Gamut,
     plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
-    studio::walls_in_sight,
 };
 
 /// Time between two looks at the clock while nothing but its reading changes.
@@ -38,8 +37,6 @@ const ASK_AGAIN: Duration = Duration::from_millis(50);
 const PANELS_FIRST: u32 = 2;
 /// What is loaded meanwhile, for people.
 const FIRST_PICTURE: &str = "the first picture";
-/// Time between two polls of a picture that is being read back.
-const FETCH: Duration = Duration::from_millis(8);
 /// Time that a picture rests after it failed: nothing is gained by failing at every frame.
 const REST: Duration = Duration::from_secs(1);
 
@@ -138,9 +135,7 @@ impl View {
         // After the panels: what is changed there happens at the tick that its user sees.
         let first_tick = self.pass_time(model, due.now);
         let moves = self.draw_picture(model, first_tick, &mut due);
-        self.probe(model, &mut due);
-        self.compare(model, files, &mut due);
-        self.fetch(model, files, &mut due);
+        self.read_back(model, files, &mut due);
         self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
         let painted = self.paint(&mut output, size, moves);
         self.schedule(model, painted, moves, &mut due);
@@ -246,51 +241,6 @@ impl View {
         }
     }
 
-    /// Reads the film under the pointer, if the pointer asks.
-    fn probe(&mut self, model: &mut Model, due: &mut Due) {
-        let (Some(place), Some(draw)) = (model.probe.asked(), &self.shown) else { return };
-        let [width, height] = draw.size.map(f64::from);
-        let position = 0.5 * DVec2::new(width, height) + height * DVec2::new(place.x, -place.y);
-        let walls = walls_in_sight(draw, self.reader.films(), position);
-        let is_read = walls.first().is_none_or(|wall| {
-            self.reader.read(&self.stage.renderer, wall.film, due.now).unwrap_or_else(|error| {
-                model.messages.problem(format!("the film cannot be read: {error}"));
-                true
-            })
-        });
-        // What arrived just now counts.
-        let walls = walls_in_sight(draw, self.reader.films(), position);
-        let moment = walls.first().and_then(|wall| self.reader.moment(wall.film));
-        let moment = moment.unwrap_or(model.clock.moment(&model.scene.motion));
-        let time_s = moment.ticks() * model.scene.motion.tick_s;
-        let is_new = model.answer_probe(Reading::new(&walls, time_s, model.scene.bubbles.len()), is_read);
-        if !is_read {
-            due.after(FETCH);
-        } else if is_new {
-            // The panels have not shown it yet.
-            due.after(Duration::ZERO);
-        }
-    }
-
-    /// Reads the shown picture back, to keep it or to compare it.
-    fn compare(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
-        let renderer = &self.stage.renderer;
-        if let (Some(want), Some(draw)) = (model.compare.wants.take(), &self.shown) {
-            self.compared = renderer.read_picture().map(|readback| (want, draw.size, readback));
-        }
-        let Some((want, size, readback)) = &self.compared else { return };
-        // A loss is told elsewhere.
-        let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
-        let (want, size) = (*want, *size);
-        let Some(bytes) = readback.try_take() else { return due.after(FETCH) };
-        self.compared = None;
-        match bytes {
-            Ok(rgba) => files.compare(model, want, Pixels { size, rgba: Arc::new(rgba) }),
-            Err(error) => model.messages.problem(format!("the picture cannot be read: {error}")),
-        }
-        due.after(Duration::ZERO);
-    }
-
     fn account(&mut self, model: &mut Model, plan: &Plan, due: &mut Due) {
         if !plan.complete {
             due.after(Duration::ZERO);
@@ -328,27 +278,6 @@ impl View {
             Painted::Later => due.after(ASK_AGAIN),
             // The system will say when the window can be seen again.
             Painted::Hidden => due.at = None,
-        }
-    }
-
-    /// Starts to save the picture.
-    pub fn capture(&mut self, model: &mut Model, radiance: bool, path: std::path::PathBuf) {
-        match Capture::begin(&mut self.stage.renderer, model, self.picture_size, radiance, path) {
-            Ok(capture) => self.captures.push(capture),
-            Err(text) => model.messages.problem(text),
-        }
-    }
-
-    fn fetch(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
-        let gpu = &self.stage.renderer.gpu;
-        self.captures.retain(|capture| {
-            capture.poll(gpu, files).unwrap_or_else(|error| {
-                model.messages.problem(format!("the picture is not saved: {error}"));
-                false
-            })
-        });
-        if !self.captures.is_empty() {
-            due.after(FETCH);
         }
     }
 

@@ -5,6 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 use crate::{
     input::LoadedScene,
     scene::lesson::{FilmPoint, Kind, Lesson, LessonStep, Task, Verdict},
+    studio::WallInSight,
 };
 
 use super::{model::Model, probe::Reading, request::Request, tools::Tool};
@@ -146,11 +147,11 @@ impl Model {
     }
 
     /// Takes what the probe has read, as [`super::probe::Probe::answer`]; the lesson judges a new pin.
-    pub fn answer_probe(&mut self, reading: Option<Reading>, is_read: bool) -> bool {
+    pub fn answer_probe(&mut self, reading: Option<Reading>, walls: &[WallInSight], is_read: bool) -> bool {
         let is_pinned = is_read && self.probe.is_clicked();
-        let is_new = self.probe.answer(reading, is_read);
-        if let (true, Some(course), Some((reading, _))) = (is_pinned, &mut self.course, &self.probe.pinned) {
-            course.pin(reading);
+        let is_new = self.probe.answer(reading, walls, is_read);
+        if let (true, Some(course), Some(pin)) = (is_pinned, &mut self.course, &self.probe.pinned) {
+            course.pin(&pin.reading);
         }
         is_new
     }

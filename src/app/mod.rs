@@ -11,7 +11,8 @@
 //! | [`request`] | what goes from the model to the system, and the questions that come before |
 //! | [`compare`] | a kept picture beside the one that is shown |
 //! | [`lesson`] | a lesson that is taken, and how its answers are judged |
-//! | [`probe`], `film_reader` | numbers of the film under the pointer |
+//! | [`probe`], [`pin`], `film_reader` | numbers of the film under the pointer, and all that is known of a pinned point |
+//! | `figure` | a plot as a picture for a file |
 //! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
@@ -29,6 +30,7 @@ pub mod messages;
 pub mod model;
 pub mod orbit;
 pub mod panels;
+pub mod pin;
 pub mod probe;
 pub mod request;
 pub mod storage;
@@ -36,6 +38,7 @@ pub mod time_line;
 pub mod undo;
 
 mod capture;
+mod figure;
 mod film_reader;
 pub(crate) mod frame;
 mod input;

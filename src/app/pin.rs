@@ -21,6 +21,14 @@ words! {
     }
 }
 
+impl Plot {
+    /// The plot as a word of a file's name.
+    #[must_use]
+    pub fn file_word(self) -> &'static str {
+        if self == Self::Strip { "strip" } else { self.name() }
+    }
+}
+
 /// A film of a thickness, at the angle and in the light of the pinned point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StripPoint {
@@ -166,7 +174,7 @@ mod tests {
         assert!(!pin.record(sample(3.0, 290.0)), "nothing has changed");
         assert!(pin.record(sample(2.5, 280.0)));
         assert_eq!(pin.history.iter().map(|sample| sample.time_s).collect::<Vec<_>>(), [1.5, 2.0, 2.5]);
-        (0..2 * LONGEST_HISTORY).for_each(|k| drop(pin.record(sample(3.0 + k as f64, 1.0))));
+        assert!((0..2 * LONGEST_HISTORY).all(|k| pin.record(sample(3.0 + k as f64, 1.0))));
         assert_eq!(pin.history.len(), LONGEST_HISTORY);
     }
 

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::pin::Plot;
 use crate::scene::Light;
 
 /// What a file is asked for.
@@ -17,8 +18,10 @@ pub enum Target {
     SavePng,
     /// Where the picture's radiance goes.
     SaveExr,
-    /// Where the numbers and spectra of the probe go.
-    SaveCsv,
+    /// Where the numbers of the pinned point and of a plot of it go.
+    SaveCsv(Plot),
+    /// Where a plot of the pinned point goes as a picture.
+    SavePlot(Plot),
 }
 
 impl Target {
@@ -28,9 +31,9 @@ impl Target {
         match self {
             Self::OpenScene | Self::SaveScene => ("Scene", &["toml"]),
             Self::OpenEnvironment => ("Environment", &["exr", "hdr"]),
-            Self::SavePng => ("PNG picture", &["png"]),
+            Self::SavePng | Self::SavePlot(_) => ("PNG picture", &["png"]),
             Self::SaveExr => ("OpenEXR picture", &["exr"]),
-            Self::SaveCsv => ("Table", &["csv"]),
+            Self::SaveCsv(_) => ("Table", &["csv"]),
         }
     }
 
@@ -38,7 +41,11 @@ impl Target {
     #[must_use]
     pub fn file_name(self, scene: &str) -> String {
         let stem = Path::new(scene).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
-        format!("{stem}.{}", self.file_type().1[0])
+        let plot = match self {
+            Self::SaveCsv(plot) | Self::SavePlot(plot) => format!("_{}", plot.file_word()),
+            _ => String::new(),
+        };
+        format!("{stem}{plot}.{}", self.file_type().1[0])
     }
 
     /// Whether the file is there already.

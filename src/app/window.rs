@@ -279,8 +279,9 @@ impl Handler {
             Target::SaveScene => self.files.save_scene(with_ending(path, "toml"), &self.model),
             Target::SavePng => view.capture(&mut self.model, false, with_ending(path, "png")),
             Target::SaveExr => view.capture(&mut self.model, true, with_ending(path, "exr")),
-            Target::SaveCsv => {
-                let csv = self.model.probe.pinned.as_ref().map(|(reading, _)| reading.csv());
+            Target::SavePlot(plot) => view.capture_plot(&mut self.model, plot, with_ending(path, "png")),
+            Target::SaveCsv(plot) => {
+                let csv = self.model.probe.pinned.as_ref().map(|pin| pin.csv(plot));
                 csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
             }
             Target::OpenScene | Target::OpenEnvironment => self.open_file(&path),

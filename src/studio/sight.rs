@@ -57,6 +57,16 @@ pub fn walls_in_sight(draw: &DrawKey, films: &FilmsRead, position: DVec2) -> Vec
     walls.iter().map(|wall| seen(draw, &bubble, films, wall)).collect()
 }
 
+/// Thickness in nm at places of a film, unit vectors from the bubble's center in the world's axes; 0 where there is no film. `None` for a film that is
+/// not in the picture or must be read from the device first.
+#[must_use]
+pub fn thickness_at(draw: &DrawKey, films: &FilmsRead, film: usize, places: &[DVec3]) -> Option<Vec<f64>> {
+    let bubble = draw.all_bubbles().into_iter().find(|bubble| bubble.index == film)?;
+    let is_known = matches!(bubble.film, FilmKey::Uniform(_)) || films.thickness_nm.contains_key(&film);
+    let thickness_nm = is_known.then(|| film_thickness(&bubble, draw.on_bath, &films.thickness_nm).ok())??;
+    Some(places.iter().map(|place| thickness_nm(*place)).collect())
+}
+
 fn seen(draw: &DrawKey, bubble: &BubbleKey, films: &FilmsRead, wall: &Wall) -> WallInSight {
     let known = matches!(bubble.film, FilmKey::Uniform(_)) || films.thickness_nm.contains_key(&bubble.index);
     let thickness = known.then(|| film_thickness(bubble, draw.on_bath, &films.thickness_nm).ok()).flatten();

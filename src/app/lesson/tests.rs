@@ -31,19 +31,17 @@ fn at_step(model: &mut Model, step: usize) {
 /// What the window draws of a model, and its films in f64: none is moved by the device.
 fn drawn(model: &Model) -> (DrawKey, FilmsRead) {
     let moment = model.clock.moment(&model.scene.motion);
-    let shot = Shot {
-        size: SIZE,
-        moment,
-        full_precision: false,
-        gamut: Gamut::Srgb,
-        yardstick: false,
-        pace: Pace::Frame,
-    };
+    let shot =
+        Shot { size: SIZE, moment, full_precision: false, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Frame };
     let draw = request(&model.scene, &model.resources, &shot).unwrap().picture.draw;
     let mut films = FilmsRead::default();
     for (index, film) in draw.films() {
         let FilmKey::Field(field) = film else { continue };
-        assert!(field.moment == Moment::default() || !reference_needs_device(&draw, index), "{}: no f64 film", model.name);
+        assert!(
+            field.moment == Moment::default() || !reference_needs_device(&draw, index),
+            "{}: no f64 film",
+            model.name
+        );
         let (map, grid) = (reference::film(field).unwrap(), CubedSphere::new(64).unwrap());
         let value = |cell: usize| map.value(grid.cell_direction(cell));
         films.thickness_nm.insert(index, PaddedField::from_cells(grid, &HaloTable::new(grid), value));
@@ -65,7 +63,7 @@ fn readings(model: &Model) -> Vec<Reading> {
 /// A click on a film with this reading.
 fn pin(model: &mut Model, reading: &Reading) {
     model.probe.point(Some(DVec2::ZERO), true);
-    model.answer_probe(Some(reading.clone()), true);
+    model.answer_probe(Some(reading.clone()), &[], true);
 }
 
 fn verdict(model: &Model) -> Verdict {
@@ -76,7 +74,7 @@ fn verdict(model: &Model) -> Verdict {
 }
 
 fn answer(model: &mut Model, typed: &str) -> Verdict {
-    let pinned = model.probe.pinned.clone().map(|(reading, _)| reading);
+    let pinned = model.probe.pinned.clone().map(|pin| pin.reading);
     let course = model.course.as_mut().unwrap();
     course.typed = typed.to_owned();
     course.answer(pinned.as_ref());
@@ -100,7 +98,8 @@ fn every_lesson_can_be_solved_and_knows_wrong_answers() {
             }
         }
         let course = model.course.unwrap();
-        let solved = course.lesson.steps.iter().zip(&course.solved).all(|(step, solved)| *solved == step.task.is_some());
+        let solved =
+            course.lesson.steps.iter().zip(&course.solved).all(|(step, solved)| *solved == step.task.is_some());
         assert!(solved, "{name}: {:?}", course.solved);
     }
 }
@@ -113,7 +112,7 @@ fn type_numbers(model: &mut Model, task: &Task, what: &str) {
         let reading = readings(model).swap_remove(700);
         pin(model, &reading);
     }
-    let point = model.probe.pinned.as_ref().map(|(reading, _)| film_point(reading));
+    let point = model.probe.pinned.as_ref().map(|pin| film_point(&pin.reading));
     // Of the physics alone: what the file says as the answer is left out.
     let truth = Task { answer: None, ..task.clone() }.right_answer(point.as_ref()).expect(what);
     let off = 3.0 * task.tolerance;

@@ -61,7 +61,8 @@ fn lessons(ui: &mut Ui, pictures: &Pictures, chosen: &mut Option<String>) {
     ui.heading("Lessons");
     ui.horizontal_wrapped(|ui| {
         for (name, lesson) in lesson_names().filter_map(|name| Some((name, lesson(name)?))) {
-            let picture = pictures.iter().find(|(known, _)| *known == lesson.steps[0].scene).map(|(_, picture)| picture);
+            let picture =
+                pictures.iter().find(|(known, _)| *known == lesson.steps[0].scene).map(|(_, picture)| picture);
             if card(ui, &lesson.title, &lesson.about, picture) {
                 *chosen = Some(name.to_owned());
             }

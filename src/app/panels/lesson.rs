@@ -23,7 +23,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         ui.separator();
         ui.add(egui::Label::new(RichText::new(&task.ask).strong()).wrap());
         match task.kind {
-            Kind::Number => number(ui, course, task, model.probe.pinned.as_ref().map(|(reading, _)| reading)),
+            Kind::Number => number(ui, course, task, model.probe.pinned.as_ref().map(|pin| &pin.reading)),
             Kind::Pin => drop(ui.weak("Use the tool Probe (6), and click the film.")),
         }
         outcome(ui, course, task);

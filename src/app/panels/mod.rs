@@ -14,6 +14,7 @@ mod light;
 mod motion;
 mod notices;
 mod picture;
+pub mod pin_plots;
 mod plots;
 mod probe;
 mod question;

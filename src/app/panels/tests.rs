@@ -9,6 +9,7 @@ use crate::{
         compare::{Map, Pixels, Want},
         edit::Edit,
         model::{Model, tests::model},
+        pin::Plot,
         request::{Fate, Question, Request, Target},
         tools::Tool,
     },
@@ -254,17 +255,17 @@ fn the_probe_shows_its_numbers_and_keeps_what_was_clicked() {
     window.run();
     assert_eq!(window.state().model.probe.asked(), Some(glam::DVec2::ZERO));
     let reading = crate::app::probe::tests::reading();
-    window.state_mut().model.probe.answer(Some(reading.clone()), true);
+    window.state_mut().model.probe.answer(Some(reading.clone()), &[], true);
     window.run();
     window.get_all_by_label("320.0 nm").next().unwrap();
     assert_eq!(window.state().model.probe.pinned, None, "nothing was clicked");
     window.drag_at(middle);
     window.drop_at(middle);
     window.run();
-    window.state_mut().model.probe.answer(Some(reading), true);
+    window.state_mut().model.probe.answer(Some(reading), &[], true);
     window.run();
     click(&mut window, "CSV…");
-    assert_eq!(window.state().model.requests, [Request::Ask(Target::SaveCsv)]);
+    assert_eq!(window.state().model.requests, [Request::Ask(Target::SaveCsv(Plot::Spectra))]);
     press(&mut window, Modifiers::NONE, Key::Escape);
     assert_eq!(window.state().model.probe.pinned, None);
     press(&mut window, Modifiers::NONE, Key::Num1);

@@ -51,10 +51,7 @@ impl Quantity {
     #[must_use]
     pub fn is_of_point(self) -> bool {
         use Quantity as Q;
-        !matches!(
-            self,
-            Q::BrightThickness | Q::DarkThickness | Q::BrewsterAngle | Q::DrainageTime | Q::EvaporationTime
-        )
+        !matches!(self, Q::BrightThickness | Q::DarkThickness | Q::BrewsterAngle | Q::DrainageTime | Q::EvaporationTime)
     }
 }
 

@@ -53,9 +53,10 @@ impl Task {
         self.illuminant.parse::<Illuminant>().map_err(|error| Fault::unusable("illuminant", error))?;
         let quantity = self.quantity.name();
         match (self.kind, self.answer, computed(self)) {
-            (Kind::Pin, _, _) if !self.quantity.is_of_point() => {
-                Err(Fault::new("quantity", format!("is \"{quantity}\", which no point of a film has; ask for a number")))
-            }
+            (Kind::Pin, _, _) if !self.quantity.is_of_point() => Err(Fault::new(
+                "quantity",
+                format!("is \"{quantity}\", which no point of a film has; ask for a number"),
+            )),
             (Kind::Pin, None, _) => Err(Fault::new("answer", "is missing; say what the pinned point must have")),
             (Kind::Number, None, None) if !self.quantity.is_of_point() => {
                 Err(Fault::new("quantity", format!("is \"{quantity}\"; give `thickness_nm` and, for a time, `to_nm`")))

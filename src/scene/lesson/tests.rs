@@ -21,7 +21,9 @@ impl Lesson {
 fn built_in_lessons_are_read() {
     for (name, text) in super::built_in::LESSONS {
         let lesson = Lesson::from_toml(text, name).unwrap_or_else(|error| panic!("{error}"));
-        assert!(Lesson::is_lesson(text) && lesson.steps.len() >= 4 && lesson.steps[0].task.is_some() || name == "drainage");
+        assert!(
+            Lesson::is_lesson(text) && lesson.steps.len() >= 4 && lesson.steps[0].task.is_some() || name == "drainage"
+        );
         assert!(lesson.steps.iter().filter(|step| step.task.is_some()).count() >= 3, "{name}");
         assert_eq!(lesson.staged_by(0), Some(0), "{name}: the first step has a scene");
         for step in lesson.steps.iter().filter(|step| !step.scene.is_empty()) {
@@ -44,8 +46,14 @@ fn mistakes_are_located() {
         ("title = 'T'\n[[step]]".to_owned(), "my.toml:1: no version; add `version = 1` at the top"),
         ("version = 1\n[[step]]".to_owned(), "my.toml:1: `title` is empty; give the lesson a name"),
         (lesson("scen = 'bands'"), "my.toml:4: unknown key `scen` in [[step]]; did you mean `scene`?"),
-        (lesson("time_s = 'late'"), "my.toml:4: `time_s` in [[step]] is wrong: invalid type: string \"late\", expected a number"),
-        (lesson("time_s = 3"), "my.toml:3: `scene` in [[step]] is empty, but the step sets keys or the time of a scene; name one"),
+        (
+            lesson("time_s = 'late'"),
+            "my.toml:4: `time_s` in [[step]] is wrong: invalid type: string \"late\", expected a number",
+        ),
+        (
+            lesson("time_s = 3"),
+            "my.toml:3: `scene` in [[step]] is empty, but the step sets keys or the time of a scene; name one",
+        ),
         (
             lesson("scene = 'bands'\nset = ['view.exposure_ev']"),
             "my.toml:5: `set` in [[step]] cannot be used: write it as KEY=VALUE, as in view.exposure_ev=2 or bubble.0.radius_mm=30",
@@ -62,7 +70,7 @@ fn mistakes_are_located() {
         ),
         (
             task("quantity = 'brewster-angle'\nanswer = 56.3\ntolerance = 1"),
-            "my.toml:6: `answer` in [step.task] is 56.3, but the physics of films says 53.153305",
+            "my.toml:6: `answer` in [step.task] is 56.3, but the physics of films says 53.15793",
         ),
         (task("illuminant = 'moon'"), "my.toml:5: `illuminant` in [step.task] cannot be used: "),
     ] {

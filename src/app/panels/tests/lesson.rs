@@ -17,7 +17,9 @@ fn a_number_is_typed_and_checked() {
     let mut window = at_lesson(vec2(1280.0, 1200.0));
     assert_eq!(window.state().model.tool, Tool::Orbit, "the scene is not loaded yet");
     click(&mut window, "Next");
-    for (typed, told) in [("much", "Type a number"), ("206.1", "Off by 103.1 nm: too large."), ("103", "Right: 103 nm.")] {
+    for (typed, told) in
+        [("much", "Type a number"), ("206.1", "Off by 103.1 nm: too large."), ("103", "Right: 103 nm.")]
+    {
         window.state_mut().model.course.as_mut().unwrap().typed = typed.to_owned();
         click(&mut window, "Check");
         window.get_by_label_contains(told);
