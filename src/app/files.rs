@@ -5,13 +5,15 @@ use std::{
     path::{Path, PathBuf},
     sync::{
         Arc,
+        atomic::{AtomicBool, Ordering},
         mpsc::{Receiver, Sender, channel},
     },
 };
 
 use super::{
-    compare::{Map, Pixels, Want},
+    compare::{Map, Pixels, Side, Want},
     model::Model,
+    reference,
     request::{Question, Target},
     storage::Unsaved,
     system,
@@ -19,8 +21,9 @@ use super::{
 use crate::{
     input::{LoadError, LoadedScene, Opened, load_environment, load_illuminant, load_step, open},
     output::{Metadata, Picture, write_text},
-    plan::Resources,
+    plan::{Resources, TonemapKey},
     scene::{Light, Scene, lesson::Lesson},
+    verify::reference::MovedFilms,
 };
 
 /// What came of a piece of work.
@@ -34,6 +37,7 @@ enum Outcome {
     NoDialog(Target),
     Saved(PathBuf, u64),
     Map(Map),
+    Reference(Side, Pixels, f32, Arc<AtomicBool>),
     Done(String),
     Failed(String),
     NotSaved(String),
@@ -131,16 +135,29 @@ impl Files {
 
     /// Keeps a picture, or finds out how far it is from the one that is kept.
     pub fn compare(&self, model: &mut Model, want: Want, shown: Pixels) {
+        let name =
+            |quality: &str| format!("{} at {:.2} s, {quality}", model.name, model.clock.time_s(&model.scene.motion));
         match (want, model.compare.kept.clone()) {
             (Want::Map, Some((kept, _))) if kept.size == shown.size => {
                 self.run(move || Outcome::Map(Map::new(&kept, &shown)));
             }
             (Want::Map, Some(_)) => model.messages.note("A has another size than the picture has now: keep it again"),
-            _ => {
-                let name = format!("{} at {:.2} s", model.name, model.clock.time_s(&model.scene.motion));
-                model.compare.keep(shown, name);
-            }
+            (Want::Draw(side, quality), Some(_)) => model.compare.put(side, shown, name(quality.name())),
+            _ => model.compare.keep(shown, name(model.scene.view.quality.name())),
         }
+    }
+
+    /// Computes the reference picture of what is shown, with films as the device has moved them.
+    pub fn compute_reference(&self, model: &mut Model, side: Side, key: TonemapKey, films: MovedFilms) {
+        let (stop, tell, size) = (model.compare.begin_reference(), self.teller(), key.draw.size);
+        self.run(move || {
+            let told = reference::paint(&key, &films, |progress| {
+                let pixels = Pixels { size, rgba: Arc::new(progress.rgba) };
+                tell(Outcome::Reference(side, pixels, progress.done, stop.clone()));
+                !stop.load(Ordering::Relaxed)
+            });
+            told.map_or_else(|error| Outcome::Failed(error.to_string()), |()| Outcome::Nothing)
+        });
     }
 
     /// Saves a text.
@@ -224,6 +241,13 @@ impl Files {
             Outcome::NotSaved(text) => {
                 model.messages.problem(text);
                 model.once_saved = None;
+            }
+            Outcome::Reference(side, pixels, done, of) => {
+                // One that was stopped still tells what it had begun.
+                if Arc::ptr_eq(&of, &model.compare.stop) && model.compare.kept.is_some() {
+                    model.compare.put(side, pixels, format!("{}, reference (f64)", model.name));
+                    model.compare.done = Some(done).filter(|done| *done < 1.0 && !of.load(Ordering::Relaxed));
+                }
             }
             Outcome::Map(map) => model.compare.map = model.compare.kept.as_ref().map(|_| map),
             Outcome::Done(text) => model.messages.note(text),

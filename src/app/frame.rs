@@ -1,5 +1,6 @@
 //! One redraw: time, panels, picture, window, and when the next one is due.
 
+mod overlays;
 mod readbacks;
 
 use std::{sync::Arc, time::Duration};
@@ -25,11 +26,13 @@ use super::{
 use crate::{
     gpu::readback::Readback,
     physics::colour::Gamut,
-    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
+    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot, TonemapKey},
 };
 
 /// Time between two looks at the clock while nothing but its reading changes.
 const READING: Duration = Duration::from_millis(400);
+/// Time between two pictures of a turntable.
+const TURN: Duration = Duration::from_millis(16);
 /// Time until a surface that had no frame is asked again.
 const ASK_AGAIN: Duration = Duration::from_millis(50);
 /// Redraws of the panels alone that come before the first picture, which may take long: a window must not stay black. Panels know their sizes from
@@ -71,10 +74,12 @@ pub struct View {
     info: ViewportInfo,
     captures: Vec<Capture>,
     reader: FilmReader,
+    /// What is laid over the picture was made of this.
+    overlaid: Option<overlays::Overlaid>,
     /// The shown picture on its way back, what for, and its size.
     compared: Option<(Want, [u32; 2], Readback)>,
     /// What the picture shows.
-    shown: Option<DrawKey>,
+    shown: Option<TonemapKey>,
     last_redraw: Instant,
     rests_until: Option<Instant>,
     #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
@@ -113,6 +118,7 @@ impl View {
             info: ViewportInfo::default(),
             captures: Vec::new(),
             reader: FilmReader::default(),
+            overlaid: None,
             compared: None,
             shown: None,
             last_redraw: Instant::now(),
@@ -227,7 +233,7 @@ impl View {
                 self.account(model, &plan, due);
                 let is_done = is_done(&request, &plan, model.clock.running) && model.behind_ticks == 0;
                 self.progress = if is_done { Progress::Done } else { Progress::Under };
-                self.shown = Some(request.picture.draw);
+                self.shown = Some(request.picture);
                 !plan.is_empty()
             }
             Err(text) => {
@@ -267,6 +273,9 @@ impl View {
     }
 
     fn schedule(&mut self, model: &Model, painted: Painted, moves: bool, due: &mut Due) {
+        if model.turntable_deg_s != 0.0 {
+            due.after(TURN);
+        }
         if let Some(wait_s) = model.clock.until_next_s(&model.scene.motion) {
             let wait = Duration::from_secs_f64(wait_s);
             due.after(if moves { wait } else { wait.max(READING) });

@@ -82,7 +82,7 @@ const fn command(key: Key, action: Action, help: &'static str) -> Binding {
 const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 /// All keys. Those with more modifiers stand first, for a shortcut also matches with more held than it asks for.
-pub const BINDINGS: [Binding; 33] = [
+pub const BINDINGS: [Binding; 34] = [
     Binding {
         shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::P),
         action: Action::SaveExr,
@@ -112,6 +112,7 @@ pub const BINDINGS: [Binding; 33] = [
     bare(Key::Num4, Action::Take(Tool::Drag), "The pointer moves a bubble"),
     bare(Key::Num5, Action::Take(Tool::Prick), "The pointer bursts a bubble"),
     bare(Key::Num6, Action::Take(Tool::Probe), "The pointer measures a film"),
+    bare(Key::Num7, Action::Take(Tool::Profile), "The pointer draws a line to measure along"),
     bare(Key::K, Action::Keep, "Keep this picture, to compare others with it"),
     bare(Key::L, Action::Loop, "Play in a loop"),
     bare(Key::Delete, Action::RemoveEvent, "Remove the event that is selected on the time line"),

@@ -9,14 +9,16 @@
 //! | [`files`], [`storage`], `keeper` | the system: dialogs, loading and saving; settings and unsaved work |
 //! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
 //! | [`request`] | what goes from the model to the system, and the questions that come before |
-//! | [`compare`] | a kept picture beside the one that is shown |
+//! | [`compare`], [`reference`] | a kept picture beside another one, and the reference picture in f64 |
 //! | [`lesson`] | a lesson that is taken, and how its answers are judged |
 //! | [`probe`], [`pin`], `film_reader` | numbers of the film under the pointer, and all that is known of a pinned point |
+//! | [`overlay`], [`colour_map`] | false colour over the picture, and the profile of a film along a line |
 //! | `figure` | a plot as a picture for a file |
 //! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
 pub mod clock;
+pub mod colour_map;
 pub mod compare;
 pub mod costs;
 mod edit;
@@ -29,9 +31,11 @@ pub mod link;
 pub mod messages;
 pub mod model;
 pub mod orbit;
+pub mod overlay;
 pub mod panels;
 pub mod pin;
 pub mod probe;
+pub mod reference;
 pub mod request;
 pub mod storage;
 pub mod time_line;

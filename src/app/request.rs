@@ -20,6 +20,8 @@ pub enum Target {
     SaveExr,
     /// Where the numbers of the pinned point and of a plot of it go.
     SaveCsv(Plot),
+    /// Where the profile along a line goes.
+    SaveProfile,
     /// Where a plot of the pinned point goes as a picture.
     SavePlot(Plot),
 }
@@ -33,7 +35,7 @@ impl Target {
             Self::OpenEnvironment => ("Environment", &["exr", "hdr"]),
             Self::SavePng | Self::SavePlot(_) => ("PNG picture", &["png"]),
             Self::SaveExr => ("OpenEXR picture", &["exr"]),
-            Self::SaveCsv(_) => ("Table", &["csv"]),
+            Self::SaveCsv(_) | Self::SaveProfile => ("Table", &["csv"]),
         }
     }
 
@@ -43,6 +45,7 @@ impl Target {
         let stem = Path::new(scene).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
         let plot = match self {
             Self::SaveCsv(plot) | Self::SavePlot(plot) => format!("_{}", plot.file_word()),
+            Self::SaveProfile => "_profile".to_owned(),
             _ => String::new(),
         };
         format!("{stem}{plot}.{}", self.file_type().1[0])

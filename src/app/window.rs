@@ -174,7 +174,7 @@ impl Handler {
         log::warn!("recreating everything on the graphics device");
         let instance = view.stage.renderer.gpu.instance.clone();
         panels::gallery::forget(view.egui.egui_ctx());
-        panels::compare::forget(view.egui.egui_ctx());
+        panels::textures::forget(view.egui.egui_ctx());
         self.open_device(instance, Bare { window: view.window, egui: view.egui });
         self.model.messages.note("The graphics device was lost and has been reopened");
     }
@@ -279,6 +279,10 @@ impl Handler {
             Target::SaveScene => self.files.save_scene(with_ending(path, "toml"), &self.model),
             Target::SavePng => view.capture(&mut self.model, false, with_ending(path, "png")),
             Target::SaveExr => view.capture(&mut self.model, true, with_ending(path, "exr")),
+            Target::SaveProfile => {
+                let csv = self.model.overlay.profile.as_ref().map(|profile| profile.csv());
+                csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
+            }
             Target::SavePlot(plot) => view.capture_plot(&mut self.model, plot, with_ending(path, "png")),
             Target::SaveCsv(plot) => {
                 let csv = self.model.probe.pinned.as_ref().map(|pin| pin.csv(plot));

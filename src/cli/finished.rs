@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::{
     output::Picture,
-    physics::colour::{Display, bt2020_to_bt709, transmittance},
+    physics::colour::{bt2020_to_bt709, transmittance},
     plan::TonemapKey,
 };
 
@@ -30,7 +30,7 @@ impl Passage {
 
 /// What a display shows of a picture.
 pub fn display(key: &TonemapKey, size: [u32; 2], radiance: &[Vec3]) -> Picture {
-    let display = shown_by(key);
+    let display = key.display();
     encoded(key, size, radiance, |radiance, pixel| {
         let [r, g, b] = display.encode(radiance.as_dvec3(), pixel);
         [r, g, b, u8::MAX]
@@ -39,15 +39,11 @@ pub fn display(key: &TonemapKey, size: [u32; 2], radiance: &[Vec3]) -> Picture {
 
 /// What a display shows of bubbles alone, with straight alpha.
 pub fn display_alone(key: &TonemapKey, size: [u32; 2], light: &[Passage]) -> Picture {
-    let display = shown_by(key);
+    let display = key.display();
     let to_display = key.gamut.from_bt2020() * key.balance;
     encoded(key, size, light, |light, pixel| {
         display.encode_alone(light.added.as_dvec3(), light.transmittance(&to_display), pixel)
     })
-}
-
-fn shown_by(key: &TonemapKey) -> Display {
-    Display { exposure_ev: key.exposure_ev, balance: key.balance, gamut: key.gamut, dither: key.dither }
 }
 
 fn encoded<T: Sync>(

@@ -7,8 +7,8 @@ use glam::DVec2;
 use super::{Due, View};
 use crate::{
     app::{
-        capture::Capture,
-        compare::Pixels,
+        capture::{self, Capture},
+        compare::{Pixels, Want},
         figure,
         files::Files,
         model::Model,
@@ -16,24 +16,26 @@ use crate::{
         pin::{Plot, Sample},
         probe::Reading,
     },
+    plan::TonemapKey,
     studio::{thickness_at, walls_in_sight},
 };
 
 /// Time between two polls of what is being read back.
-const FETCH: Duration = Duration::from_millis(8);
+pub(super) const FETCH: Duration = Duration::from_millis(8);
 
 impl View {
     /// Reads what is asked of the device, and takes what has arrived.
     pub(super) fn read_back(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
         self.probe(model, due);
         self.record(model, due);
+        self.overlay(model, due);
         self.compare(model, files, due);
         self.fetch(model, files, due);
     }
 
     /// Reads the film under the pointer, if the pointer asks.
     fn probe(&mut self, model: &mut Model, due: &mut Due) {
-        let (Some(place), Some(draw)) = (model.probe.asked(), &self.shown) else { return };
+        let (Some(place), Some(TonemapKey { draw, .. })) = (model.probe.asked(), &self.shown) else { return };
         let [width, height] = draw.size.map(f64::from);
         let position = 0.5 * DVec2::new(width, height) + height * DVec2::new(place.x, -place.y);
         let walls = walls_in_sight(draw, self.reader.films(), position);
@@ -58,12 +60,14 @@ impl View {
         }
     }
 
-    /// Reads the shown picture back, to keep it or to compare it.
+    /// Reads pictures back, to keep them or to compare them.
     fn compare(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
-        let renderer = &self.stage.renderer;
-        if let (Some(want), Some(draw)) = (model.compare.wants.take(), &self.shown) {
-            self.compared = renderer.read_picture().map(|readback| (want, draw.size, readback));
+        if let Some(want) = model.compare.wants.take()
+            && let Err(text) = self.begin_compare(model, files, want, due)
+        {
+            model.messages.problem(text);
         }
+        let renderer = &self.stage.renderer;
         let Some((want, size, readback)) = &self.compared else { return };
         // A loss is told elsewhere.
         let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
@@ -77,10 +81,42 @@ impl View {
         due.after(Duration::ZERO);
     }
 
+    /// Begins to make a picture that is asked for.
+    fn begin_compare(&mut self, model: &mut Model, files: &Files, want: Want, due: &mut Due) -> Result<(), String> {
+        let Some(shown) = &self.shown else { return Ok(()) };
+        let size = shown.draw.size;
+        match want {
+            Want::Reference(side) => {
+                // The film must stand until it is read.
+                model.clock.running = false;
+                if model.behind_ticks > 0 || !self.reader.read_all(&self.stage.renderer, &shown.draw, due.now) {
+                    model.compare.wants = Some(want);
+                    due.after(FETCH);
+                    return Ok(());
+                }
+                let films = self.reader.films().thickness_nm.clone();
+                files.compute_reference(model, side, shown.clone(), films);
+            }
+            Want::Draw(_, quality) => {
+                let readback = capture::draw_in(&mut self.stage.renderer, model, size, quality)?;
+                self.compared = Some((want, size, readback));
+                due.after(Duration::ZERO);
+            }
+            Want::Map if model.compare.other.is_some() => {
+                let other = model.compare.other.clone();
+                other.into_iter().for_each(|(pixels, _)| files.compare(model, want, pixels));
+            }
+            Want::Keep | Want::Map => {
+                self.compared = self.stage.renderer.read_picture().map(|readback| (want, size, readback));
+            }
+        }
+        Ok(())
+    }
+
     /// Notes how thick the film is at the pinned place.
     fn record(&mut self, model: &mut Model, due: &mut Due) {
         let moment = model.clock.moment(&model.scene.motion);
-        let (Some(pin), Some(draw)) = (&mut model.probe.pinned, &self.shown) else { return };
+        let (Some(pin), Some(TonemapKey { draw, .. })) = (&mut model.probe.pinned, &self.shown) else { return };
         let (film, places) = &pin.places;
         // A failure is told by the probe itself.
         let is_read = self.reader.read(&self.stage.renderer, *film, due.now).unwrap_or(true);

@@ -17,6 +17,7 @@ use super::{
     lesson::Course,
     messages::Messages,
     orbit,
+    overlay::Overlay,
     probe::Probe,
     request::{Question, Request, Target},
     storage::{Settings, Unsaved},
@@ -59,6 +60,10 @@ pub struct Model {
     pub course: Option<Course>,
     /// What is measured under the pointer.
     pub probe: Probe,
+    /// What is laid over the picture.
+    pub overlay: Overlay,
+    /// How fast the eye goes around its target by itself, degrees per second.
+    pub turntable_deg_s: f64,
     /// Index of the bubble that the film panel edits.
     pub selected: usize,
     /// Whether it is outlined in the picture, because it was clicked there.
@@ -123,6 +128,8 @@ impl Model {
             compare: Compare::default(),
             course: None,
             probe: Probe::default(),
+            overlay: Overlay::default(),
+            turntable_deg_s: 0.0,
             selected: 0,
             outlines: false,
             selected_generator: 0,
@@ -161,6 +168,7 @@ impl Model {
         self.behind_ticks = 0;
         (self.time_line.selected, self.time_line.dragged) = (None, None);
         self.probe = Probe::default();
+        self.overlay.profile = None;
         (self.selected, self.outlines, self.selected_generator) = (0, false, 0);
         self.motion_draft = None;
         // What the hand held is gone.
@@ -291,7 +299,7 @@ impl Model {
             Action::Help => self.shows_help = !self.shows_help,
             Action::Dismiss => {
                 (self.shows_help, self.presents) = (false, false);
-                self.probe.pinned = None;
+                (self.probe.pinned, self.overlay.profile) = (None, None);
                 self.time_line.selected = None;
                 self.messages.clear();
             }

@@ -1,6 +1,7 @@
 //! The panels: each a small function of the model. They touch neither window nor GPU, so tests drive them without either.
 
 mod all_keys;
+mod camera;
 pub mod compare;
 mod costs;
 mod film;
@@ -13,6 +14,7 @@ mod lesson;
 mod light;
 mod motion;
 mod notices;
+mod overlay;
 mod picture;
 pub mod pin_plots;
 mod plots;
@@ -20,6 +22,7 @@ mod probe;
 mod question;
 #[cfg(test)]
 mod tests;
+pub mod textures;
 mod time_line;
 mod tools;
 mod view;
@@ -33,6 +36,7 @@ use super::{
     keys::{self, Action},
     model::Model,
     orbit::Gesture,
+    overlay::Profile,
     tools::{Press, Tool},
 };
 
@@ -81,6 +85,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     if let Some(place) = picture.hovered.filter(|_| picture.clicked && model.tool == Tool::Orbit) {
         model.select(place);
     }
+    draw_line(model, &mut picture);
     let probes = model.tool == Tool::Probe;
     model.probe.point(picture.hovered.filter(|_| probes), picture.clicked && probes);
     if !model.stands_alone {
@@ -89,6 +94,19 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     picture
 }
 
+/// Draws the line of a profile, while the pointer is pressed with that tool.
+fn draw_line(model: &mut Model, picture: &mut Picture) {
+    if model.tool != Tool::Profile {
+        return;
+    }
+    picture.gesture.turn = DVec2::ZERO;
+    let line = picture.pressed.filter(|Press { from, at }| from.distance(*at) > SHORTEST_LINE);
+    line.into_iter().for_each(|Press { from, at }| model.overlay.profile = Some(Profile::new([from, at])));
+}
+
+/// Length of a line that is meant, in heights of the picture.
+const SHORTEST_LINE: f64 = 0.02;
+
 /// What stands over the picture, and the questions over everything.
 fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
     if !model.presents {
@@ -96,6 +114,7 @@ fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
         tools::show(ctx, picture, model);
         hints::show(ctx, picture, model);
     }
+    overlay::show(ctx, picture, model);
     compare::show(ctx, picture, model);
     probe::show(ctx, picture, model);
     notices::show(ctx, picture, model);
@@ -119,6 +138,7 @@ fn sections(ui: &mut Ui, model: &mut Model) {
         section(ui, "Motion", true, |ui| motion::show(ui, model));
         section(ui, "Light", true, |ui| light::show(ui, model));
         section(ui, "View", true, |ui| view::show(ui, model));
+        section(ui, "Measure", true, |ui| overlay::choices(ui, &mut model.overlay));
         section(ui, "All keys", false, |ui| all_keys::show(ui, model));
         section(ui, "Costs", false, |ui| costs::show(ui, model));
     });

@@ -35,6 +35,8 @@ pub fn show(ui: &mut Ui, pin: &Pin, plot: Plot, is_uniform: bool, room: Vec2) {
 /// A chart that stands still.
 fn chart<'a>(name: &'a str, size: Vec2) -> Chart<'a> {
     let chart = Chart::new(name).width(size.x).height(size.y).set_margin_fraction(vec2(0.0, 0.04));
+    // Axes of one width, so that wavelengths of several plots stand beneath one another.
+    let chart = chart.y_axis_min_width(44.0);
     chart.allow_drag(false).allow_zoom(false).allow_scroll(false).allow_boxed_zoom(false)
 }
 
@@ -60,7 +62,7 @@ fn spectra(ui: &mut Ui, pin: &Pin, room: Vec2) {
         both(ui)
     }
     let light = chart("light", vec2(room.x, if is_wide { 0.3 * height } else { 0.24 * height })).include_y(0.0);
-    light.show_axes([true, false]).show(ui, |plot| {
+    light.y_axis_label("light").show(ui, |plot| {
         plot.line(curve("light", pin, LIGHT, |row| row.light).fill(0.0));
     });
     let walls = [("s", S), ("p", P), ("unpolarised", MEAN), ("both walls", BOTH), ("light, over λ in nm", LIGHT)];

@@ -19,6 +19,7 @@ use crate::{
 };
 
 mod lesson;
+mod measure;
 
 struct State {
     model: Model,
@@ -671,7 +672,9 @@ fn a_tool_in_hand_works_on_the_film_and_beside_it_the_view_turns() {
 #[test]
 fn keys_take_tools_and_tilt_gravity() {
     let mut window = window();
-    for (key, tool) in [(Key::Num2, Tool::Stir), (Key::Num5, Tool::Prick), (Key::Num1, Tool::Orbit)] {
+    for (key, tool) in
+        [(Key::Num2, Tool::Stir), (Key::Num5, Tool::Prick), (Key::Num7, Tool::Profile), (Key::Num1, Tool::Orbit)]
+    {
         window.key_press(key);
         window.run();
         assert_eq!(window.state().model.tool, tool);
