@@ -10,8 +10,8 @@
 //! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
 //! | [`request`] | what goes from the model to the system, and the questions that come before |
 //! | [`compare`], [`reference`] | a kept picture beside another one, and the reference picture in f64 |
-//! | [`lesson`] | a lesson that is taken, and how its answers are judged |
-//! | [`probe`], [`pin`], `film_reader` | numbers of the film under the pointer, and all that is known of a pinned point |
+//! | [`course`] | a lesson that is taken, and how its answers are judged |
+//! | [`probe`], `film_reader` | numbers of the film under the pointer, and all that is known of a pinned point |
 //! | [`overlay`], [`colour_map`] | false colour over the picture, and the profile of a film along a line |
 //! | `figure` | a plot as a picture for a file |
 //! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
@@ -21,11 +21,11 @@ pub mod clock;
 pub mod colour_map;
 pub mod compare;
 pub mod costs;
+pub mod course;
 mod edit;
 pub mod files;
 pub mod history;
 pub mod keys;
-pub mod lesson;
 #[cfg(any(target_arch = "wasm32", test))]
 pub mod link;
 pub mod messages;
@@ -33,7 +33,6 @@ pub mod model;
 pub mod orbit;
 pub mod overlay;
 pub mod panels;
-pub mod pin;
 pub mod probe;
 pub mod reference;
 pub mod request;

@@ -1,10 +1,12 @@
 //! The probe: what is known of the film under the pointer, as numbers that a person can note down.
 
+pub mod pin;
+
 use std::fmt::Write;
 
 use glam::{DVec2, DVec3};
+pub use pin::{Pin, Plot};
 
-use super::pin::{Pin, Plot};
 use crate::{
     physics::{
         colour::{BT709, FilmOptics, Walls, chromaticity_xy, m2_exposure, srgb_encode},

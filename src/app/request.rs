@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::pin::Plot;
+use super::probe::Plot;
 use crate::scene::Light;
 
 /// What a file is asked for.

@@ -1,6 +1,7 @@
 //! What the window shows and what its user has changed: everything that needs neither a window nor a GPU.
 
 mod bubbles;
+mod lesson;
 mod steps;
 mod time;
 
@@ -12,9 +13,9 @@ use super::{
     clock::{Clock, Rate},
     compare::{Compare, Want},
     costs::Costs,
+    course::Course,
     edit::Edit,
     keys::Action,
-    lesson::Course,
     messages::Messages,
     orbit,
     overlay::Overlay,

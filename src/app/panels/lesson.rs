@@ -4,7 +4,7 @@ use egui::{Color32, Key, RichText, TextEdit, Ui, text::LayoutJob};
 
 use crate::{
     app::{
-        lesson::{Course, Outcome},
+        course::{Course, Outcome},
         model::Model,
     },
     scene::lesson::{Kind, Quantity, Task, Verdict},

@@ -5,10 +5,7 @@ use egui_plot::{Bar, BarChart, Line, LineStyle, Plot as Chart, PlotPoint, PlotPo
 use glam::{DVec2, DVec3};
 
 use crate::{
-    app::{
-        pin::{Pin, Plot},
-        probe::SpectrumRow,
-    },
+    app::probe::{Pin, Plot, SpectrumRow},
     physics::{
         colour::{BT709, DISPLAY_P3, RgbSpace, chromaticity_uv, chromaticity_xy, spectral_locus},
         optics::Polarised,

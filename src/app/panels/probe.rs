@@ -6,8 +6,7 @@ use super::pin_plots;
 use crate::Words;
 use crate::app::{
     model::Model,
-    pin::{Pin, Plot},
-    probe::{Probe, Reading, WallReading},
+    probe::{Pin, Plot, Probe, Reading, WallReading},
     request::{Request, Target},
 };
 use crate::physics::colour::chromaticity_xy;

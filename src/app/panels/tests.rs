@@ -9,7 +9,7 @@ use crate::{
         compare::{Map, Pixels, Want},
         edit::Edit,
         model::{Model, tests::model},
-        pin::Plot,
+        probe::Plot,
         request::{Fate, Question, Request, Target},
         tools::Tool,
     },

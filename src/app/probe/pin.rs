@@ -9,7 +9,7 @@ use crate::{
     words::words,
 };
 
-use super::probe::{Reading, SpectrumRow};
+use super::{Reading, SpectrumRow};
 
 words! {
     /// Plots of a pinned point.

@@ -4,14 +4,17 @@ use glam::DVec2;
 
 use super::*;
 use crate::{
-    app::model::tests::model,
+    app::{
+        course::{Outcome, film_point, number},
+        model::tests::model,
+    },
     input::load_step,
     physics::{
         colour::Gamut,
         sphere::{CubedSphere, HaloTable, PaddedField},
     },
     plan::{DrawKey, FilmKey, Moment, Pace, Shot, request},
-    scene::lesson::{lesson, lesson_names},
+    scene::lesson::{Verdict, lesson, lesson_names},
     studio::{FilmsRead, walls_in_sight},
     verify::reference,
 };
