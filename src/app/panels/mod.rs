@@ -101,7 +101,11 @@ fn draw_line(model: &mut Model, picture: &mut Picture) {
     }
     picture.gesture.turn = DVec2::ZERO;
     let line = picture.pressed.filter(|Press { from, at }| from.distance(*at) > SHORTEST_LINE);
-    line.into_iter().for_each(|Press { from, at }| model.overlay.profile = Some(Profile::new([from, at])));
+    let is_new = |ends: &[DVec2; 2]| model.overlay.profile.as_ref().is_none_or(|known| known.ends != *ends);
+    // A line that is held still keeps what was read along it.
+    if let Some(ends) = line.map(|Press { from, at }| [from, at]).filter(is_new) {
+        model.overlay.profile = Some(Profile::new(ends));
+    }
 }
 
 /// Length of a line that is meant, in heights of the picture.

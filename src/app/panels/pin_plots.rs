@@ -108,20 +108,22 @@ fn strip(ui: &mut Ui, pin: &Pin, room: Vec2) {
     let step_nm = pin.strip[1].thickness_nm;
     let bars = pin.strip.iter().map(|film| {
         let [r, g, b] = film.swatch;
+        // Bars reach over their neighbours: between edges that only meet, the ground would show through.
         Bar::new(film.thickness_nm, 1.0)
-            .width(1.01 * step_nm)
+            .width(2.0 * step_nm)
             .fill(Color32::from_rgb(r, g, b))
             .stroke(egui::Stroke::NONE)
     });
     let bars: Vec<_> = bars.collect();
     let strip = chart("strip", vec2(room.x, (room.y - 24.0).min(130.0))).x_axis_label("thickness, nm");
-    strip.show_axes([true, false]).show_grid(false).include_y(1.25).show(ui, |plot| {
+    strip.show_axes([true, false]).show_grid(false).include_y(1.45).show(ui, |plot| {
         plot.bar_chart(BarChart::new("film", bars).allow_hover(false));
         for wall in &pin.reading.walls {
             let text = plot.ctx().global_style().visuals.strong_text_color();
             plot.vline(VLine::new(wall.name(), wall.thickness_nm).color(text));
-            let at = PlotPoint::new(wall.thickness_nm, 1.13);
-            plot.text(Text::new(wall.name(), at, if wall.is_front { "front" } else { "back" }).color(text));
+            // One above the other, for walls may be equally thick.
+            let (name, height) = if wall.is_front { ("front", 1.32) } else { ("back", 1.1) };
+            plot.text(Text::new(wall.name(), PlotPoint::new(wall.thickness_nm, height), name).color(text));
         }
     });
     let angle_deg = pin.reading.walls[0].angle_deg();
@@ -131,7 +133,7 @@ fn strip(ui: &mut Ui, pin: &Pin, room: Vec2) {
 /// The diagram of chromaticity: spectral locus, triangles of sRGB and Display P3, the films of the strip, and the walls.
 fn chromaticity(ui: &mut Ui, pin: &Pin, is_uniform: bool, room: Vec2) {
     let project = if is_uniform { chromaticity_uv } else { chromaticity_xy };
-    let names = if is_uniform { ["u′", "v′"] } else { ["x", "y"] };
+    let names = if is_uniform { ["u'", "v'"] } else { ["x", "y"] };
     let height = (room.y - 40.0).max(120.0);
     let diagram = chart("chromaticity", vec2(room.x.min(1.25 * height), height)).data_aspect(1.0);
     let diagram = diagram.include_x(0.0).include_x(0.7).include_y(0.0).include_y(if is_uniform { 0.62 } else { 0.86 });

@@ -70,7 +70,9 @@ fn pinned(ctx: &Context, picture: Rect, model: &mut Model) {
     let room = Rect::from_min_max(picture.min + vec2(0.0, 46.0), picture.max);
     window.constrain_to(room).show(ctx, |ui| {
         let width = (picture.width() - 40.0).clamp(120.0, 340.0);
-        let scroll = ScrollArea::vertical().max_height((room.height() - 76.0).max(60.0)).max_width(width + 12.0);
+        // As high as it may be from the first frame on: a window that grows by and by would hide what stands below.
+        let height = (room.height() - 76.0).max(60.0);
+        let scroll = ScrollArea::vertical().max_height(height).min_scrolled_height(height).max_width(width + 12.0);
         scroll.show(ui, |ui| {
             ui.set_width(width);
             numbers(ui, &pin.reading);
@@ -96,7 +98,7 @@ fn choices(ui: &mut Ui, plot: &mut Plot, is_uniform: &mut bool) {
     if *plot == Plot::Chromaticity {
         ui.horizontal(|ui| {
             ui.selectable_value(is_uniform, false, "CIE 1931 x, y");
-            ui.selectable_value(is_uniform, true, "CIE 1976 u′, v′").on_hover_text("Equal distances look more alike");
+            ui.selectable_value(is_uniform, true, "CIE 1976 u', v'").on_hover_text("Equal distances look more alike");
         });
     }
 }

@@ -31,12 +31,12 @@ fn each_plot_of_a_pin_can_be_seen_and_saved() {
         let asked = std::mem::take(&mut window.state_mut().model.requests);
         assert_eq!(asked, [Request::Ask(Target::SaveCsv(plot)), Request::Ask(Target::SavePlot(plot))]);
     }
-    click(&mut window, "CIE 1976 u′, v′");
+    click(&mut window, "CIE 1976 u', v'");
     // The numbers of the front wall: u′ and v′ follow from x and y by 4x / (3 − 2x + 12y), 9y / (3 − 2x + 12y).
     let xyz = reading().walls[0].xyz;
     let [x, y] = [xyz.x, xyz.y].map(|part| part / xyz.element_sum());
     let over = 3.0 - 2.0 * x + 12.0 * y;
-    window.get_by_label(&format!("front wall: u′ {:.4}, v′ {:.4}", 4.0 * x / over, 9.0 * y / over));
+    window.get_by_label(&format!("front wall: u' {:.4}, v' {:.4}", 4.0 * x / over, 9.0 * y / over));
 }
 
 #[test]
