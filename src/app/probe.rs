@@ -207,7 +207,7 @@ pub struct Probe {
     pub pinned: Option<Pin>,
     /// The plot of it that is shown.
     pub plot: Plot,
-    /// Whether the diagram of chromaticity is that of 1976 (u′, v′), not that of 1931 (x, y).
+    /// Whether the diagram of chromaticity is that of 1976 (u', v'), not that of 1931 (x, y).
     pub is_uniform: bool,
 }
 
@@ -310,7 +310,7 @@ pub(super) mod tests {
         probe.point(Some(DVec2::ONE), false);
         assert_eq!(probe.asked(), Some(DVec2::ZERO), "the pointer has gone on, the click stays");
         assert!(probe.answer(Some(reading()), &[], false) && probe.pinned.is_none());
-        assert!(!probe.answer(Some(reading()), &[], true) && probe.pinned.is_some());
+        assert!(probe.answer(Some(reading()), &[], true) && probe.pinned.is_some(), "a pin is news");
         assert_eq!(probe.asked(), Some(DVec2::ONE));
         probe.point(None, false);
         assert_eq!((probe.asked(), probe.hover), (None, None));

@@ -45,3 +45,23 @@ fn a_lesson_fits_a_small_window() {
     let rect = window.get_by_label("Two faces, two waves").rect();
     assert!(screen.contains_rect(rect), "{rect}");
 }
+
+/// Every letter of every lesson has a glyph, else the harness panics; and every step fits the panel.
+#[test]
+fn every_step_can_be_read() {
+    for name in crate::scene::lesson::lesson_names() {
+        let mut window = harness(model(), vec2(1280.0, 1600.0));
+        window.state_mut().model.clock.running = false;
+        window.state_mut().model.begin_lesson(lesson(name).unwrap(), std::path::PathBuf::new());
+        let steps = lesson(name).unwrap().steps;
+        for (index, step) in steps.iter().enumerate() {
+            window.state_mut().model.go_to_step(index);
+            if let Some(course) = &mut window.state_mut().model.course {
+                course.outcome = Some(crate::app::course::Outcome::Judged(crate::scene::lesson::Verdict::Off(1.0)));
+            }
+            window.run();
+            let rect = window.get_by_label(&step.title).rect();
+            assert!(rect.right() < 1280.0, "{name}: {}", step.title);
+        }
+    }
+}

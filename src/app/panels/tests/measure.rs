@@ -20,6 +20,26 @@ fn pinned(size: egui::Vec2) -> Harness<'static, State> {
     window
 }
 
+/// A window so high that all sections stand in it.
+fn tall_window() -> Harness<'static, State> {
+    let mut model = model();
+    model.clock.running = false;
+    let mut window = harness(model, vec2(1280.0, 2400.0));
+    window.run();
+    window
+}
+
+/// Clicks what bears a name over the picture, not in the panels.
+fn click_over_picture(window: &mut Harness<'static, State>, name: &str, nth: usize) {
+    let right = window.state().picture.unwrap().rect.right();
+    let named = window.get_all_by_label(name).filter(|node| node.rect().center().x < right);
+    let mut places: Vec<_> = named.map(|node| node.rect().center()).collect();
+    places.sort_by(|a, b| a.y.total_cmp(&b.y));
+    window.drag_at(places[nth]);
+    window.drop_at(places[nth]);
+    window.run();
+}
+
 #[test]
 fn each_plot_of_a_pin_can_be_seen_and_saved() {
     let mut window = pinned(vec2(1280.0, 1000.0));
@@ -56,7 +76,7 @@ fn a_pin_fits_a_small_window() {
 
 #[test]
 fn false_colour_has_a_scale_with_units() {
-    let mut window = window();
+    let mut window = tall_window();
     click(&mut window, "flow speed");
     assert_eq!(window.state().model.overlay.of, FalseColour::Speed);
     let pixels = Pixels { size: [1, 1], rgba: vec![0; 4].into() };
@@ -94,25 +114,21 @@ fn both_sides_can_have_any_quality_and_the_reference() {
     let pixels = || Pixels { size: [2, 2], rgba: vec![90; 16].into() };
     window.state_mut().model.compare.keep(pixels(), "A".to_owned());
     window.run();
-    window.get_all_by_label("Quality").last().unwrap().click();
-    window.run();
-    window.get_all_by_label("reference").last().unwrap().click();
-    window.run();
+    click_over_picture(&mut window, "Quality", 1);
+    click_over_picture(&mut window, "reference", 0);
     assert_eq!(window.state_mut().model.compare.wants.take(), Some(Want::Reference(Side::B)));
     let stop = window.state_mut().model.compare.begin_reference();
     window.run();
     click(&mut window, "Stop");
     assert!(stop.load(std::sync::atomic::Ordering::Relaxed) && window.state().model.compare.done.is_none());
-    window.get_all_by_label("Quality").next().unwrap().click();
-    window.run();
-    window.get_all_by_label("spectral").last().unwrap().click();
-    window.run();
+    click_over_picture(&mut window, "Quality", 0);
+    click_over_picture(&mut window, "spectral", 0);
     assert_eq!(window.state_mut().model.compare.wants.take(), Some(Want::Draw(Side::A, Quality::Spectral)));
 }
 
 #[test]
 fn views_and_the_turntable_move_the_camera() {
-    let mut window = window();
+    let mut window = tall_window();
     click(&mut window, "top");
     assert_eq!(window.state().model.scene.camera.elevation_deg, 90.0);
     click(&mut window, "front");
