@@ -88,7 +88,9 @@ impl FilmReader {
     pub fn read_all(&mut self, renderer: &Renderer, draw: &DrawKey, now: Instant) -> bool {
         let films: BTreeSet<usize> = draw.films().map(|(film, _)| film).collect();
         // A failure is told where the probe reads.
-        films.into_iter().fold(true, |all, film| self.read(renderer, film, now).unwrap_or(true) && all)
+        let unread = films.into_iter().filter(|film| !self.read(renderer, *film, now).unwrap_or(true));
+        // Counted, for each film must be asked for.
+        unread.count() == 0
     }
 
     fn begin(&mut self, renderer: &Renderer, film: usize, of: (FieldKey, Moment)) -> Result<(), GpuError> {

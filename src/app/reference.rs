@@ -54,7 +54,8 @@ pub fn paint(
 
 /// The pixels at a distance from one another that no coarser distance has, row by row.
 fn pixels_of(stride: u32, [width, height]: [u32; 2]) -> Vec<[u32; 2]> {
-    let is_new = |x: u32, y: u32| stride == STRIDES[0] || x % (2 * stride) != 0 || y % (2 * stride) != 0;
+    let is_known = |x: u32, y: u32| x.is_multiple_of(2 * stride) && y.is_multiple_of(2 * stride);
+    let is_new = |x: u32, y: u32| stride == STRIDES[0] || !is_known(x, y);
     let along = |side: u32| (0..side).step_by(stride as usize);
     along(height).flat_map(|y| along(width).filter(move |x| is_new(*x, y)).map(move |x| [x, y])).collect()
 }
