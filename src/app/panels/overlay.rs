@@ -5,7 +5,7 @@ use egui::{
 };
 use egui_plot::{Line, LineStyle, Plot, Points};
 
-use super::{textures::texture, widgets::choice_of};
+use super::{textures::texture, tools, widgets::choice_of};
 use crate::{
     Words,
     app::{
@@ -70,7 +70,7 @@ fn profile(ctx: &Context, picture: Rect, model: &mut Model) {
     let mut is_open = true;
     let window = Window::new("Profile").id(Id::unique("profile")).open(&mut is_open).resizable(false);
     let corner = picture.left_bottom() + vec2(10.0, -10.0);
-    let room = Rect::from_min_max(picture.min + vec2(0.0, 46.0), picture.max);
+    let room = tools::room_below(picture);
     window.default_pos(corner).pivot(Align2::LEFT_BOTTOM).constrain_to(room).show(ctx, |ui| {
         ui.set_width((picture.width() - 40.0).clamp(120.0, 320.0));
         chart(ui, profile, (0.4 * picture.height()).clamp(110.0, 220.0));

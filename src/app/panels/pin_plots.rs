@@ -134,7 +134,8 @@ fn strip(ui: &mut Ui, pin: &Pin, room: Vec2) {
 fn chromaticity(ui: &mut Ui, pin: &Pin, is_uniform: bool, room: Vec2) {
     let project = if is_uniform { chromaticity_uv } else { chromaticity_xy };
     let names = if is_uniform { ["u'", "v'"] } else { ["x", "y"] };
-    let height = (room.y - 40.0).max(120.0);
+    // Below stand the legend and a line for each wall.
+    let height = (room.y - 44.0 - 22.0 * pin.reading.walls.len() as f32).max(120.0);
     let diagram = chart("chromaticity", vec2(room.x.min(1.25 * height), height)).data_aspect(1.0);
     let diagram = diagram.include_x(0.0).include_x(0.7).include_y(0.0).include_y(if is_uniform { 0.62 } else { 0.86 });
     diagram.x_axis_label(names[0]).y_axis_label(names[1]).show(ui, |plot| {

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Area, Color32, Context, Frame, Grid, Id, Rect, ScrollArea, Sense, Ui, Window, vec2};
 
-use super::pin_plots;
+use super::{pin_plots, tools};
 use crate::Words;
 use crate::app::{
     model::Model,
@@ -66,8 +66,7 @@ fn pinned(ctx: &Context, picture: Rect, model: &mut Model) {
     let mut is_open = true;
     let corner = picture.left_top() + vec2(10.0, 52.0);
     let window = Window::new("Probe").id(Id::unique("probe")).open(&mut is_open).resizable(false).default_pos(corner);
-    // The tools stand above.
-    let room = Rect::from_min_max(picture.min + vec2(0.0, 46.0), picture.max);
+    let room = tools::room_below(picture);
     window.constrain_to(room).show(ctx, |ui| {
         let width = (picture.width() - 40.0).clamp(120.0, 340.0);
         // As high as it may be from the first frame on: a window that grows by and by would hide what stands below.
