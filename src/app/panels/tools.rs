@@ -6,7 +6,7 @@ use crate::app::{model::Model, tools::Tool};
 
 /// The room of windows below the tools, which stand in two rows over a narrow picture.
 pub fn room_below(picture: Rect) -> Rect {
-    let height = if picture.width() < 400.0 { 74.0 } else { 46.0 };
+    let height: f32 = if picture.width() < 400.0 { 74.0 } else { 46.0 };
     Rect::from_min_max(picture.min + vec2(0.0, height.min(picture.height())), picture.max)
 }
 
