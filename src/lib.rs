@@ -54,7 +54,7 @@ pub mod studio {
     mod sight;
 
     pub use difference::{Difference, difference};
-    pub use sight::{FilmsRead, WallInSight, walls_in_sight};
+    pub use sight::{FilmInFront, FilmView, FilmsRead, WallInSight, thickness_at, walls_in_sight};
 }
 #[cfg(not(target_arch = "wasm32"))]
 pub mod verify;

@@ -7,7 +7,8 @@ use crate::{
     gpu::{Gpu, GpuError, Renderer, readback::Readback},
     output::{Metadata, Picture},
     physics::colour::Gamut,
-    plan::{Pace, Shot},
+    plan::{Pace, Shot, Story},
+    scene::{Quality, Scene},
 };
 
 /// A picture on its way from the device to a file.
@@ -38,6 +39,11 @@ impl Capture {
         Ok(Self { readback, size, radiance, path, metadata: metadata(model) })
     }
 
+    /// A figure that is on its way.
+    pub fn of_figure((readback, size): (Readback, [u32; 2]), model: &Model, path: PathBuf) -> Self {
+        Self { readback, size, radiance: false, path, metadata: metadata(model) }
+    }
+
     /// Hands the picture to a worker once it has arrived; returns whether it is still pending.
     pub fn poll(&self, gpu: &Gpu, files: &Files) -> Result<bool, GpuError> {
         gpu.device.poll(wgpu::PollType::Poll).map_err(|error| GpuError::Lost(error.to_string()))?;
@@ -52,6 +58,17 @@ impl Capture {
         });
         Ok(false)
     }
+}
+
+/// Draws the model's moment in full in a quality, and starts to read back what people see.
+pub fn draw_in(renderer: &mut Renderer, model: &Model, size: [u32; 2], quality: Quality) -> Result<Readback, String> {
+    let mut scene = Scene::clone(&model.scene);
+    scene.view.quality = quality;
+    let moment = model.clock.moment(&model.scene.motion);
+    let shot = Shot { size, moment, full_precision: false, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
+    let request = Story::new(scene).request(&model.resources, &shot).map_err(|error| error.to_string())?;
+    renderer.render(&request).map_err(|error| error.to_string())?;
+    renderer.read_picture().ok_or_else(|| "there is no picture yet".to_owned())
 }
 
 fn metadata(model: &Model) -> Metadata {

@@ -1,14 +1,16 @@
-//! A picture that is kept beside the one that is shown: A and B of a split view, and the map of how far they are apart.
+//! Two pictures beside each other, A and B of a split view, and the map of how far they are apart. A was kept; B is the picture that is shown, or was
+//! made in another quality.
 
-use std::sync::Arc;
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
 
-use crate::studio::difference;
+use super::colour_map::viridis;
+use crate::{scene::Quality, studio::difference};
 
 /// The CIEDE2000 that the brightest colour of a map stands for.
 pub const MAP_SCALE: f64 = 5.0;
-/// Colours of a map from 0 to [`MAP_SCALE`]: five of viridis, as equally spaced as people see them.
-pub const MAP_COLOURS: [[u8; 3]; 5] = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
-
 /// Pixels of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pixels {
@@ -35,7 +37,7 @@ impl Map {
     pub fn new(a: &Pixels, b: &Pixels) -> Self {
         let difference = difference(&a.rgba, &b.rgba);
         let rgba = difference.delta_e.iter().flat_map(|delta_e| {
-            let [r, g, b] = map_colour(delta_e / MAP_SCALE);
+            let [r, g, b] = viridis(delta_e / MAP_SCALE);
             [r, g, b, 255]
         });
         let pixels = Pixels { size: a.size, rgba: Arc::new(rgba.collect()) };
@@ -43,46 +45,80 @@ impl Map {
     }
 }
 
-/// The colour of a part of the scale.
-#[must_use]
-pub fn map_colour(part: f64) -> [u8; 3] {
-    let place = part.clamp(0.0, 1.0) * (MAP_COLOURS.len() - 1) as f64;
-    let from = (place as usize).min(MAP_COLOURS.len() - 2);
-    let mix = |k: usize| {
-        let [low, high] = [from, from + 1].map(|stop| f64::from(MAP_COLOURS[stop][k]));
-        (low + (place - from as f64) * (high - low)).round() as u8
-    };
-    [0, 1, 2].map(mix)
+/// One of the two pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The one on the left.
+    A,
+    /// The one on the right.
+    B,
 }
 
-/// What the picture that is shown is read back for.
+/// What is asked of the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Want {
-    /// To be kept as A.
+    /// The picture that is shown, to be kept as A.
     Keep,
-    /// To be compared with A.
+    /// The picture that is shown, to be compared with A.
     Map,
     /// To go to the clipboard.
     Copy,
+    /// The moment that is shown, in another quality.
+    Draw(Side, Quality),
+    /// The moment that is shown, computed in f64.
+    Reference(Side),
 }
 
-/// A kept picture, and how it is compared.
+/// A picture with what it is called.
+pub type Named = (Pixels, String);
+
+/// Two pictures, and how they are compared.
 #[derive(Clone, Debug, Default)]
 pub struct Compare {
-    /// A, with its name.
-    pub kept: Option<(Pixels, String)>,
+    /// A.
+    pub kept: Option<Named>,
+    /// B, unless it is the picture as it is shown.
+    pub other: Option<Named>,
     /// Part of the picture's width that shows A.
     pub split: f32,
     /// How far A and B were apart when they were compared.
     pub map: Option<Map>,
     /// What is asked of the device.
     pub wants: Option<Want>,
+    /// Part of a reference picture that is computed, while it is.
+    pub done: Option<f32>,
+    /// Tells the computation of a reference picture to stop, once it is set.
+    pub stop: Arc<AtomicBool>,
 }
 
 impl Compare {
     /// Keeps a picture as A.
     pub fn keep(&mut self, pixels: Pixels, name: String) {
+        self.stop.store(true, Ordering::Relaxed);
         *self = Self { kept: Some((pixels, name)), split: 0.5, ..Self::default() };
+    }
+
+    /// Puts a picture on a side; what was measured of the two no longer holds.
+    pub fn put(&mut self, side: Side, pixels: Pixels, name: String) {
+        self.map = None;
+        *(match side {
+            Side::A => &mut self.kept,
+            Side::B => &mut self.other,
+        }) = Some((pixels, name));
+    }
+
+    /// Forgets both pictures.
+    pub fn close(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+        *self = Self::default();
+    }
+
+    /// The signal that stops a new computation of a reference picture; an older one stops.
+    pub fn begin_reference(&mut self) -> Arc<AtomicBool> {
+        self.stop.store(true, Ordering::Relaxed);
+        self.stop = Arc::default();
+        self.done = Some(0.0);
+        self.stop.clone()
     }
 }
 
@@ -92,14 +128,10 @@ mod tests {
 
     #[test]
     fn a_map_has_the_colours_of_its_scale() {
-        assert_eq!(
-            [0.0, 0.25, 1.0, 7.0].map(map_colour),
-            [MAP_COLOURS[0], MAP_COLOURS[1], MAP_COLOURS[4], MAP_COLOURS[4]]
-        );
         let pixels = |grey: u8| Pixels { size: [2, 1], rgba: Arc::new(vec![grey, grey, grey, 255, 9, 9, 9, 255]) };
         let map = Map::new(&pixels(0), &pixels(255));
-        assert_eq!(map.pixels.rgba[..3], MAP_COLOURS[4]);
-        assert_eq!(map.pixels.rgba[4..7], MAP_COLOURS[0]);
+        assert_eq!(map.pixels.rgba[..3], viridis(1.0));
+        assert_eq!(map.pixels.rgba[4..7], viridis(0.0));
         assert!((map.mean - 50.0).abs() < 1e-6, "black and white are 100 apart: {}", map.mean);
     }
 }

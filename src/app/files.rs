@@ -5,33 +5,39 @@ use std::{
     path::{Path, PathBuf},
     sync::{
         Arc,
+        atomic::{AtomicBool, Ordering},
         mpsc::{Receiver, Sender, channel},
     },
 };
 
 use super::{
-    compare::{Map, Pixels, Want},
+    compare::{Map, Pixels, Side, Want},
     model::Model,
+    reference,
     request::{Question, Target},
     storage::Unsaved,
     system,
 };
 use crate::{
-    input::{LoadError, LoadedScene, load_environment, load_illuminant, load_scene},
+    input::{LoadError, LoadedScene, Opened, load_environment, load_illuminant, load_step, open},
     output::{Metadata, Picture, write_text},
-    plan::Resources,
-    scene::{Light, Scene},
+    plan::{Resources, TonemapKey},
+    scene::{Light, Scene, lesson::Lesson},
+    verify::reference::MovedFilms,
 };
 
 /// What came of a piece of work.
 enum Outcome {
     Scene(Box<LoadedScene>),
+    Lesson(Box<Lesson>, PathBuf),
+    Step(Box<LoadedScene>),
     Light(Box<Light>, Resources, Vec<String>),
     TakenUp(Box<LoadedScene>, Box<Unsaved>),
     Chosen(Target, PathBuf),
     NoDialog(Target),
     Saved(PathBuf, u64),
     Map(Map),
+    Reference(Side, Pixels, f32, Arc<AtomicBool>),
     Done(String),
     #[cfg(not(target_arch = "wasm32"))]
     Exported(u64, Result<(), String>),
@@ -67,11 +73,22 @@ impl Files {
         Self { wake: Arc::new(wake), sender, receiver, load: 0 }
     }
 
-    /// Loads a scene by its path or a preset's name.
+    /// Loads a scene or a lesson by its path, or a preset by its name.
     pub fn load_scene(&mut self, model: &mut Model, name: String) {
         self.begin_load(model, &name);
-        self.run(move || match load_scene(&name) {
-            Ok(scene) => Outcome::Scene(Box::new(scene)),
+        self.run(move || match open(&name) {
+            Ok(Opened::Scene(scene)) => Outcome::Scene(scene),
+            Ok(Opened::Lesson(lesson, folder)) => Outcome::Lesson(lesson, folder),
+            Err(error) => Outcome::Failed(error.to_string()),
+        });
+    }
+
+    /// Loads the scene of the step that the lesson is at.
+    pub fn load_step(&mut self, model: &mut Model) {
+        let Some(course) = model.course.clone() else { return };
+        self.begin_load(model, "the scene of this step");
+        self.run(move || match load_step(&course.lesson, &course.folder, course.step) {
+            Ok(scene) => scene.map_or(Outcome::Nothing, |scene| Outcome::Step(scene.into())),
             Err(error) => Outcome::Failed(error.to_string()),
         });
     }
@@ -120,16 +137,29 @@ impl Files {
 
     /// Keeps a picture, or finds out how far it is from the one that is kept.
     pub fn compare(&self, model: &mut Model, want: Want, shown: Pixels) {
+        let name =
+            |quality: &str| format!("{} at {:.2} s, {quality}", model.name, model.clock.time_s(&model.scene.motion));
         match (want, model.compare.kept.clone()) {
             (Want::Map, Some((kept, _))) if kept.size == shown.size => {
                 self.run(move || Outcome::Map(Map::new(&kept, &shown)));
             }
             (Want::Map, Some(_)) => model.messages.note("A has another size than the picture has now: keep it again"),
-            _ => {
-                let name = format!("{} at {:.2} s", model.name, model.clock.time_s(&model.scene.motion));
-                model.compare.keep(shown, name);
-            }
+            (Want::Draw(side, quality), Some(_)) => model.compare.put(side, shown, name(quality.name())),
+            _ => model.compare.keep(shown, name(model.scene.view.quality.name())),
         }
+    }
+
+    /// Computes the reference picture of what is shown, with films as the device has moved them.
+    pub fn compute_reference(&self, model: &mut Model, side: Side, key: TonemapKey, films: MovedFilms) {
+        let (stop, tell, size) = (model.compare.begin_reference(), self.teller(), key.draw.size);
+        self.run(move || {
+            let told = reference::paint(&key, &films, |progress| {
+                let pixels = Pixels { size, rgba: Arc::new(progress.rgba) };
+                tell(Outcome::Reference(side, pixels, progress.done, stop.clone()));
+                !stop.load(Ordering::Relaxed)
+            });
+            told.map_or_else(|error| Outcome::Failed(error.to_string()), |()| Outcome::Nothing)
+        });
     }
 
     /// Saves a text.
@@ -209,6 +239,11 @@ impl Files {
                 model.adopt(*loaded);
                 return Some(Arrival::Scene);
             }
+            Outcome::Lesson(lesson, folder) if current => {
+                model.loading = None;
+                model.begin_lesson(*lesson, folder);
+            }
+            Outcome::Step(loaded) if current => model.stage_step(*loaded),
             Outcome::Light(light, resources, notes) if current => {
                 model.adopt_light(*light, resources);
                 notes.into_iter().for_each(|note| model.messages.remark(note));
@@ -224,6 +259,13 @@ impl Files {
                 model.messages.problem(text);
                 model.once_saved = None;
             }
+            Outcome::Reference(side, pixels, done, of) => {
+                // One that was stopped still tells what it had begun.
+                if Arc::ptr_eq(&of, &model.compare.stop) && model.compare.kept.is_some() {
+                    model.compare.put(side, pixels, format!("{}, reference (f64)", model.name));
+                    model.compare.done = Some(done).filter(|done| *done < 1.0 && !of.load(Ordering::Relaxed));
+                }
+            }
             Outcome::Map(map) => model.compare.map = model.compare.kept.as_ref().map(|_| map),
             Outcome::Done(text) => model.messages.note(text),
             #[cfg(not(target_arch = "wasm32"))]
@@ -234,7 +276,7 @@ impl Files {
                 model.once_saved = None;
             }
             Outcome::Nothing => model.once_saved = None,
-            Outcome::Scene(_) | Outcome::TakenUp(..) | Outcome::Light(..) => {}
+            Outcome::Scene(_) | Outcome::Lesson(..) | Outcome::Step(_) | Outcome::TakenUp(..) | Outcome::Light(..) => {}
         }
         None
     }
@@ -281,6 +323,7 @@ mod tests {
 
     use crate::{
         app::model::tests::model,
+        input::load_scene,
         scene::{Environment, Scene},
     };
 

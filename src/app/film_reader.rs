@@ -1,6 +1,9 @@
 //! Reads films back from the device without waiting: only those that are asked for, and only when they have changed.
 
-use std::{collections::BTreeMap, time::Duration};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Duration,
+};
 
 use glam::DVec3;
 use web_time::Instant;
@@ -8,7 +11,7 @@ use web_time::Instant;
 use crate::{
     gpu::{GpuError, Renderer, readback::Readback},
     physics::sphere::{CubedSphere, HaloTable, PaddedField},
-    plan::{FieldKey, Moment},
+    plan::{DrawKey, FieldKey, Moment},
     studio::FilmsRead,
 };
 
@@ -19,6 +22,8 @@ const PERIOD: Duration = Duration::from_millis(150);
 #[derive(Default)]
 pub struct FilmReader {
     films: FilmsRead,
+    /// How many films have been read.
+    reads: u64,
     /// Which film each of them was, and its moment: after an edit another film may stand at the same moment.
     read: BTreeMap<usize, (FieldKey, Moment)>,
     halos: BTreeMap<usize, HaloTable>,
@@ -42,9 +47,22 @@ impl FilmReader {
         &self.films
     }
 
+    /// How many films have been read so far.
+    pub fn reads(&self) -> u64 {
+        self.reads
+    }
+
     /// The moment of a film that was read.
     pub fn moment(&self, film: usize) -> Option<Moment> {
         self.read.get(&film).map(|(_, moment)| *moment)
+    }
+
+    /// The moment that the thickness of a film is of, at a moment of the clock.
+    pub fn time(&self, renderer: &Renderer, film: usize, clock: Moment) -> Moment {
+        let field = renderer.state().fields.get(film).and_then(Option::as_ref);
+        // A film at rest, or without a field, is what it was; only evaporation goes on.
+        let moves = field.is_some_and(|field| field.rest.is_none());
+        self.moment(film).filter(|_| moves).unwrap_or(clock)
     }
 
     /// Reads a film if it has changed since; returns whether what is here is what the picture shows, or has just arrived: a film that moves is
@@ -64,6 +82,15 @@ impl FilmReader {
             self.begin(renderer, film, of)?;
         }
         Ok(false)
+    }
+
+    /// Reads all films of a picture that have changed; returns whether all that is here is what the picture shows.
+    pub fn read_all(&mut self, renderer: &Renderer, draw: &DrawKey, now: Instant) -> bool {
+        let films: BTreeSet<usize> = draw.films().map(|(film, _)| film).collect();
+        // A failure is told where the probe reads.
+        let unread = films.into_iter().filter(|film| !self.read(renderer, *film, now).unwrap_or(true));
+        // Counted, for each film must be asked for.
+        unread.count() == 0
     }
 
     fn begin(&mut self, renderer: &Renderer, film: usize, of: (FieldKey, Moment)) -> Result<(), GpuError> {
@@ -110,5 +137,6 @@ impl FilmReader {
             self.films.velocity_rad_s.insert(film, field);
         }
         self.read.insert(film, of);
+        self.reads += 1;
     }
 }

@@ -1,9 +1,11 @@
 //! One redraw: time, panels, picture, window, and when the next one is due.
 
+mod overlays;
+mod readbacks;
+
 use std::{sync::Arc, time::Duration};
 
 use egui::{Rect, ViewportInfo};
-use glam::DVec2;
 use web_time::Instant;
 use winit::{event_loop::ActiveEventLoop, window::Window};
 
@@ -11,26 +13,26 @@ use winit::{event_loop::ActiveEventLoop, window::Window};
 use super::reload::ShaderWatch;
 use super::{
     capture::Capture,
-    compare::{Pixels, Want},
+    compare::Want,
     files::Files,
     film_reader::FilmReader,
     input,
     model::Model,
     paint::{Contents, Painted},
     panels,
-    probe::Reading,
     request::Request,
     stage::Stage,
 };
 use crate::{
     gpu::readback::Readback,
     physics::colour::Gamut,
-    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
-    studio::walls_in_sight,
+    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot, TonemapKey},
 };
 
 /// Time between two looks at the clock while nothing but its reading changes.
 const READING: Duration = Duration::from_millis(400);
+/// Time between two pictures of a turntable.
+const TURN: Duration = Duration::from_millis(16);
 /// Time until a surface that had no frame is asked again.
 const ASK_AGAIN: Duration = Duration::from_millis(50);
 /// Redraws of the panels alone that come before the first picture, which may take long: a window must not stay black. Panels know their sizes from
@@ -38,8 +40,6 @@ const ASK_AGAIN: Duration = Duration::from_millis(50);
 const PANELS_FIRST: u32 = 2;
 /// What is loaded meanwhile, for people.
 const FIRST_PICTURE: &str = "the first picture";
-/// Time between two polls of a picture that is being read back.
-const FETCH: Duration = Duration::from_millis(8);
 /// Time that a picture rests after it failed: nothing is gained by failing at every frame.
 const REST: Duration = Duration::from_secs(1);
 
@@ -74,10 +74,12 @@ pub struct View {
     info: ViewportInfo,
     captures: Vec<Capture>,
     reader: FilmReader,
+    /// What is laid over the picture was made of this.
+    overlaid: Option<overlays::Overlaid>,
     /// The shown picture on its way back, what for, and its size.
     compared: Option<(Want, [u32; 2], Readback)>,
     /// What the picture shows.
-    shown: Option<DrawKey>,
+    shown: Option<TonemapKey>,
     last_redraw: Instant,
     rests_until: Option<Instant>,
     #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
@@ -116,6 +118,7 @@ impl View {
             info: ViewportInfo::default(),
             captures: Vec::new(),
             reader: FilmReader::default(),
+            overlaid: None,
             compared: None,
             shown: None,
             last_redraw: Instant::now(),
@@ -138,9 +141,7 @@ impl View {
         // After the panels: what is changed there happens at the tick that its user sees.
         let first_tick = self.pass_time(model, due.now);
         let moves = self.draw_picture(model, first_tick, &mut due);
-        self.probe(model, &mut due);
-        self.compare(model, files, &mut due);
-        self.fetch(model, files, &mut due);
+        self.read_back(model, files, &mut due);
         self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
         let painted = self.paint(&mut output, size, moves);
         self.schedule(model, painted, moves, &mut due);
@@ -232,7 +233,7 @@ impl View {
                 self.account(model, &plan, due);
                 let is_done = is_done(&request, &plan, model.clock.running) && model.behind_ticks == 0;
                 self.progress = if is_done { Progress::Done } else { Progress::Under };
-                self.shown = Some(request.picture.draw);
+                self.shown = Some(request.picture);
                 !plan.is_empty()
             }
             Err(text) => {
@@ -244,56 +245,6 @@ impl View {
                 false
             }
         }
-    }
-
-    /// Reads the film under the pointer, if the pointer asks.
-    fn probe(&mut self, model: &mut Model, due: &mut Due) {
-        let (Some(place), Some(draw)) = (model.probe.asked(), &self.shown) else { return };
-        let [width, height] = draw.size.map(f64::from);
-        let position = 0.5 * DVec2::new(width, height) + height * DVec2::new(place.x, -place.y);
-        let walls = walls_in_sight(draw, self.reader.films(), position);
-        let is_read = walls.first().is_none_or(|wall| {
-            self.reader.read(&self.stage.renderer, wall.film, due.now).unwrap_or_else(|error| {
-                model.messages.problem(format!("the film cannot be read: {error}"));
-                true
-            })
-        });
-        // What arrived just now counts.
-        let walls = walls_in_sight(draw, self.reader.films(), position);
-        let moment = walls.first().and_then(|wall| self.reader.moment(wall.film));
-        let moment = moment.unwrap_or(model.clock.moment(&model.scene.motion));
-        let time_s = moment.ticks() * model.scene.motion.tick_s;
-        let is_new = model.probe.answer(Reading::new(&walls, time_s, model.scene.bubbles.len()), is_read);
-        if !is_read {
-            due.after(FETCH);
-        } else if is_new {
-            // The panels have not shown it yet.
-            due.after(Duration::ZERO);
-        }
-    }
-
-    /// Reads the shown picture back, to keep it or to compare it.
-    fn compare(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
-        let renderer = &self.stage.renderer;
-        if let (Some(want), Some(draw)) = (model.compare.wants.take(), &self.shown) {
-            self.compared = renderer.read_picture().map(|readback| (want, draw.size, readback));
-        }
-        let Some((want, size, readback)) = &self.compared else { return };
-        // A loss is told elsewhere.
-        let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
-        let (want, size) = (*want, *size);
-        let Some(bytes) = readback.try_take() else { return due.after(FETCH) };
-        self.compared = None;
-        match bytes {
-            Ok(rgba) if want == Want::Copy => {
-                let size = size.map(|length| length as usize);
-                self.egui.egui_ctx().copy_image(egui::ColorImage::from_rgba_unmultiplied(size, &rgba));
-                model.messages.note("The picture is on the clipboard");
-            }
-            Ok(rgba) => files.compare(model, want, Pixels { size, rgba: Arc::new(rgba) }),
-            Err(error) => model.messages.problem(format!("the picture cannot be read: {error}")),
-        }
-        due.after(Duration::ZERO);
     }
 
     fn account(&mut self, model: &mut Model, plan: &Plan, due: &mut Due) {
@@ -322,6 +273,9 @@ impl View {
     }
 
     fn schedule(&mut self, model: &Model, painted: Painted, moves: bool, due: &mut Due) {
+        if model.turntable_deg_s != 0.0 {
+            due.after(TURN);
+        }
         if let Some(wait_s) = model.clock.until_next_s(&model.scene.motion) {
             let wait = Duration::from_secs_f64(wait_s);
             due.after(if moves { wait } else { wait.max(READING) });
@@ -333,27 +287,6 @@ impl View {
             Painted::Later => due.after(ASK_AGAIN),
             // The system will say when the window can be seen again.
             Painted::Hidden => due.at = None,
-        }
-    }
-
-    /// Starts to save the picture.
-    pub fn capture(&mut self, model: &mut Model, radiance: bool, path: std::path::PathBuf) {
-        match Capture::begin(&mut self.stage.renderer, model, self.picture_size, radiance, path) {
-            Ok(capture) => self.captures.push(capture),
-            Err(text) => model.messages.problem(text),
-        }
-    }
-
-    fn fetch(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
-        let gpu = &self.stage.renderer.gpu;
-        self.captures.retain(|capture| {
-            capture.poll(gpu, files).unwrap_or_else(|error| {
-                model.messages.problem(format!("the picture is not saved: {error}"));
-                false
-            })
-        });
-        if !self.captures.is_empty() {
-            due.after(FETCH);
         }
     }
 

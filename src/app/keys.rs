@@ -117,6 +117,7 @@ pub const BINDINGS: &[Binding] = &[
     bare(Key::Num4, Action::Take(Tool::Drag), "The pointer moves a bubble"),
     bare(Key::Num5, Action::Take(Tool::Prick), "The pointer bursts a bubble"),
     bare(Key::Num6, Action::Take(Tool::Probe), "The pointer measures a film"),
+    bare(Key::Num7, Action::Take(Tool::Profile), "The pointer draws a line to measure along"),
     bare(Key::K, Action::Keep, "Keep this picture, to compare others with it"),
     bare(Key::L, Action::Loop, "Play in a loop"),
     bare(Key::Delete, Action::RemoveEvent, "Remove the event that is selected on the time line"),

@@ -10,14 +10,19 @@
 //! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
 //! | `exports` | the dialog for pictures, video and maps, and the queue of what is being made |
 //! | [`request`] | what goes from the model to the system, and the questions that come before |
-//! | [`compare`] | a kept picture beside the one that is shown |
-//! | [`probe`], `film_reader` | numbers of the film under the pointer |
+//! | [`compare`], [`reference`] | a kept picture beside another one, and the reference picture in f64 |
+//! | [`course`] | a lesson that is taken, and how its answers are judged |
+//! | [`probe`], `film_reader` | numbers of the film under the pointer, and all that is known of a pinned point |
+//! | [`overlay`], [`colour_map`] | false colour over the picture, and the profile of a film along a line |
+//! | `figure` | a plot as a picture for a file |
 //! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
 pub mod clock;
+pub mod colour_map;
 pub mod compare;
 pub mod costs;
+pub mod course;
 mod edit;
 #[cfg(not(target_arch = "wasm32"))]
 mod exports;
@@ -29,14 +34,17 @@ pub mod link;
 pub mod messages;
 pub mod model;
 pub mod orbit;
+pub mod overlay;
 pub mod panels;
 pub mod probe;
+pub mod reference;
 pub mod request;
 pub mod storage;
 pub mod time_line;
 pub mod undo;
 
 mod capture;
+mod figure;
 mod film_reader;
 pub(crate) mod frame;
 mod input;

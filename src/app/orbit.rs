@@ -81,6 +81,49 @@ pub fn framed(camera: &Camera, spheres: &[(DVec3, f64)], aspect: f64) -> Camera 
     Camera { target_m: center.to_array(), distance_m, ..camera.clone() }
 }
 
+/// Views that people know by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum View {
+    /// Along the horizon, from +x.
+    Front,
+    /// Along the horizon, from +y.
+    Side,
+    /// From above.
+    Top,
+    /// As the camera looks now, near enough that the film fills the picture.
+    Macro,
+}
+
+/// The views, each with its name and what it shows.
+pub const VIEWS: [(View, &str, &str); 4] = [
+    (View::Front, "front", "Along the horizon: level bands are level lines"),
+    (View::Side, "side", "Along the horizon, a quarter turn from the front"),
+    (View::Top, "top", "From above: onto the thinnest film of a bubble that has drained"),
+    (
+        View::Macro,
+        "macro",
+        "The film as a lens for small things sees it: a quarter of the way from the film to where the bubbles are framed",
+    ),
+];
+
+/// A camera with one of these views of spheres, each a center and a radius in m.
+#[must_use]
+pub fn seen_from(camera: &Camera, spheres: &[(DVec3, f64)], view: View) -> Camera {
+    let (azimuth_deg, elevation_deg) = match view {
+        View::Front => (0.0, 0.0),
+        View::Side => (90.0, 0.0),
+        View::Top => (0.0, 90.0),
+        View::Macro => (camera.azimuth_deg, camera.elevation_deg),
+    };
+    let framed = framed(&Camera { azimuth_deg, elevation_deg, ..camera.clone() }, spheres, 1.0);
+    let nearest_m = spheres.iter().map(|(_, radius)| *radius).fold(0.0, f64::max);
+    match view {
+        // A quarter of the way between the film and where the bubbles are framed.
+        View::Macro => Camera { distance_m: nearest_m + 0.25 * (framed.distance_m - nearest_m), ..framed },
+        _ => framed,
+    }
+}
+
 /// A sphere around all spheres: their mean center, and the farthest point from it.
 fn bounding_sphere(spheres: &[(DVec3, f64)]) -> Option<(DVec3, f64)> {
     let center = spheres.iter().map(|(center, _)| *center).sum::<DVec3>() / spheres.len() as f64;
@@ -202,5 +245,18 @@ mod tests {
         for (deg, expected) in [(0.0, 0.0), (180.0, 180.0), (190.0, -170.0), (-180.0, 180.0), (725.0, 5.0)] {
             assert!((wrapped(deg) - expected).abs() < 1e-12, "{deg}");
         }
+    }
+
+    #[test]
+    fn views_look_where_their_names_say() {
+        let spheres = [(DVec3::new(0.1, 0.0, 0.2), 0.05)];
+        let from = |view| {
+            let camera = seen_from(&Camera::default(), &spheres, view);
+            ((camera.eye() - spheres[0].0).normalize(), camera.eye().distance(spheres[0].0))
+        };
+        assert!(from(View::Front).0.abs_diff_eq(DVec3::X, 1e-12) && from(View::Side).0.abs_diff_eq(DVec3::Y, 1e-12));
+        assert!(from(View::Top).0.abs_diff_eq(DVec3::Z, 1e-12));
+        let (near, far) = (from(View::Macro).1, from(View::Front).1);
+        assert!(near > 0.05 && near < 0.5 * far, "outside of the bubble, and near it: {near} {far}");
     }
 }

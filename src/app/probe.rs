@@ -1,20 +1,21 @@
 //! The probe: what is known of the film under the pointer, as numbers that a person can note down.
 
+pub mod pin;
+
 use std::fmt::Write;
 
 use glam::{DVec2, DVec3};
+pub use pin::{Pin, Plot};
 
 use crate::{
     physics::{
-        colour::{BT709, FilmOptics, Walls, m2_exposure, srgb_encode},
-        optics::{Polarised, cos_refracted},
+        colour::{BT709, FilmOptics, Walls, chromaticity_xy, m2_exposure, srgb_encode},
+        optics::{Polarised, newton_order},
+        spectra::{SAMPLES, wavelength_nm},
     },
     plan::OpticsKey,
     studio::WallInSight,
 };
-
-/// Path difference of one order of interference, nm: that of the first red end of Newton's colours.
-pub const ORDER_NM: f64 = 551.0;
 
 /// One wall under the pointer.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +46,7 @@ impl WallReading {
     /// Order of Newton's colours, from 1 on.
     #[must_use]
     pub fn order(&self) -> u32 {
-        (self.path_nm / ORDER_NM) as u32 + 1
+        newton_order(self.path_nm)
     }
 
     /// What the wall is called.
@@ -75,10 +76,12 @@ pub struct SpectrumRow {
     pub wavelength_nm: f64,
     /// Reflectance of the nearest wall.
     pub r: Polarised,
-    /// Transmittance of the nearest wall, unpolarised.
-    pub t: f64,
-    /// Reflectance and transmittance of both walls, unpolarised; those of the one where there is but one.
-    pub both: [f64; 2],
+    /// Transmittance of the nearest wall.
+    pub t: Polarised,
+    /// Reflectance of both walls; that of the one where there is but one.
+    pub r_both: Polarised,
+    /// Transmittance of both walls.
+    pub t_both: Polarised,
     /// The light's spectrum, over its largest value here.
     pub light: f64,
 }
@@ -102,26 +105,23 @@ impl Reading {
     /// What the walls do with light, every 5 nm from 360 to 780 nm.
     #[must_use]
     pub fn spectrum(&self) -> Vec<SpectrumRow> {
-        let (optics, first) = (self.optics.spectra(), &self.walls[0]);
+        let (film, first) = (&self.optics.film, &self.walls[0]);
+        let (one, both) = (Walls::One { thickness_nm: first.thickness_nm }, self.all());
+        let wavelengths = || (0..SAMPLES).step_by(5).map(wavelength_nm);
         let light = |nm: f64| self.optics.illuminant.spectrum().at_nm(nm);
-        let one = Walls::One { thickness_nm: first.thickness_nm };
-        let rows = optics.spectrum(first.cos_theta, one).into_iter().zip(optics.spectrum(first.cos_theta, self.all()));
-        let brightest =
-            optics.spectrum(1.0, one).iter().map(|point| light(point.wavelength_nm)).fold(f64::MIN_POSITIVE, f64::max);
-        rows.map(|(one, both)| {
-            let nm = one.wavelength_nm;
-            let film = optics.film();
-            let r = film.wall(film.index.n(nm), first.cos_theta, nm).reflectance(first.thickness_nm);
-            let light = light(nm) / brightest;
+        let brightest = wavelengths().map(light).fold(f64::MIN_POSITIVE, f64::max);
+        let row = |nm: f64| {
+            let wall = film.wall(film.index.n(nm), first.cos_theta, nm);
             SpectrumRow {
                 wavelength_nm: nm,
-                r,
-                t: one.transmittance,
-                both: [both.reflectance, both.transmittance],
-                light,
+                r: one.polarised_reflectance(&wall),
+                t: one.polarised_transmittance(&wall),
+                r_both: both.polarised_reflectance(&wall),
+                t_both: both.polarised_transmittance(&wall),
+                light: light(nm) / brightest,
             }
-        })
-        .collect()
+        };
+        wavelengths().map(row).collect()
     }
 
     /// All walls, as the light meets them.
@@ -141,17 +141,19 @@ impl Reading {
     pub fn text(&self) -> String {
         let mut text = format!("{} at {:.3} s\n", self.bubble, self.time_s);
         for wall in &self.walls {
-            let [x, y, z] = wall.xyz.to_array();
+            let ([x, y, z], xy) = (wall.xyz.to_array(), chromaticity_xy(wall.xyz));
             let speed = wall.speed_m_s.map_or("unknown".to_owned(), |speed| format!("{:.1} mm/s", 1e3 * speed));
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
-                "{}: thickness {:.2} nm, angle {:.3}°, path difference {:.1} nm, order {}, XYZ {x:.6} {y:.6} {z:.6}, flow {speed}",
+                "{}: thickness {:.2} nm, angle {:.3}°, path difference {:.1} nm, order {}, XYZ {x:.6} {y:.6} {z:.6}, chromaticity {:.4} {:.4}, flow {speed}",
                 wall.name(),
                 wall.thickness_nm,
                 wall.angle_deg(),
                 wall.path_nm,
                 wall.order(),
+                xy.x,
+                xy.y,
             );
         }
         text
@@ -160,20 +162,26 @@ impl Reading {
     /// The spectra as a table of comma-separated values, the numbers above it as comments.
     #[must_use]
     pub fn csv(&self) -> String {
-        let mut csv: String = self.text().lines().map(|line| format!("# {line}\n")).collect();
-        csv.push_str("wavelength_nm,R_s,R_p,R,T,R_both,T_both,light\n");
-        for SpectrumRow { wavelength_nm, r, t, both, light } in self.spectrum() {
-            let (mean, [r_both, t_both]) = (r.mean(), both);
-            let _ = writeln!(csv, "{wavelength_nm},{},{},{mean},{t},{r_both},{t_both},{light}", r.s, r.p);
+        let mut csv = self.commented();
+        csv.push_str("wavelength_nm,R_s,R_p,R,T,R_both,T_both,light,T_s,T_p,R_both_s,R_both_p,T_both_s,T_both_p\n");
+        for SpectrumRow { wavelength_nm, r, t, r_both, t_both, light } in self.spectrum() {
+            let [mean_r, mean_t, both_r, both_t] = [r, t, r_both, t_both].map(Polarised::mean);
+            let _ = write!(csv, "{wavelength_nm},{},{},{mean_r},{mean_t},{both_r},{both_t},{light}", r.s, r.p);
+            let _ = writeln!(csv, ",{},{},{},{},{},{}", t.s, t.p, r_both.s, r_both.p, t_both.s, t_both.p);
         }
         csv
+    }
+
+    /// The numbers as the comment above a table.
+    #[must_use]
+    pub fn commented(&self) -> String {
+        self.text().lines().map(|line| format!("# {line}\n")).collect()
     }
 }
 
 fn reading(optics: &FilmOptics, wall: &WallInSight, thickness_nm: f64, is_front: bool) -> WallReading {
     let cos_theta = wall.cos_theta;
     let xyz = optics.xyz(cos_theta, Walls::One { thickness_nm });
-    let n = optics.film().reference_index();
     let exposed = m2_exposure(optics.film(), cos_theta, 1) * (BT709.from_xyz() * xyz);
     WallReading {
         is_front,
@@ -181,13 +189,13 @@ fn reading(optics: &FilmOptics, wall: &WallInSight, thickness_nm: f64, is_front:
         cos_theta,
         speed_m_s: wall.speed_m_s,
         xyz,
-        path_nm: 2.0 * n * thickness_nm * cos_refracted(n, cos_theta),
+        path_nm: optics.film().path_nm(thickness_nm, cos_theta),
         swatch: exposed.to_array().map(|part| (255.0 * srgb_encode(part.clamp(0.0, 1.0))).round() as u8),
     }
 }
 
 /// What the probe was asked, and what it has found.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Probe {
     /// Where the pointer is: right and up from the picture's middle, in heights of the picture.
     place: Option<DVec2>,
@@ -195,8 +203,18 @@ pub struct Probe {
     clicked: Option<DVec2>,
     /// What is under the pointer.
     pub hover: Option<Reading>,
-    /// What was clicked, with its spectrum.
-    pub pinned: Option<(Reading, Vec<SpectrumRow>)>,
+    /// What was clicked.
+    pub pinned: Option<Pin>,
+    /// The plot of it that is shown.
+    pub plot: Plot,
+    /// Whether the diagram of chromaticity is that of 1976 (u', v'), not that of 1931 (x, y).
+    pub is_uniform: bool,
+}
+
+impl Default for Probe {
+    fn default() -> Self {
+        Self { place: None, clicked: None, hover: None, pinned: None, plot: Plot::Spectra, is_uniform: false }
+    }
 }
 
 impl Probe {
@@ -215,11 +233,21 @@ impl Probe {
         self.clicked.or(self.place)
     }
 
-    /// Takes an answer, which is final once the film is read; returns whether it is another one than before.
-    pub fn answer(&mut self, reading: Option<Reading>, is_read: bool) -> bool {
-        let is_new = self.hover != reading;
-        if is_read && self.clicked.take().is_some() {
-            self.pinned = reading.clone().map(|reading| (reading.clone(), reading.spectrum()));
+    /// Whether a click waits for its answer.
+    #[must_use]
+    pub fn is_clicked(&self) -> bool {
+        self.clicked.is_some()
+    }
+
+    /// Takes an answer, which is final once the film is read, and the walls that it is of; returns whether it is another one than before, or pins a
+    /// point.
+    pub fn answer(&mut self, reading: Option<Reading>, walls: &[WallInSight], is_read: bool) -> bool {
+        let is_pinned = is_read && self.clicked.take().is_some();
+        let is_new = self.hover != reading || is_pinned;
+        if is_pinned {
+            let places = walls.iter().map(|wall| wall.place).collect();
+            let film = walls.first().map_or(0, |wall| wall.film);
+            self.pinned = reading.clone().map(|reading| Pin::new(reading, (film, places)));
         }
         self.hover = reading;
         is_new
@@ -262,13 +290,17 @@ pub(super) mod tests {
         let rows = reading().spectrum();
         assert_eq!((rows.len(), rows[0].wavelength_nm, rows[84].wavelength_nm), (85, 360.0, 780.0));
         for row in &rows {
-            assert!((row.r.mean() + row.t - 1.0).abs() < 1e-12, "one wall reflects or passes: {row:?}");
-            assert!(row.both[0] + row.both[1] < 1.0 && row.both[0] > row.r.mean(), "two walls: {row:?}");
+            assert!((row.r.s + row.t.s - 1.0).abs().max((row.r.p + row.t.p - 1.0).abs()) < 1e-12, "one wall: {row:?}");
+            let [both_r, both_t] = [row.r_both, row.t_both].map(Polarised::mean);
+            assert!(both_r + both_t < 1.0 && both_r > row.r.mean(), "two walls: {row:?}");
             assert!((0.0..=1.0).contains(&row.light));
         }
         let csv = reading().csv();
         let table: Vec<_> = csv.lines().filter(|line| !line.starts_with('#')).collect();
-        assert_eq!((table.len(), table[0]), (86, "wavelength_nm,R_s,R_p,R,T,R_both,T_both,light"));
+        assert_eq!(
+            (table.len(), table[0]),
+            (86, "wavelength_nm,R_s,R_p,R,T,R_both,T_both,light,T_s,T_p,R_both_s,R_both_p,T_both_s,T_both_p")
+        );
     }
 
     #[test]
@@ -277,8 +309,8 @@ pub(super) mod tests {
         probe.point(Some(DVec2::ZERO), true);
         probe.point(Some(DVec2::ONE), false);
         assert_eq!(probe.asked(), Some(DVec2::ZERO), "the pointer has gone on, the click stays");
-        assert!(probe.answer(Some(reading()), false) && probe.pinned.is_none());
-        assert!(!probe.answer(Some(reading()), true) && probe.pinned.is_some());
+        assert!(probe.answer(Some(reading()), &[], false) && probe.pinned.is_none());
+        assert!(probe.answer(Some(reading()), &[], true) && probe.pinned.is_some(), "a pin is news");
         assert_eq!(probe.asked(), Some(DVec2::ONE));
         probe.point(None, false);
         assert_eq!((probe.asked(), probe.hover), (None, None));

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::probe::Plot;
 use crate::scene::Light;
 
 /// What a file is asked for.
@@ -17,10 +18,14 @@ pub enum Target {
     SavePng,
     /// Where the picture's radiance goes.
     SaveExr,
-    /// Where the numbers and spectra of the probe go.
-    SaveCsv,
     /// Where an export goes: a file with this ending, or a folder.
     Export(Option<&'static str>),
+    /// Where the numbers of the pinned point and of a plot of it go.
+    SaveCsv(Plot),
+    /// Where the profile along a line goes.
+    SaveProfile,
+    /// Where a plot of the pinned point goes as a picture.
+    SavePlot(Plot),
 }
 
 impl Target {
@@ -30,14 +35,14 @@ impl Target {
         match self {
             Self::OpenScene | Self::SaveScene => ("Scene", &["toml"]),
             Self::OpenEnvironment => ("Environment", &["exr", "hdr"]),
-            Self::SavePng => ("PNG picture", &["png"]),
+            Self::SavePng | Self::SavePlot(_) => ("PNG picture", &["png"]),
             Self::SaveExr => ("OpenEXR picture", &["exr"]),
-            Self::SaveCsv => ("Table", &["csv"]),
             Self::Export(None) => ("Folder", &[]),
             Self::Export(Some(ending)) => {
                 let known = EXPORTED.iter().find(|known| known[0] == ending);
                 ("Export", known.map_or(&[], |known| known.as_slice()))
             }
+            Self::SaveCsv(_) | Self::SaveProfile => ("Table", &["csv"]),
         }
     }
 
@@ -45,7 +50,13 @@ impl Target {
     #[must_use]
     pub fn file_name(self, scene: &str) -> String {
         let stem = Path::new(scene).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
-        self.file_type().1.first().map_or(stem.to_owned(), |ending| format!("{stem}.{ending}"))
+        let plot = match self {
+            Self::SaveCsv(plot) | Self::SavePlot(plot) => format!("_{}", plot.file_word()),
+            Self::SaveProfile => "_profile".to_owned(),
+            _ => String::new(),
+        };
+        let ending = self.file_type().1.first();
+        ending.map_or(stem.to_owned(), |ending| format!("{stem}{plot}.{ending}"))
     }
 
     /// Whether the file is there already.
@@ -65,6 +76,10 @@ pub enum Request {
     Ask(Target),
     /// Another scene, by path or preset's name.
     LoadScene(String),
+    /// A built-in lesson, by its name.
+    BeginLesson(String),
+    /// The scene of the lesson's step.
+    LoadStep,
     /// Another light, whose environment must be loaded.
     LoadLight(Light),
     /// A link to this page that holds the scene.
@@ -88,7 +103,7 @@ impl Request {
     #[must_use]
     pub fn danger(&self) -> Option<&'static str> {
         match self {
-            Self::LoadScene(_) => Some("before another scene is opened"),
+            Self::LoadScene(_) | Self::BeginLesson(_) => Some("before another scene is opened"),
             Self::Quit => Some("before the window closes"),
             _ => None,
         }

@@ -23,19 +23,21 @@ pub enum Tool {
     Prick,
     /// It measures the film; a drag moves the camera.
     Probe,
+    /// It draws a line along which the film is measured.
+    Profile,
 }
 
 impl Tool {
     /// Whether it acts on films.
     #[must_use]
     pub fn acts(self) -> bool {
-        !matches!(self, Self::Orbit | Self::Probe)
+        !matches!(self, Self::Orbit | Self::Probe | Self::Profile)
     }
 }
 
 impl Tool {
-    /// All tools, each with its name and what it does, in the order of the keys 1 to 6.
-    pub const ALL: [(Self, &str, &str); 6] = [
+    /// All tools, each with its name and what it does, in the order of the keys 1 to 7.
+    pub const ALL: [(Self, &str, &str); 7] = [
         (Self::Orbit, "Orbit", "Drag to turn around the bubble (1)"),
         (Self::Stir, "Stir", "Drag over a film to stir it (2)"),
         (
@@ -45,7 +47,8 @@ impl Tool {
         ),
         (Self::Drag, "Move", "Drag a bubble: its film stays behind (4)"),
         (Self::Prick, "Prick", "Click to burst a bubble there (5)"),
-        (Self::Probe, "Probe", "Point at a film to measure it; click to keep the numbers and see spectra (6)"),
+        (Self::Probe, "Probe", "Point at a film to measure it; click to keep the numbers and see plots (6)"),
+        (Self::Profile, "Profile", "Draw a line over a film to plot thickness against height along it (7)"),
     ];
 }
 
@@ -185,7 +188,7 @@ impl Grip {
         match self.tool {
             Tool::Stir => stroke(self.bubble, before, self.at, radius_m / (ticks as f64 * tick_s), ticks),
             Tool::Blow => Some(jet(&aim, ticks)),
-            Tool::Orbit | Tool::Drag | Tool::Prick | Tool::Probe => None,
+            Tool::Orbit | Tool::Drag | Tool::Prick | Tool::Probe | Tool::Profile => None,
         }
     }
 }

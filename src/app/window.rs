@@ -174,7 +174,7 @@ impl Handler {
         log::warn!("recreating everything on the graphics device");
         let instance = view.stage.renderer.gpu.instance.clone();
         panels::gallery::forget(view.egui.egui_ctx());
-        panels::compare::forget(view.egui.egui_ctx());
+        panels::textures::forget(view.egui.egui_ctx());
         self.open_device(instance, Bare { window: view.window, egui: view.egui });
         self.model.messages.note("The graphics device was lost and has been reopened");
     }
@@ -247,6 +247,11 @@ impl Handler {
         match request {
             Request::Ask(target) => self.files.ask(target, &self.model, &view.window),
             Request::LoadScene(name) => self.files.load_scene(&mut self.model, name),
+            Request::BeginLesson(name) => {
+                let lesson = crate::scene::lesson::lesson(&name);
+                lesson.into_iter().for_each(|lesson| self.model.begin_lesson(lesson, PathBuf::new()));
+            }
+            Request::LoadStep => self.files.load_step(&mut self.model),
             Request::LoadLight(light) => self.files.load_light(&mut self.model, light),
             #[cfg(target_arch = "wasm32")]
             Request::CopyLink => match system::copy_link(&self.model.scene.to_toml()) {
@@ -288,8 +293,13 @@ impl Handler {
             Target::SaveScene => self.files.save_scene(with_ending(path, "toml"), &self.model),
             Target::SavePng => view.capture(&mut self.model, false, with_ending(path, "png")),
             Target::SaveExr => view.capture(&mut self.model, true, with_ending(path, "exr")),
-            Target::SaveCsv => {
-                let csv = self.model.probe.pinned.as_ref().map(|(reading, _)| reading.csv());
+            Target::SaveProfile => {
+                let csv = self.model.overlay.profile.as_ref().map(|profile| profile.csv());
+                csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
+            }
+            Target::SavePlot(plot) => view.capture_plot(&mut self.model, plot, with_ending(path, "png")),
+            Target::SaveCsv(plot) => {
+                let csv = self.model.probe.pinned.as_ref().map(|pin| pin.csv(plot));
                 csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
             }
             Target::OpenScene | Target::OpenEnvironment => self.open_file(&path),

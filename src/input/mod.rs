@@ -6,6 +6,7 @@ mod error;
 mod exr;
 #[cfg_attr(target_arch = "wasm32", path = "page_file.rs")]
 mod file;
+mod lesson;
 mod light;
 mod own;
 mod panic_guard;
@@ -19,6 +20,7 @@ pub use environment::read_environment;
 pub use error::{InputError, LoadError, MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_WIDTH};
 #[cfg(target_arch = "wasm32")]
 pub use file::keep_file;
+pub use lesson::{Opened, load_step, open};
 pub use light::{load_environment, load_illuminant};
 pub use plate::read_plate;
 pub use scene::{LoadedScene, load_liquid, load_scene, load_scene_with};

@@ -1,10 +1,10 @@
 //! From TOML text to a scene, keeping track of where each key stands.
 
-use super::check::{Fault, KeyPath, Step};
+use super::check::{Checked, Fault, KeyPath, Step};
 use super::error::{Located, Problem, SceneError};
 use super::syntax::{every_key, shorten_line};
 use super::{Scene, SceneSource, VERSION};
-use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use toml::de::{DeTable, DeValue, Deserializer, Error};
 use toml::{Spanned, Table, Value};
 
@@ -28,12 +28,21 @@ impl SceneSource {
 
 /// Reads and checks a scene.
 fn read(source: &SceneSource) -> Result<Scene, Located> {
+    read_as(source, &every_key(), Scene::check)
+}
+
+/// Reads and checks a document of some kind. `known` is its table with every key that it can have.
+pub(super) fn read_as<T: DeserializeOwned>(
+    source: &SceneSource,
+    known: &Table,
+    check: impl Fn(&T) -> Checked,
+) -> Result<T, Located> {
     let document = source.parse()?;
     check_version(document.get_ref(), source.all())?;
-    check_keys(document.get_ref())?;
-    let scene = Scene::deserialize(Deserializer::from(document)).map_err(|error| type_error(source, &error))?;
-    scene.check().map_err(|fault| locate(source, fault))?;
-    Ok(scene)
+    check_keys(document.get_ref(), known)?;
+    let value = T::deserialize(Deserializer::from(document)).map_err(|error| type_error(source, &error))?;
+    check(&value).map_err(|fault| locate(source, fault))?;
+    Ok(value)
 }
 
 /// Where the key of a fault stands in a source.
@@ -55,10 +64,10 @@ fn check_version(document: &DeTable, text: &str) -> Result<(), Located> {
     Err(Located { offset: version.span().start, problem: Problem::UnknownVersion(shorten_line(found)) })
 }
 
-/// Refuses the first key of the text that no scene has, and lists and tables taken for one another.
-fn check_keys(document: &DeTable) -> Result<(), Located> {
+/// Refuses the first key of the text that is not known, and lists and tables taken for one another.
+fn check_keys(document: &DeTable, known: &Table) -> Result<(), Located> {
     let mut strays = Vec::new();
-    find_strays(document, &every_key(), &KeyPath::default(), &mut strays);
+    find_strays(document, known, &KeyPath::default(), &mut strays);
     strays.into_iter().min_by_key(|stray| stray.offset).map_or(Ok(()), Err)
 }
 
@@ -72,7 +81,7 @@ fn find_strays(table: &DeTable, known: &Table, path: &KeyPath, strays: &mut Vec<
             (DeValue::Array(items), Some(Value::Array(known))) if known.iter().any(Value::is_table) => {
                 find_strays_in_items(items, known, &path, strays);
             }
-            (DeValue::Array(items), Some(Value::Array(known))) => {
+            (DeValue::Array(items), Some(Value::Array(known))) if known.iter().any(Value::is_float) => {
                 strays.extend(check_count(items, known, offset, &path));
             }
             (DeValue::Table(_), Some(Value::Array(known))) if known.iter().any(Value::is_table) => {

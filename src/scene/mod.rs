@@ -14,6 +14,7 @@ mod error;
 mod event;
 mod generator;
 mod lens;
+pub mod lesson;
 mod light;
 mod memory;
 mod motion;

@@ -88,6 +88,12 @@ impl Value for String {
     }
 }
 
+impl Value for Vec<String> {
+    fn check(&self, key: &Key) -> Checked {
+        self.iter().try_for_each(|text| text.check(key))
+    }
+}
+
 impl<T: Value> Value for Option<T> {
     fn check(&self, key: &Key) -> Checked {
         self.as_ref().map_or(Ok(()), |value| value.check(key))

@@ -24,7 +24,7 @@ pub use difference::{Difference, difference};
 pub use error::Error;
 pub use film::{FilmCell, reference_film, reference_film_at};
 pub use picture::{Picture, Radiance};
-pub use sight::{FilmsRead, WallInSight, walls_in_sight};
+pub use sight::{FilmInFront, FilmView, FilmsRead, WallInSight, thickness_at, walls_in_sight};
 
 use glam::DVec3;
 

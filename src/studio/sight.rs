@@ -1,16 +1,16 @@
 //! What a line of sight meets: the walls of the nearest bubble, with the film that stands there.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::OnceLock};
 
 use glam::{DVec2, DVec3};
 
 use crate::{
     physics::{
-        picture::{Line, Surface, Wall},
+        picture::{Line, PictureCamera, Surface, Wall},
         sphere::PaddedField,
     },
     plan::{BubbleKey, DrawKey, FieldKey, FilmKey, FlowLaw, OpticsKey},
-    verify::reference::{MovedFilms, camera, film_thickness},
+    verify::reference::{FilmThickness, MovedFilms, camera, film_thickness},
 };
 
 /// What was read of films on the device, by the index of the film.
@@ -43,30 +43,138 @@ pub struct WallInSight {
 /// the back wall from outside, one from inside, none beside all bubbles. What lies behind the mirror of a bath is not looked for.
 #[must_use]
 pub fn walls_in_sight(draw: &DrawKey, films: &FilmsRead, position: DVec2) -> Vec<WallInSight> {
-    let direction = camera(&draw.camera).ray(draw.size, position);
-    let line = Line { origin_m: DVec3::ZERO, direction, from: None };
-    let met = draw.all_bubbles().into_iter().filter_map(|bubble| {
-        let mut walls = Vec::new();
-        let surface = Surface::new(bubble.center_m - draw.camera.eye_m, bubble.radius_m, bubble.stretch);
-        surface.add_walls(0, &line, &mut walls);
-        // A cap of a film ends somewhere; beyond it there is nothing to meet.
-        walls.retain(|wall| bubble.cap.is_none_or(|cap| cap.contains(bubble.to_film * wall.place)));
-        Some((walls.first()?.distance_m, bubble, walls))
-    });
-    let Some((_, bubble, walls)) = met.min_by(|a, b| a.0.total_cmp(&b.0)) else { return Vec::new() };
-    walls.iter().map(|wall| seen(draw, &bubble, films, wall)).collect()
+    FilmView::new(draw, films).walls(position)
 }
 
-fn seen(draw: &DrawKey, bubble: &BubbleKey, films: &FilmsRead, wall: &Wall) -> WallInSight {
-    let known = matches!(bubble.film, FilmKey::Uniform(_)) || films.thickness_nm.contains_key(&bubble.index);
-    let thickness = known.then(|| film_thickness(bubble, draw.on_bath, &films.thickness_nm).ok()).flatten();
-    WallInSight {
-        film: bubble.index,
-        place: wall.place,
-        cos_theta: wall.cos_theta,
-        thickness_nm: thickness.map(|thickness_nm| thickness_nm(wall.place)),
-        speed_m_s: velocity_rad_s(bubble, films, wall.place).map(|velocity| velocity.length() * bubble.radius_m),
-        optics: draw.lighting.films[bubble.material].quadrature.optics.clone(),
+/// Thickness in nm at places of a film, unit vectors from the bubble's center in the world's axes; 0 where there is no film. `None` for a film that is
+/// not in the picture or must be read from the device first.
+#[must_use]
+pub fn thickness_at(draw: &DrawKey, films: &FilmsRead, film: usize, places: &[DVec3]) -> Option<Vec<f64>> {
+    let view = FilmView::new(draw, films);
+    let bubble = view.bubbles.iter().find(|bubble| bubble.key.index == film)?;
+    places.iter().map(|place| view.thickness_nm(bubble, *place)).collect()
+}
+
+/// The films of a picture, to be looked at along many lines of sight.
+pub struct FilmView<'a> {
+    draw: &'a DrawKey,
+    films: &'a FilmsRead,
+    camera: PictureCamera,
+    bubbles: Vec<SeenBubble<'a>>,
+}
+
+/// A bubble of a picture.
+struct SeenBubble<'a> {
+    key: BubbleKey,
+    surface: Surface,
+    /// Its film, once it is looked at; none that must be read from the device first.
+    thickness_nm: OnceLock<Option<FilmThickness<'a>>>,
+}
+
+/// A point of the film that is in front.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmInFront {
+    /// Height above the bubble's center, m.
+    pub height_m: f64,
+    /// Radius of the bubble, m.
+    pub radius_m: f64,
+    /// Index of the film.
+    pub film: usize,
+    /// Thickness along the normal, nm.
+    pub thickness_nm: f64,
+    /// Speed of the liquid along the film, m/s, if it is known.
+    pub speed_m_s: Option<f64>,
+    /// Vorticity of the film, 1/s, positive where it turns counterclockwise as seen from outside, if it is known.
+    pub vorticity_1_s: Option<f64>,
+}
+
+/// Half of the distance between the velocities whose difference is the vorticity, radians: below the cells of any flow.
+const HALF_STEP_RAD: f64 = 0.01;
+
+impl<'a> FilmView<'a> {
+    /// The films of a picture, as far as they have been read.
+    #[must_use]
+    pub fn new(draw: &'a DrawKey, films: &'a FilmsRead) -> Self {
+        let seen = |key: BubbleKey| SeenBubble {
+            surface: Surface::new(key.center_m - draw.camera.eye_m, key.radius_m, key.stretch),
+            key,
+            thickness_nm: OnceLock::new(),
+        };
+        let bubbles = draw.all_bubbles().into_iter().map(seen).collect();
+        Self { draw, films, camera: camera(&draw.camera), bubbles }
+    }
+
+    /// As [`walls_in_sight`].
+    #[must_use]
+    pub fn walls(&self, position: DVec2) -> Vec<WallInSight> {
+        let Some((bubble, walls)) = self.nearest(position) else { return Vec::new() };
+        walls.iter().map(|wall| self.seen(bubble, wall)).collect()
+    }
+
+    /// The film that is in front at a position in the picture, in pixels from the top left, y down. `None` beside all bubbles, where there is no film,
+    /// and where it must be read from the device first.
+    #[must_use]
+    pub fn front(&self, position: DVec2) -> Option<FilmInFront> {
+        let (bubble, walls) = self.nearest(position)?;
+        let (place, key) = (walls.first()?.place, &bubble.key);
+        let thickness_nm = self.thickness_nm(bubble, place).filter(|nm| *nm > 0.0)?;
+        Some(FilmInFront {
+            height_m: key.radius_m * (key.stretch * place).z,
+            radius_m: key.radius_m,
+            film: key.index,
+            thickness_nm,
+            speed_m_s: velocity_rad_s(key, self.films, place).map(|velocity| velocity.length() * key.radius_m),
+            vorticity_1_s: self.vorticity_1_s(key, place),
+        })
+    }
+
+    /// The nearest bubble on a line of sight, with the walls that it meets.
+    fn nearest(&self, position: DVec2) -> Option<(&SeenBubble<'a>, Vec<Wall>)> {
+        let line = Line { origin_m: DVec3::ZERO, direction: self.camera.ray(self.draw.size, position), from: None };
+        let met = self.bubbles.iter().filter_map(|bubble| {
+            let mut walls = Vec::new();
+            bubble.surface.add_walls(0, &line, &mut walls);
+            // A cap of a film ends somewhere; beyond it there is nothing to meet.
+            let key = &bubble.key;
+            walls.retain(|wall| key.cap.is_none_or(|cap| cap.contains(key.to_film * wall.place)));
+            Some((walls.first()?.distance_m, bubble, walls))
+        });
+        let (_, bubble, walls) = met.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((bubble, walls))
+    }
+
+    /// Thickness in nm at a place of a bubble; `None` where the film must be read from the device first.
+    fn thickness_nm(&self, bubble: &SeenBubble<'a>, place: DVec3) -> Option<f64> {
+        let film = bubble.thickness_nm.get_or_init(|| {
+            let (key, films) = (&bubble.key, &self.films.thickness_nm);
+            let is_known = matches!(key.film, FilmKey::Uniform(_)) || films.contains_key(&key.index);
+            is_known.then(|| film_thickness(key, self.draw.on_bath, films).ok()).flatten()
+        });
+        film.as_ref().map(|thickness_nm| thickness_nm(place))
+    }
+
+    fn seen(&self, bubble: &SeenBubble<'a>, wall: &Wall) -> WallInSight {
+        let key = &bubble.key;
+        WallInSight {
+            film: key.index,
+            place: wall.place,
+            cos_theta: wall.cos_theta,
+            thickness_nm: self.thickness_nm(bubble, wall.place),
+            speed_m_s: velocity_rad_s(key, self.films, wall.place).map(|velocity| velocity.length() * key.radius_m),
+            optics: self.draw.lighting.films[key.material].quadrature.optics.clone(),
+        }
+    }
+
+    /// The curl of the velocity along the normal, by central differences.
+    fn vorticity_1_s(&self, key: &BubbleKey, place: DVec3) -> Option<f64> {
+        let right = place.any_orthonormal_vector();
+        let up = place.cross(right);
+        // The component along one tangent of the difference of velocities along the other. Films turn as a whole, so that tangents turn too.
+        let slope = |way: DVec3, part: DVec3| {
+            let at = |side: f64| velocity_rad_s(key, self.films, (place + side * HALF_STEP_RAD * way).normalize());
+            Some((at(1.0)? - at(-1.0)?).dot(key.to_film * part) / (2.0 * HALF_STEP_RAD))
+        };
+        Some(slope(right, up)? - slope(up, right)?)
     }
 }
 
@@ -83,4 +191,54 @@ fn velocity_rad_s(bubble: &BubbleKey, films: &FilmsRead, place: DVec3) -> Option
 
 fn time_s(field: &FieldKey) -> f64 {
     field.moment.ticks() * field.tick_s
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        input::load_scene_with,
+        physics::colour::Gamut,
+        plan::{Moment, Pace, Shot},
+    };
+
+    const SIZE: [u32; 2] = [200, 200];
+
+    fn draw(settings: &[&str]) -> DrawKey {
+        let settings: Vec<_> = settings.iter().map(|setting| setting.parse().unwrap()).collect();
+        let scene = load_scene_with("bands", &settings).unwrap();
+        let moment = Moment { tick: 60, ..Moment::default() };
+        let shot =
+            Shot { size: SIZE, moment, full_precision: false, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
+        scene.request(&shot).unwrap().picture.draw
+    }
+
+    /// A film that turns as a rigid body about the vertical has twice its rate as vorticity at the top, and `2 Ω cos ϑ` elsewhere.
+    #[test]
+    fn vorticity_is_the_curl_of_the_velocity() {
+        let draw = draw(&["camera.elevation_deg=40", "motion.flow=free"]);
+        let mut films = FilmsRead::default();
+        let grid = crate::physics::sphere::CubedSphere::new(64).unwrap();
+        films.thickness_nm.insert(0, PaddedField::sample(grid, |_| 500.0));
+        films.velocity_rad_s.insert(0, PaddedField::sample(grid, |x| 3.0 * DVec3::Z.cross(x)));
+        let view = FilmView::new(&draw, &films);
+        for position in [DVec2::new(100.0, 100.0), DVec2::new(90.0, 60.0), DVec2::new(130.0, 120.0)] {
+            let front = view.front(position).unwrap();
+            let cos = front.height_m / front.radius_m;
+            let sin = (1.0 - cos * cos).sqrt();
+            assert!((front.vorticity_1_s.unwrap() - 6.0 * cos).abs() < 0.02, "{position}: {front:?} {cos}");
+            assert!((front.speed_m_s.unwrap() - 3.0 * sin * front.radius_m).abs() < 1e-3, "{position}: {front:?}");
+        }
+        assert_eq!(view.front(DVec2::new(2.0, 2.0)), None, "beside the bubble");
+    }
+
+    #[test]
+    fn films_that_are_not_read_have_no_thickness() {
+        let draw = draw(&[]);
+        let films = FilmsRead::default();
+        let middle = DVec2::new(100.0, 100.0);
+        assert_eq!(FilmView::new(&draw, &films).front(middle), None);
+        assert_eq!(walls_in_sight(&draw, &films, middle)[0].thickness_nm, None);
+        assert_eq!(thickness_at(&draw, &films, 0, &[DVec3::X]), None);
+    }
 }

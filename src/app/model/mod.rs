@@ -3,6 +3,7 @@
 mod bubbles;
 #[cfg(not(target_arch = "wasm32"))]
 mod exports;
+mod lesson;
 mod steps;
 mod time;
 
@@ -16,10 +17,12 @@ use super::{
     clock::{Clock, Rate},
     compare::{Compare, Want},
     costs::Costs,
+    course::Course,
     edit::Edit,
     keys::Action,
     messages::Messages,
     orbit,
+    overlay::Overlay,
     probe::Probe,
     request::{Question, Request, Target},
     storage::{Settings, Unsaved},
@@ -58,8 +61,14 @@ pub struct Model {
     pub time_line: TimeLine,
     /// A kept picture beside the one that is shown.
     pub compare: Compare,
+    /// The lesson that is taken.
+    pub course: Option<Course>,
     /// What is measured under the pointer.
     pub probe: Probe,
+    /// What is laid over the picture.
+    pub overlay: Overlay,
+    /// How fast the eye goes around its target by itself, degrees per second.
+    pub turntable_deg_s: f64,
     /// Index of the bubble that the film panel edits.
     pub selected: usize,
     /// Whether it is outlined in the picture, because it was clicked there.
@@ -125,7 +134,10 @@ impl Model {
             rate: Rate::default(),
             time_line: TimeLine::default(),
             compare: Compare::default(),
+            course: None,
             probe: Probe::default(),
+            overlay: Overlay::default(),
+            turntable_deg_s: 0.0,
             selected: 0,
             outlines: false,
             selected_generator: 0,
@@ -166,6 +178,7 @@ impl Model {
         self.behind_ticks = 0;
         (self.time_line.selected, self.time_line.dragged) = (None, None);
         self.probe = Probe::default();
+        self.overlay.profile = None;
         (self.selected, self.outlines, self.selected_generator) = (0, false, 0);
         self.motion_draft = None;
         // What the hand held is gone.
@@ -301,7 +314,7 @@ impl Model {
             Action::Help => self.shows_help = !self.shows_help,
             Action::Dismiss => {
                 (self.shows_help, self.presents) = (false, false);
-                self.probe.pinned = None;
+                (self.probe.pinned, self.overlay.profile) = (None, None);
                 self.time_line.selected = None;
                 self.messages.clear();
             }

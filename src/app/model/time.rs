@@ -3,9 +3,13 @@
 use super::Model;
 use crate::app::edit::Edit;
 
+/// The time that one frame of a turntable lasts at most, s.
+const LONGEST_TURN_S: f64 = 0.1;
+
 impl Model {
     /// Lets wall time pass, unless the films are behind the clock.
     pub fn advance(&mut self, wall_s: f64) {
+        self.turn_table(wall_s);
         let motion = &self.scene.motion;
         if self.behind_ticks == 0 {
             self.clock.advance(wall_s, motion);
@@ -18,6 +22,15 @@ impl Model {
             self.rate.restart(0.0);
         } else {
             self.rate.note(wall_s, time_s);
+        }
+    }
+
+    /// Turns the camera about the vertical. Looking around is no work that could be lost.
+    fn turn_table(&mut self, wall_s: f64) {
+        // A frame that took long turns no further than one can follow.
+        let turn_deg = self.turntable_deg_s * wall_s.min(LONGEST_TURN_S);
+        if turn_deg != 0.0 {
+            self.scene.change(|scene| scene.camera.azimuth_deg = (scene.camera.azimuth_deg + turn_deg) % 360.0);
         }
     }
 

@@ -1,36 +1,46 @@
 //! The kept picture beside the one that is shown, and the map of how far they are apart.
 
-use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 use egui::{
-    Align2, Area, Color32, ColorImage, Context, Frame, Id, LayerId, Order, Rect, Sense, Stroke, TextureHandle,
-    TextureOptions, Ui, pos2, vec2,
+    Align2, Area, Color32, Context, Frame, Id, LayerId, Order, ProgressBar, Rect, Sense, Stroke, TextureOptions, Ui,
+    pos2, vec2,
 };
 
+use super::textures::texture;
 use crate::app::{
-    compare::{Compare, MAP_SCALE, Pixels, Want, map_colour},
+    colour_map::viridis,
+    compare::{Compare, MAP_SCALE, Pixels, Side, Want},
     model::Model,
 };
+use crate::{Words, scene::Quality};
 
-/// Where the texture of a slot is remembered, with the pixels that it shows.
-type Remembered = (Arc<Vec<u8>>, TextureHandle);
-
-/// Shows the kept picture left of the split, or the map, over the picture; and what can be done with them.
+/// Shows A left of the split and B right of it, or the map, over the picture; and what can be done with them.
 pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
-    let Some((kept, name)) = model.compare.kept.clone() else { return };
+    let Some((kept, _)) = model.compare.kept.clone() else { return };
     let painter = ctx.layer_painter(LayerId::background());
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    let draw = |slot, pixels: &Pixels, clip: Rect| {
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let texture = texture(ctx, slot, pixels, TextureOptions::NEAREST);
+        painter.with_clip_rect(clip).image(texture.id(), picture, whole, Color32::WHITE);
+    };
     if let Some(map) = &model.compare.map {
-        painter.with_clip_rect(picture).image(texture(ctx, &map.pixels).id(), picture, whole, Color32::WHITE);
+        draw("compared", &map.pixels, picture);
     } else {
         let x = picture.left() + model.compare.split * picture.width();
-        let left = Rect::from_min_max(picture.min, pos2(x, picture.bottom()));
-        painter.with_clip_rect(left).image(texture(ctx, &kept).id(), picture, whole, Color32::WHITE);
+        if let Some((other, _)) = &model.compare.other {
+            draw("other", other, Rect::from_min_max(pos2(x, picture.top()), picture.max));
+        }
+        draw("compared", &kept, Rect::from_min_max(picture.min, pos2(x, picture.bottom())));
         handle(ctx, picture, x, &mut model.compare);
     }
     let corner = picture.right_top() + vec2(-10.0, 10.0);
-    Area::new(Id::unique("compare")).fixed_pos(corner).pivot(Align2::RIGHT_TOP).constrain_to(picture).show(ctx, |ui| {
-        Frame::popup(ui.style()).show(ui, |ui| controls(ui, &mut model.compare, &name));
+    let area = Area::new(Id::unique("compare")).fixed_pos(corner).pivot(Align2::RIGHT_TOP).constrain_to(picture);
+    area.show(ctx, |ui| {
+        Frame::popup(ui.style()).show(ui, |ui| {
+            ui.set_max_width((picture.width() - 34.0).clamp(60.0, 330.0));
+            controls(ui, &mut model.compare);
+        });
     });
 }
 
@@ -47,33 +57,68 @@ fn handle(ctx: &Context, picture: Rect, x: f32, compare: &mut Compare) {
     });
 }
 
-fn controls(ui: &mut Ui, compare: &mut Compare, name: &str) {
-    ui.horizontal(|ui| {
-        ui.strong("A").on_hover_text(name);
-        ui.weak("left, kept");
-        ui.strong("B");
-        ui.weak("right, as it is now");
-        if ui.button("Keep B").on_hover_text("Keep the picture that is shown as A (K)").clicked() {
-            compare.wants = Some(Want::Keep);
-        }
-        if compare.map.is_some() {
-            if ui.button("Split").on_hover_text("Show A and B side by side").clicked() {
-                compare.map = None;
+fn controls(ui: &mut Ui, compare: &mut Compare) {
+    let a = compare.kept.as_ref().map(|(_, name)| name.clone());
+    let b = compare.other.as_ref().map(|(_, name)| name.clone());
+    side(ui, "A, left", a, Side::A, compare);
+    side(ui, "B, right", b, Side::B, compare);
+    if let Some(done) = compare.done {
+        ui.horizontal(|ui| {
+            ui.add(ProgressBar::new(done).desired_width(180.0).text(format!("reference: {:.0} %", 100.0 * done)));
+            if ui.button("Stop").on_hover_text("Keep the reference picture as fine as it is").clicked() {
+                compare.stop.store(true, Ordering::Relaxed);
+                compare.done = None;
             }
-        } else if ui
-            .button("ΔE map")
-            .on_hover_text("Show how far A and B are apart, as people see it (CIEDE2000)")
-            .clicked()
-        {
-            compare.wants = Some(Want::Map);
-        }
-        if ui.button("Close").on_hover_text("Forget A").clicked() {
-            *compare = Compare::default();
-        }
-    });
+        });
+    }
+    ui.horizontal_wrapped(|ui| buttons(ui, compare));
     if let Some(map) = &compare.map {
         ui.label(format!("CIEDE2000: mean {:.3}, 99.9 % of the pixels below {:.2}", map.mean, map.p999));
         ui.horizontal(scale);
+    }
+}
+
+/// The name of a picture, and the qualities in which it can be made anew.
+fn side(ui: &mut Ui, title: &str, name: Option<String>, side: Side, compare: &mut Compare) {
+    ui.horizontal(|ui| {
+        ui.strong(title);
+        ui.menu_button("Quality", |ui| {
+            if side == Side::B && ui.button("as it is now").on_hover_text("The picture as it is shown").clicked() {
+                (compare.other, compare.map) = (None, None);
+            }
+            for quality in Quality::ALL {
+                if ui.button(quality.name()).on_hover_text(quality.help()).clicked() {
+                    compare.wants = Some(Want::Draw(side, quality));
+                }
+            }
+            let help = "The same light path in f64 on the CPU; the clock stands, and the picture grows finer while it is computed";
+            // In a browser there is no other thread, and the page would stand still.
+            if !cfg!(target_arch = "wasm32") && ui.button("reference").on_hover_text(help).clicked() {
+                compare.wants = Some(Want::Reference(side));
+            }
+        });
+        let name = name.unwrap_or_else(|| "as it is now".to_owned());
+        ui.add(egui::Label::new(egui::RichText::new(&name).weak()).truncate()).on_hover_text(name);
+    });
+}
+
+fn buttons(ui: &mut Ui, compare: &mut Compare) {
+    if ui.button("Keep").on_hover_text("Keep the picture that is shown as A (K)").clicked() {
+        compare.wants = Some(Want::Keep);
+    }
+    if compare.map.is_some() {
+        if ui.button("Split").on_hover_text("Show A and B side by side").clicked() {
+            compare.map = None;
+        }
+    } else if ui
+        .button("ΔE map")
+        .on_hover_text("Show how far A and B are apart, as people see it (CIEDE2000)")
+        .clicked()
+    {
+        compare.wants = Some(Want::Map);
+    }
+    if ui.button("Close").on_hover_text("Forget A and B").clicked() {
+        compare.close();
     }
 }
 
@@ -82,31 +127,9 @@ fn scale(ui: &mut Ui) {
     ui.weak("0");
     let (rect, _) = ui.allocate_exact_size(vec2(160.0, 10.0), Sense::hover());
     for column in 0..160u8 {
-        let [r, g, b] = map_colour(f64::from(column) / 159.0);
+        let [r, g, b] = viridis(f64::from(column) / 159.0);
         let x = rect.left() + f32::from(column);
         ui.painter().vline(x, rect.y_range(), Stroke::new(1.5, Color32::from_rgb(r, g, b)));
     }
     ui.weak(format!("{MAP_SCALE} and more"));
-}
-
-/// The texture of a picture, made when it is first shown.
-fn texture(ctx: &Context, pixels: &Pixels) -> TextureHandle {
-    let known = ctx.data(|data| data.get_temp::<Remembered>(slot()));
-    if let Some((rgba, texture)) = known.filter(|(rgba, _)| Arc::ptr_eq(rgba, &pixels.rgba)) {
-        drop(rgba);
-        return texture;
-    }
-    let image = ColorImage::from_rgba_unmultiplied(pixels.size.map(|side| side as usize), &pixels.rgba);
-    let texture = ctx.load_texture("compared", image, TextureOptions::NEAREST);
-    ctx.data_mut(|data| data.insert_temp(slot(), (pixels.rgba.clone(), texture.clone())));
-    texture
-}
-
-fn slot() -> Id {
-    Id::unique("compared picture")
-}
-
-/// Forgets the texture, because the device that held it is lost.
-pub fn forget(ctx: &Context) {
-    ctx.data_mut(|data| data.remove::<Remembered>(slot()));
 }

@@ -1,4 +1,4 @@
-//! The presets as pictures with their sentences, in groups.
+//! Lessons and presets as pictures with their sentences, in groups.
 
 use std::sync::Arc;
 
@@ -9,7 +9,11 @@ use include_dir::{Dir, include_dir};
 
 use crate::{
     app::{model::Model, request::Request},
-    scene::{PRESET_GROUPS, TEST_PRESETS, preset_sentence},
+    scene::{
+        PRESET_GROUPS, TEST_PRESETS,
+        lesson::{lesson, lesson_names},
+        preset_sentence,
+    },
 };
 
 /// Pictures of the presets, made by `./dev thumbnails`.
@@ -27,17 +31,18 @@ pub fn show(ctx: &Context, model: &mut Model) {
         return;
     }
     let (pictures, room) = (pictures(ctx), ctx.content_rect().size());
-    let mut chosen = None;
+    let (mut chosen, mut chosen_lesson) = (None, None);
     let modal = Modal::new(Id::unique("gallery")).show(ctx, |ui| {
         ui.set_width((room.x - 60.0).clamp(60.0, 940.0));
         ScrollArea::vertical().max_height((room.y - 90.0).max(60.0)).show(ui, |ui| {
+            lessons(ui, &pictures, &mut chosen_lesson);
             let tests = [("For testing", &TEST_PRESETS[..])];
             for (title, names) in PRESET_GROUPS.iter().chain(&tests) {
                 ui.heading(*title);
                 ui.horizontal_wrapped(|ui| {
                     for name in *names {
                         let picture = pictures.iter().find(|(known, _)| known == name).map(|(_, picture)| picture);
-                        if card(ui, name, picture) {
+                        if card(ui, name, &preset_sentence(name).unwrap_or_default(), picture) {
                             chosen = Some((*name).to_owned());
                         }
                     }
@@ -46,13 +51,27 @@ pub fn show(ctx: &Context, model: &mut Model) {
         });
         ui.button("Close").clicked()
     });
-    model.shows_gallery = chosen.is_none() && !modal.inner && !modal.should_close();
+    model.shows_gallery = chosen.is_none() && chosen_lesson.is_none() && !modal.inner && !modal.should_close();
     chosen.into_iter().for_each(|name| model.ask_for(Request::LoadScene(name)));
+    chosen_lesson.into_iter().for_each(|name| model.ask_for(Request::BeginLesson(name)));
+}
+
+/// The built-in lessons, each with the picture of its first scene.
+fn lessons(ui: &mut Ui, pictures: &Pictures, chosen: &mut Option<String>) {
+    ui.heading("Lessons");
+    ui.horizontal_wrapped(|ui| {
+        for (name, lesson) in lesson_names().filter_map(|name| Some((name, lesson(name)?))) {
+            let picture =
+                pictures.iter().find(|(known, _)| *known == lesson.steps[0].scene).map(|(_, picture)| picture);
+            if card(ui, &lesson.title, &lesson.about, picture) {
+                *chosen = Some(name.to_owned());
+            }
+        }
+    });
 }
 
 /// A preset's picture, name and sentence; returns whether it was chosen.
-fn card(ui: &mut Ui, name: &str, picture: Option<&TextureHandle>) -> bool {
-    let sentence = preset_sentence(name).unwrap_or_default();
+fn card(ui: &mut Ui, name: &str, sentence: &str, picture: Option<&TextureHandle>) -> bool {
     let layout = egui::Layout::top_down(egui::Align::Min);
     let card = ui.allocate_ui_with_layout(SIZE + vec2(8.0, 66.0), layout, |ui| {
         ui.set_width(SIZE.x + 8.0);
@@ -63,8 +82,8 @@ fn card(ui: &mut Ui, name: &str, picture: Option<&TextureHandle>) -> bool {
         let button = ui.add(button);
         button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
         let text = egui::Label::new(RichText::new(format!("{name}: {sentence}")).small()).wrap();
-        ui.add(text).on_hover_text(&sentence);
-        button.on_hover_text(&sentence).clicked()
+        ui.add(text).on_hover_text(sentence);
+        button.on_hover_text(sentence).clicked()
     });
     card.inner
 }

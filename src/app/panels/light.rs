@@ -4,7 +4,7 @@ use egui::Ui;
 
 use super::{
     header,
-    widgets::{group, number, number_within, row},
+    widgets::{group, number, number_within, row, slider},
 };
 use crate::{
     app::{
@@ -18,6 +18,8 @@ use crate::{
 
 /// Radiance of a constant light when it is first chosen.
 const CONSTANT: [f64; 3] = [0.5; 3];
+/// The black body that is chosen first: a halogen lamp.
+const BLACK_BODY: &str = "3200 K";
 
 /// Shows and edits the light.
 pub fn show(ui: &mut Ui, model: &mut Model) {
@@ -98,9 +100,41 @@ fn illuminant(ui: &mut Ui, model: &mut Model) {
                     chosen = Some(name);
                 }
             }
+            let is = kelvin(&light.illuminant).is_some();
+            let help = "Light of a glowing body, of a temperature that can be set";
+            if ui.selectable_label(is, "black body").on_hover_text(help).clicked() && !is {
+                chosen = Some(BLACK_BODY);
+            }
         })
         .response
     });
     let changed = chosen.map(|name| Light { illuminant: name.to_owned(), ..light.clone() });
     model.requests.extend(changed.map(Request::LoadLight));
+    if let Some(kelvin) = kelvin(&model.scene.light.illuminant) {
+        temperature(ui, model, kelvin);
+    }
+}
+
+/// The temperature of an illuminant that is a black body, K.
+fn kelvin(illuminant: &str) -> Option<f64> {
+    illuminant.trim().strip_suffix(['K', 'k'])?.trim().parse().ok()
+}
+
+/// The slider of a black body's temperature. The light is loaded once the slider is let go, so that a drag is one step to undo.
+fn temperature(ui: &mut Ui, model: &mut Model, kelvin: f64) {
+    let id = egui::Id::unique("temperature");
+    let mut draft = ui.data(|data| data.get_temp(id)).unwrap_or(kelvin);
+    let help = "Temperature of the black body: low is red, high is blue";
+    let slid = slider(ui, "Temperature", &mut draft, 1000.0..=20_000.0, help, |slider| {
+        slider.logarithmic(true).suffix(" K").max_decimals(0)
+    });
+    if slid.dragged() {
+        ui.data_mut(|data| data.insert_temp(id, draft));
+        return;
+    }
+    ui.data_mut(|data| data.remove::<f64>(id));
+    if draft != kelvin && model.loading.is_none() {
+        let light = Light { illuminant: format!("{} K", draft.round()), ..model.scene.light.clone() };
+        model.requests.push(Request::LoadLight(light));
+    }
 }

@@ -1,6 +1,7 @@
 //! The panels: each a small function of the model. They touch neither window nor GPU, so tests drive them without either.
 
 mod all_keys;
+mod camera;
 pub mod compare;
 mod costs;
 #[cfg(not(target_arch = "wasm32"))]
@@ -11,15 +12,19 @@ mod generators;
 mod header;
 mod help;
 mod hints;
+mod lesson;
 mod light;
 mod motion;
 mod notices;
+mod overlay;
 mod picture;
+pub mod pin_plots;
 mod plots;
 mod probe;
 mod question;
 #[cfg(test)]
 mod tests;
+pub mod textures;
 mod time_line;
 mod tools;
 mod view;
@@ -33,6 +38,7 @@ use super::{
     keys::{self, Action},
     model::Model,
     orbit::Gesture,
+    overlay::Profile,
     tools::{Press, Tool},
 };
 
@@ -81,6 +87,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     if let Some(place) = picture.hovered.filter(|_| picture.clicked && model.tool == Tool::Orbit) {
         model.select(place);
     }
+    draw_line(model, &mut picture);
     let probes = model.tool == Tool::Probe;
     model.probe.point(picture.hovered.filter(|_| probes), picture.clicked && probes);
     if !model.stands_alone {
@@ -98,6 +105,23 @@ fn is_exporting(model: &Model) -> bool {
     false
 }
 
+/// Draws the line of a profile, while the pointer is pressed with that tool.
+fn draw_line(model: &mut Model, picture: &mut Picture) {
+    if model.tool != Tool::Profile {
+        return;
+    }
+    picture.gesture.turn = DVec2::ZERO;
+    let line = picture.pressed.filter(|Press { from, at }| from.distance(*at) > SHORTEST_LINE);
+    let is_new = |ends: &[DVec2; 2]| model.overlay.profile.as_ref().is_none_or(|known| known.ends != *ends);
+    // A line that is held still keeps what was read along it.
+    if let Some(ends) = line.map(|Press { from, at }| [from, at]).filter(is_new) {
+        model.overlay.profile = Some(Profile::new(ends));
+    }
+}
+
+/// Length of a line that is meant, in heights of the picture.
+const SHORTEST_LINE: f64 = 0.02;
+
 /// What stands over the picture, and the questions over everything.
 fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
     if !model.presents {
@@ -105,6 +129,7 @@ fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
         tools::show(ctx, picture, model);
         hints::show(ctx, picture, model);
     }
+    overlay::show(ctx, picture, model);
     compare::show(ctx, picture, model);
     probe::show(ctx, picture, model);
     notices::show(ctx, picture, model);
@@ -119,6 +144,10 @@ fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
 fn sections(ui: &mut Ui, model: &mut Model) {
     header::show(ui, model);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        if let Some(course) = &model.course {
+            let title = format!("Lesson: {}", course.lesson.title);
+            section(ui, &title, true, |ui| lesson::show(ui, model));
+        }
         section(ui, "Film", true, |ui| film::show(ui, model));
         if !model.scene.generators.is_empty() {
             section(ui, "Generators", true, |ui| generators::show(ui, model));
@@ -126,6 +155,7 @@ fn sections(ui: &mut Ui, model: &mut Model) {
         section(ui, "Motion", true, |ui| motion::show(ui, model));
         section(ui, "Light", true, |ui| light::show(ui, model));
         section(ui, "View", true, |ui| view::show(ui, model));
+        section(ui, "Measure", true, |ui| overlay::choices(ui, &mut model.overlay));
         section(ui, "All keys", false, |ui| all_keys::show(ui, model));
         section(ui, "Costs", false, |ui| costs::show(ui, model));
     });

@@ -1,13 +1,15 @@
-//! The probe's numbers: a card beside the pointer, and a window with spectra for what was clicked.
+//! The probe's numbers: a card beside the pointer, and a window with plots for what was clicked.
 
-use egui::{Align2, Area, Color32, Context, Frame, Grid, Id, Rect, Sense, Ui, Window, vec2};
-use egui_plot::{Line, Plot, PlotPoints};
+use egui::{Align2, Area, Color32, Context, Frame, Grid, Id, Rect, ScrollArea, Sense, Ui, Window, vec2};
 
+use super::{pin_plots, tools};
+use crate::Words;
 use crate::app::{
     model::Model,
-    probe::{Reading, SpectrumRow, WallReading},
+    probe::{Pin, Plot, Probe, Reading, WallReading},
     request::{Request, Target},
 };
+use crate::physics::colour::chromaticity_xy;
 
 /// Shows what the probe has found, over the picture.
 pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
@@ -39,6 +41,10 @@ fn numbers(ui: &mut Ui, reading: &Reading) {
         row("path", &|wall| format!("{:.0} nm", wall.path_nm));
         row("order", &|wall| wall.order().to_string());
         row("flow", &|wall| wall.speed_m_s.map_or("?".to_owned(), |speed| format!("{:.1} mm/s", 1e3 * speed)));
+        row("x, y", &|wall| {
+            let xy = chromaticity_xy(wall.xyz);
+            format!("{:.3}, {:.3}", xy.x, xy.y)
+        });
         row("Y", &|wall| format!("{:.2} %", 100.0 * wall.xyz.y));
         ui.weak("colour");
         for wall in &reading.walls {
@@ -53,61 +59,58 @@ fn numbers(ui: &mut Ui, reading: &Reading) {
     });
 }
 
+/// The window of what was clicked: its numbers, its plots, and ways to take them along.
 fn pinned(ctx: &Context, picture: Rect, model: &mut Model) {
-    let Some((reading, spectrum)) = &model.probe.pinned else { return };
+    let Model { probe: Probe { pinned, plot, is_uniform, .. }, requests, .. } = model;
+    let Some(pin) = pinned else { return };
     let mut is_open = true;
     let corner = picture.left_top() + vec2(10.0, 52.0);
     let window = Window::new("Probe").id(Id::unique("probe")).open(&mut is_open).resizable(false).default_pos(corner);
-    // The tools stand above.
-    let room = Rect::from_min_max(picture.min + vec2(0.0, 46.0), picture.max);
+    let room = tools::room_below(picture);
     window.constrain_to(room).show(ctx, |ui| {
-        numbers(ui, reading);
-        spectra(ui, spectrum, reading.walls.len() > 1, picture);
-        ui.horizontal(|ui| {
-            if ui.button("Copy").on_hover_text("Copy the numbers").clicked() {
-                ui.ctx().copy_text(reading.text());
-            }
-            if ui.button("CSV…").on_hover_text("Save numbers and spectra as comma-separated values").clicked() {
-                model.requests.push(Request::Ask(Target::SaveCsv));
-            }
+        let width = (picture.width() - 40.0).clamp(120.0, 340.0);
+        // As high as it may be from the first frame on: a window that grows by and by would hide what stands below.
+        let height = (room.height() - 76.0).max(60.0);
+        let scroll = ScrollArea::vertical().max_height(height).min_scrolled_height(height).max_width(width + 12.0);
+        scroll.show(ui, |ui| {
+            ui.set_width(width);
+            numbers(ui, &pin.reading);
+            choices(ui, plot, is_uniform);
+            let height = (0.4 * room.height()).clamp(150.0, 300.0);
+            pin_plots::show(ui, pin, *plot, *is_uniform, vec2(width, height));
         });
+        ui.horizontal(|ui| buttons(ui, pin, *plot, requests));
     });
     if !is_open {
-        model.probe.pinned = None;
+        *pinned = None;
     }
 }
 
-/// A curve of the plot: its name, its colour, and its value in a row.
-type Curve = (&'static str, Color32, fn(&SpectrumRow) -> f64);
-
-/// The curves, that of both walls last.
-const CURVES: [Curve; 4] = [
-    ("R, s", Color32::from_rgb(90, 160, 230), |row| row.r.s),
-    ("R, p", Color32::from_rgb(230, 150, 80), |row| row.r.p),
-    ("R", Color32::from_rgb(110, 190, 110), |row| row.r.mean()),
-    ("R of both walls", Color32::from_rgb(200, 120, 200), |row| row.both[0]),
-];
-const LIGHT: Color32 = Color32::from_gray(125);
-
-/// Reflectance and transmittance against wavelength, over the light's spectrum.
-fn spectra(ui: &mut Ui, rows: &[SpectrumRow], two_walls: bool, picture: Rect) {
-    let curves = &CURVES[..CURVES.len() - usize::from(!two_walls)];
-    let brightest = rows.iter().map(|row| row.both[0].max(row.r.s)).fold(0.01, f64::max);
-    let line = |name: &str, colour: Color32, value: &dyn Fn(&SpectrumRow) -> f64| {
-        let points: PlotPoints<'_> = rows.iter().map(|row| [row.wavelength_nm, value(row)]).collect();
-        Line::new(name, points).color(colour)
-    };
-    let plot = Plot::new("spectra").width(320.0).height((0.28 * picture.height()).clamp(70.0, 150.0)).include_y(0.0);
-    plot.allow_drag(false).allow_zoom(false).allow_scroll(false).allow_boxed_zoom(false).show(ui, |plot| {
-        // The light in the scale of the reflectances: only its shape counts.
-        plot.line(line("light", LIGHT, &|row| brightest * row.light).fill(0.0));
-        curves.iter().for_each(|(name, colour, value)| plot.line(line(name, *colour, value)));
+/// Which plot is shown.
+fn choices(ui: &mut Ui, plot: &mut Plot, is_uniform: &mut bool) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        for choice in Plot::ALL {
+            ui.selectable_value(plot, choice, choice.name()).on_hover_text(choice.help());
+        }
     });
-    ui.horizontal(|ui| {
-        curves.iter().for_each(|(name, colour, _)| drop(ui.colored_label(*colour, *name)));
-        ui.colored_label(LIGHT, "light, over nm");
-    });
-    let middle = &rows[rows.len() / 2];
-    let both = if two_walls { format!(", through both walls {:.4}", middle.both[1]) } else { String::new() };
-    ui.weak(format!("T at {:.0} nm: {:.4}{both}", middle.wavelength_nm, middle.t));
+    if *plot == Plot::Chromaticity {
+        ui.horizontal(|ui| {
+            ui.selectable_value(is_uniform, false, "CIE 1931 x, y");
+            ui.selectable_value(is_uniform, true, "CIE 1976 u', v'").on_hover_text("Equal distances look more alike");
+        });
+    }
+}
+
+fn buttons(ui: &mut Ui, pin: &Pin, plot: Plot, requests: &mut Vec<Request>) {
+    if ui.button("Copy").on_hover_text("Copy the numbers").clicked() {
+        ui.ctx().copy_text(pin.reading.text());
+    }
+    let mut ask = |target| requests.push(Request::Ask(target));
+    if ui.button("CSV…").on_hover_text("Save the numbers and this plot as comma-separated values").clicked() {
+        ask(Target::SaveCsv(plot));
+    }
+    if ui.button("PNG…").on_hover_text("Save this plot as a picture").clicked() {
+        ask(Target::SavePlot(plot));
+    }
 }

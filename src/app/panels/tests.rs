@@ -11,6 +11,7 @@ use crate::{
         compare::{Map, Pixels, Want},
         edit::Edit,
         model::{Model, tests::model},
+        probe::Plot,
         request::{Fate, Question, Request, Target},
         tools::Tool,
     },
@@ -18,6 +19,9 @@ use crate::{
         Backdrop, Boundary, Change, Event, FilmStateName, Flow, Generator, Layout, Motion, MotionChange, Scene, Scheme,
     },
 };
+
+mod lesson;
+mod measure;
 
 struct State {
     model: Model,
@@ -254,17 +258,17 @@ fn the_probe_shows_its_numbers_and_keeps_what_was_clicked() {
     window.run();
     assert_eq!(window.state().model.probe.asked(), Some(glam::DVec2::ZERO));
     let reading = crate::app::probe::tests::reading();
-    window.state_mut().model.probe.answer(Some(reading.clone()), true);
+    window.state_mut().model.probe.answer(Some(reading.clone()), &[], true);
     window.run();
     window.get_all_by_label("320.0 nm").next().unwrap();
     assert_eq!(window.state().model.probe.pinned, None, "nothing was clicked");
     window.drag_at(middle);
     window.drop_at(middle);
     window.run();
-    window.state_mut().model.probe.answer(Some(reading), true);
+    window.state_mut().model.probe.answer(Some(reading), &[], true);
     window.run();
     click(&mut window, "CSV…");
-    assert_eq!(window.state().model.requests, [Request::Ask(Target::SaveCsv)]);
+    assert_eq!(window.state().model.requests, [Request::Ask(Target::SaveCsv(Plot::Spectra))]);
     press(&mut window, Modifiers::NONE, Key::Escape);
     assert_eq!(window.state().model.probe.pinned, None);
     press(&mut window, Modifiers::NONE, Key::Num1);
@@ -670,7 +674,9 @@ fn a_tool_in_hand_works_on_the_film_and_beside_it_the_view_turns() {
 #[test]
 fn keys_take_tools_and_tilt_gravity() {
     let mut window = window();
-    for (key, tool) in [(Key::Num2, Tool::Stir), (Key::Num5, Tool::Prick), (Key::Num1, Tool::Orbit)] {
+    for (key, tool) in
+        [(Key::Num2, Tool::Stir), (Key::Num5, Tool::Prick), (Key::Num7, Tool::Profile), (Key::Num1, Tool::Orbit)]
+    {
         window.key_press(key);
         window.run();
         assert_eq!(window.state().model.tool, tool);

@@ -2,6 +2,7 @@
 
 use egui::Ui;
 
+use super::camera;
 use super::widgets::{choice, flag, number, options_of, row, slider, tooltip};
 use crate::{
     app::{edit::Edit, model::Model},
@@ -23,6 +24,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         model.edit(Edit::View(view));
     }
     lens(ui, model);
+    camera::show(ui, model);
     let mut camera = model.scene.camera.clone();
     match &mut camera.focal_mm {
         Some(focal_mm) => {

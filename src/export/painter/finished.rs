@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::{
     output::Picture,
-    physics::colour::{Display, bt2020_to_bt709, transmittance},
+    physics::colour::{bt2020_to_bt709, transmittance},
     plan::TonemapKey,
 };
 
@@ -30,7 +30,7 @@ impl Passage {
 
 /// What a display shows of a picture, with what the lens does to it.
 pub fn display(key: &TonemapKey, size: [u32; 2], radiance: &[Vec3]) -> Picture {
-    let display = shown_by(key);
+    let display = key.display();
     let radiance = radiance.iter().map(|radiance| radiance.as_dvec3()).collect();
     let finished = key.finish.applied(size, key.exposure_ev.exp2(), radiance);
     encoded(key, size, &finished, |radiance, pixel| {
@@ -41,15 +41,11 @@ pub fn display(key: &TonemapKey, size: [u32; 2], radiance: &[Vec3]) -> Picture {
 
 /// What a display shows of bubbles alone, with straight alpha.
 pub fn display_alone(key: &TonemapKey, size: [u32; 2], light: &[Passage]) -> Picture {
-    let display = shown_by(key);
+    let display = key.display();
     let to_display = key.gamut.from_bt2020() * key.balance;
     encoded(key, size, light, |light, pixel| {
         display.encode_alone(light.added.as_dvec3(), light.transmittance(&to_display), pixel)
     })
-}
-
-fn shown_by(key: &TonemapKey) -> Display {
-    Display { exposure_ev: key.exposure_ev, balance: key.balance, gamut: key.gamut, dither: key.dither }
 }
 
 fn encoded<T: Sync>(

@@ -6,6 +6,7 @@
 
 mod adaptation;
 mod built_in;
+mod chromaticity;
 mod cie;
 mod delta_e;
 mod display;
@@ -24,6 +25,7 @@ mod reference_tests;
 
 pub use adaptation::{adapted_to_d50, daylight_scale, seen_light, unseen, white_balance};
 pub use built_in::{BUILT_IN, BuiltIn, Line};
+pub use chromaticity::{chromaticity_uv, chromaticity_xy, spectral_locus};
 pub use cie::Observer;
 pub use delta_e::{Lab, ciede2000, xyz_to_lab};
 pub use display::{Display, Gamut};

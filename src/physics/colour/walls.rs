@@ -54,12 +54,16 @@ impl Walls {
     /// Reflectance of unpolarised light of one wavelength. On a sphere all hits share angle and plane of incidence, so one [`Wall`] stands
     /// for all of them and s and p stay apart until the end.
     pub fn reflectance(&self, wall: &Wall) -> f64 {
+        self.polarised_reflectance(wall).mean()
+    }
+
+    /// As [`Self::reflectance`], of s and of p light.
+    pub fn polarised_reflectance(&self, wall: &Wall) -> Polarised {
         let at = |thickness_nm| wall.reflectance(thickness_nm);
         match *self {
             Self::One { thickness_nm } => at(thickness_nm),
             Self::Two { front_nm, back_nm, exit_nm } => front_and_back(at(front_nm), at(back_nm), at(exit_nm)),
         }
-        .mean()
     }
 
     /// As [`Self::reflectance`], at several wavelengths.
@@ -81,6 +85,15 @@ impl Walls {
         match *self {
             Self::One { thickness_nm } => 1.0 - at(thickness_nm).mean(),
             Self::Two { front_nm, back_nm, .. } => through(at(front_nm), at(back_nm)).mean(),
+        }
+    }
+
+    /// As [`Self::transmittance`], of s and of p light.
+    pub fn polarised_transmittance(&self, wall: &Wall) -> Polarised {
+        let at = |thickness_nm| wall.reflectance(thickness_nm);
+        match *self {
+            Self::One { thickness_nm } => at(thickness_nm).rest(),
+            Self::Two { front_nm, back_nm, .. } => through(at(front_nm), at(back_nm)),
         }
     }
 }

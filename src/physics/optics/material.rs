@@ -2,11 +2,19 @@
 
 use super::{
     Coherence, FilmIndex, Incidence, Polarised, REFERENCE_NM, SpectralIncidence, coated_coherence, coated_reflectance,
-    equivalent_extra_nm, max_reflectance,
+    cos_refracted, equivalent_extra_nm, max_reflectance,
 };
 
 /// Index of water at the sodium line, at any temperature at most.
 pub const WATER_INDEX: f64 = 1.334;
+
+/// Path difference of one order of Newton's colours, nm: that of the red end of the first.
+pub const ORDER_NM: f64 = 551.0;
+
+/// The order of Newton's colours, from 1 on, of a path difference in nm.
+pub fn newton_order(path_nm: f64) -> u32 {
+    (path_nm / ORDER_NM) as u32 + 1
+}
 
 /// A film's liquid and skins.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,6 +40,12 @@ impl FilmMaterial {
     /// Ratio of the film's fringes to the fringes of water of the same thickness: fringes are proportional to the optical path. At least 1.
     pub fn fringes_over_water(&self) -> f64 {
         (self.reference_index() / WATER_INDEX).max(1.0)
+    }
+
+    /// Path difference between the light of both faces, 2 n d cos of the angle inside, at the sodium line, in nm.
+    pub fn path_nm(&self, thickness_nm: f64, cos_theta: f64) -> f64 {
+        let n = self.reference_index();
+        2.0 * n * thickness_nm * cos_refracted(n, cos_theta)
     }
 
     /// Light of one wavelength that meets the film at an angle; `n` is the liquid's index there.

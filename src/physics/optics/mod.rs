@@ -46,6 +46,6 @@ mod skins;
 pub use airy::{Incidence, SpectralIncidence, amplitudes, cos_refracted, max_reflectance, reflectance};
 pub use coherence::Coherence;
 pub use index::{FilmIndex, FilmIndexError, REFERENCE_NM};
-pub use material::{FilmMaterial, SpectralWall, WATER_INDEX, Wall};
+pub use material::{FilmMaterial, ORDER_NM, SpectralWall, WATER_INDEX, Wall, newton_order};
 pub use polarised::Polarised;
 pub use skins::{SKIN_INDEX, coated_coherence, coated_reflectance, equivalent_extra_nm};

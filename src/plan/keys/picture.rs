@@ -5,7 +5,12 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{DefocusKey, EnvironmentKey, FilmKey, OpenHoleKey, Opening, PlateKey, QuadratureKey, TableKey};
-use crate::physics::{colour::Gamut, environment::CubeFace, film::Cap, picture::Finish};
+use crate::physics::{
+    colour::{Display, Gamut},
+    environment::CubeFace,
+    film::Cap,
+    picture::Finish,
+};
 
 /// One bubble as the picture sees it.
 #[derive(Clone, Debug, PartialEq)]
@@ -371,6 +376,12 @@ pub struct TonemapKey {
 }
 
 impl TonemapKey {
+    /// How a display shows the linear picture, without what a lens does to it.
+    #[must_use]
+    pub fn display(&self) -> Display {
+        Display { exposure_ev: self.exposure_ev, balance: self.balance, gamut: self.gamut, dither: self.dither }
+    }
+
     /// Factor that exposes the linear picture, which is exposed by whole stops already.
     #[must_use]
     pub fn exposure(&self) -> f64 {

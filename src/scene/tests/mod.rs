@@ -119,9 +119,8 @@ fn defaults() -> toml::Table {
     toml::Table::try_from(scene).unwrap()
 }
 
-/// The page with its tables as the code has them: each takes the place of the first table below its heading.
-fn page_of_the_code(page: &str) -> String {
-    let (defaults, tables) = (defaults(), tables());
+/// A page with its tables as the code has them: each takes the place of the first table below its heading. `defaults` has each key at its default.
+fn page_of_the_code(page: &str, tables: &[(&str, Vec<Key>)], defaults: &toml::Table) -> String {
     let (mut lines, mut heading, mut in_table) = (Vec::new(), Some(""), false);
     for line in page.lines() {
         if let Some(header) = line.strip_prefix("## ") {
@@ -132,7 +131,7 @@ fn page_of_the_code(page: &str) -> String {
         if let (true, Some((path, keys))) = (is_row && !in_table, keys) {
             lines.extend(["| key | default | range | meaning |".to_owned(), "|---|---|---|---|".to_owned()]);
             let default = |key: &Key| {
-                section(&defaults, path).get(key.name).map_or("absent".to_owned(), |value| format!("`{value}`"))
+                section(defaults, path).get(key.name).map_or("absent".to_owned(), |value| format!("`{value}`"))
             };
             let is_change = kind(path) == Some("motion");
             lines.extend(keys.iter().map(|key| {
@@ -149,19 +148,25 @@ fn page_of_the_code(page: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The format's page lists every key with its default, range and meaning, in the words of the code. `SOAPFILM_BLESS=1` writes it anew.
+/// The formats' pages list every key with its default, range and meaning, in the words of the code. `SOAPFILM_BLESS=1` writes them anew.
 #[test]
-fn the_page_lists_the_keys_of_the_code() {
-    const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/scenes/README.md");
-    let page = std::fs::read_to_string(PAGE).unwrap();
-    let expected = page_of_the_code(&page);
+fn the_pages_list_the_keys_of_the_code() {
+    page_lists("assets/scenes/README.md", &tables(), &defaults());
+    let lesson = lesson::Lesson { steps: vec![lesson::LessonStep::with_task()], ..lesson::Lesson::default() };
+    page_lists("assets/lessons/README.md", &lesson::Lesson::tables(), &toml::Table::try_from(lesson).unwrap());
+}
+
+fn page_lists(path: &str, tables: &[(&str, Vec<Key>)], defaults: &toml::Table) {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let page = std::fs::read_to_string(&path).unwrap();
+    let expected = page_of_the_code(&page, tables, defaults);
     if std::env::var("SOAPFILM_BLESS").is_ok_and(|value| value == "1") {
-        return std::fs::write(PAGE, &expected).unwrap();
+        return std::fs::write(path, &expected).unwrap();
     }
     let wrong: Vec<_> = page.lines().zip(expected.lines()).filter(|(known, coded)| known != coded).collect();
     assert!(page == expected, "SOAPFILM_BLESS=1 writes the page anew: {wrong:#?}");
     let listed = expected.lines().filter(|line| line.starts_with("| `")).count();
-    assert_eq!(listed, tables().iter().map(|(_, keys)| keys.len()).sum::<usize>(), "each table has its heading");
+    assert_eq!(listed, tables.iter().map(|(_, keys)| keys.len()).sum::<usize>(), "each table has its heading");
 }
 
 /// No key is missing in the tables of the code.

@@ -1,0 +1,55 @@
+//! What is laid over the picture, drawn anew when the picture or a film has changed.
+
+use std::time::Duration;
+
+use super::{Due, View, readbacks::FETCH};
+use crate::{
+    app::{
+        model::Model,
+        overlay::{FalseColour, Map},
+    },
+    plan::{DrawKey, TonemapKey},
+    studio::FilmView,
+};
+
+/// What an overlay was made of.
+#[derive(PartialEq)]
+pub(super) struct Overlaid {
+    draw: DrawKey,
+    /// How many films had been read.
+    reads: u64,
+    of: FalseColour,
+    line: Option<[glam::DVec2; 2]>,
+}
+
+impl View {
+    /// Reads the films in sight, and draws what is laid over them.
+    pub(super) fn overlay(&mut self, model: &mut Model, due: &mut Due) {
+        let Some(TonemapKey { draw, .. }) = self.shown.as_ref().filter(|_| model.overlay.reads()) else {
+            (model.overlay.map, self.overlaid) = (None, None);
+            return;
+        };
+        if !self.reader.read_all(&self.stage.renderer, draw, due.now) {
+            return due.after(FETCH);
+        }
+        let line = model.overlay.profile.as_ref().map(|profile| profile.ends);
+        let made = Overlaid { draw: draw.clone(), reads: self.reader.reads(), of: model.overlay.of, line };
+        if self.overlaid.as_ref() == Some(&made) {
+            return;
+        }
+        let view = FilmView::new(draw, self.reader.films());
+        let time_s = model.clock.time_s(&model.scene.motion);
+        let overlay = &mut model.overlay;
+        overlay.map =
+            Some(overlay.of).filter(|of| *of != FalseColour::None).and_then(|of| Map::new(of, &view, draw.size));
+        if let Some(profile) = &mut overlay.profile {
+            let bubbles = &model.scene.bubbles;
+            profile.read(&view, draw.size, time_s, |film| {
+                bubbles.get(film).map_or(0.0, |bubble| bubble.film.thickness_nm)
+            });
+        }
+        self.overlaid = Some(made);
+        // The panels have not shown it yet.
+        due.after(Duration::ZERO);
+    }
+}
