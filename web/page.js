@@ -2,7 +2,8 @@
 //
 // ?scene=NAME&time=SECONDS&size=WxH&ui=0&pause=1, and #scene=… with a whole scene in it.
 
-import init, { SoapBubble, keepFile, sceneOfLink } from "./soapfilm.js";
+import { load } from "./program.js";
+import { SoapBubble, keepFile, sceneOfLink } from "./soapfilm.js";
 
 const ADVICE =
   "This browser has no WebGPU, which soapfilm draws with. Use Chrome or Edge 113, Safari 26, or Firefox 141 or newer, with " +
@@ -63,7 +64,7 @@ async function main() {
   }
   const query = new URLSearchParams(location.search);
   if (query.has("size")) resize(query.get("size"));
-  await init();
+  await load();
   const bubble = new SoapBubble(canvas, sceneName(query), query.get("ui") !== "0", tell);
   bubble.pause(query.get("pause") === "1");
   const time = Number(query.get("time") ?? 0);

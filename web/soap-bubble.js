@@ -1,6 +1,7 @@
 // <soap-bubble scene="windows" time="2" controls></soap-bubble>: soap bubbles in any page.
 
-import init, { SoapBubble, keepFile } from "./soapfilm.js";
+import { load as loadProgram } from "./program.js";
+import { SoapBubble, keepFile } from "./soapfilm.js";
 
 const STYLE = `
   :host { display: inline-block; position: relative; width: 300px; height: 200px; background: #0e0e0e; }
@@ -17,7 +18,7 @@ let program;
 function load() {
   program ??= (async () => {
     if (!(navigator.gpu && (await navigator.gpu.requestAdapter()))) throw new Error(ADVICE);
-    await init();
+    await loadProgram();
   })();
   return program;
 }

@@ -19,13 +19,14 @@ use super::{
     paint::{Contents, Painted},
     panels,
     probe::Reading,
+    producer::Producer,
     request::Request,
     stage::Stage,
 };
 use crate::{
     gpu::readback::Readback,
     physics::colour::Gamut,
-    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pace, Plan, Shot},
+    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Pace, Plan, Shot, plan},
     studio::walls_in_sight,
 };
 
@@ -73,6 +74,9 @@ pub struct View {
     redraws: u32,
     info: ViewportInfo,
     captures: Vec<Capture>,
+    producer: Producer,
+    /// The frame that waits for what the producer computes.
+    waiting: Option<FrameRequest>,
     reader: FilmReader,
     /// The shown picture on its way back, what for, and its size.
     compared: Option<(Want, [u32; 2], Readback)>,
@@ -103,7 +107,7 @@ impl Due {
 
 impl View {
     /// A view on a new window.
-    pub fn new(window: Arc<Window>, egui: egui_winit::State, stage: Stage) -> Self {
+    pub fn new(window: Arc<Window>, egui: egui_winit::State, stage: Stage, producer: Producer) -> Self {
         Self {
             window,
             egui,
@@ -115,6 +119,8 @@ impl View {
             redraws: 0,
             info: ViewportInfo::default(),
             captures: Vec::new(),
+            producer,
+            waiting: None,
             reader: FilmReader::default(),
             compared: None,
             shown: None,
@@ -209,25 +215,17 @@ impl View {
             due.after(Duration::ZERO);
             return false;
         }
-        if model.loading.take_if(|loading| loading == FIRST_PICTURE).is_some() {
-            due.after(Duration::ZERO);
-        }
-        let moment = model.clock.moment(&model.scene.motion);
-        let shot = Shot {
-            size: self.picture_size,
-            moment,
-            full_precision: false,
-            gamut: Gamut::Srgb,
-            yardstick: false,
-            pace: Pace::Frame,
-        };
-        let brought =
-            model.scene.request(&model.resources, &shot).map_err(|error| error.to_string()).and_then(|request| {
-                let plan = self.stage.renderer.render(&request).map_err(|error| error.to_string())?;
-                Ok((request, plan))
-            });
-        match brought {
-            Ok((request, plan)) => {
+        match self.bring(model) {
+            Ok(Brought::Later) => {
+                self.progress = Progress::Under;
+                // Time stands until its picture is there.
+                model.clock.hold(0, first_tick);
+                false
+            }
+            Ok(Brought::Now(request, plan)) => {
+                if model.loading.take_if(|loading| loading == FIRST_PICTURE).is_some() {
+                    due.after(Duration::ZERO);
+                }
                 hold_clock(model, &request, self.stage.renderer.state(), first_tick);
                 self.account(model, &plan, due);
                 let is_done = is_done(&request, &plan, model.clock.running) && model.behind_ticks == 0;
@@ -244,6 +242,36 @@ impl View {
                 false
             }
         }
+    }
+
+    /// Renders towards the picture that the model asks for, or towards the one that has waited for the producer. Of a history that is edited while
+    /// the producer works some pictures are thus shown, and the last one.
+    fn bring(&mut self, model: &Model) -> Result<Brought, String> {
+        let request = match self.waiting.take() {
+            Some(waiting) => waiting,
+            None => self.request(model)?,
+        };
+        let renderer = &mut self.stage.renderer;
+        let plan = plan(&request, renderer.state());
+        if !self.producer.prepare(&plan, &mut renderer.prepared) {
+            self.waiting = Some(request);
+            return Ok(Brought::Later);
+        }
+        renderer.execute(&plan).map_err(|error| error.to_string())?;
+        Ok(Brought::Now(Box::new(request), plan))
+    }
+
+    /// What the picture of the model needs now.
+    fn request(&self, model: &Model) -> Result<FrameRequest, String> {
+        let shot = Shot {
+            size: self.picture_size,
+            moment: model.clock.moment(&model.scene.motion),
+            full_precision: false,
+            gamut: Gamut::Srgb,
+            yardstick: false,
+            pace: Pace::Frame,
+        };
+        model.scene.request(&model.resources, &shot).map_err(|error| error.to_string())
     }
 
     /// Reads the film under the pointer, if the pointer asks.
@@ -389,6 +417,14 @@ impl View {
     pub fn lose_device(&self) {
         self.stage.renderer.gpu.device.destroy();
     }
+}
+
+/// What became of a frame.
+enum Brought {
+    /// It waits for the producer, which will wake the window.
+    Later,
+    /// It was drawn, by these passes.
+    Now(Box<FrameRequest>, Plan),
 }
 
 /// What the panels left to be painted.

@@ -12,6 +12,7 @@
 //! | [`compare`] | a kept picture beside the one that is shown |
 //! | [`probe`], `film_reader` | numbers of the film under the pointer |
 //! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
+//! | `producer` | what a frame needs of the CPU, computed beside the window |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
 pub mod clock;
@@ -39,6 +40,7 @@ pub(crate) mod frame;
 mod input;
 mod keeper;
 mod paint;
+mod producer;
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 mod reload;
 mod stage;
@@ -46,7 +48,7 @@ mod style;
 mod surface;
 #[cfg_attr(target_arch = "wasm32", path = "system/browser.rs")]
 #[cfg_attr(not(target_arch = "wasm32"), path = "system/desktop.rs")]
-mod system;
+pub(crate) mod system;
 mod tools;
 pub(crate) mod window;
 

@@ -26,6 +26,7 @@ use super::{
     keeper::Keeper,
     model::Model,
     panels,
+    producer::Producer,
     request::{Question, Request, Target},
     stage::Stage,
     storage::Storage,
@@ -164,7 +165,9 @@ impl Handler {
         tell(format_args!("adapter: {}", self.model.costs.adapter));
         egui.set_max_texture_side(gpu.device.limits().max_texture_dimension_2d as usize);
         window.set_visible(true);
-        self.view = Some(View::new(window, egui, stage));
+        let waker = self.proxy.clone();
+        let producer = Producer::new(move || drop(waker.send_event(Outside::Arrival)));
+        self.view = Some(View::new(window, egui, stage, producer));
         Ok(())
     }
 

@@ -36,6 +36,21 @@ pub fn scene_of_link(fragment: &str) -> Result<Option<String>, JsError> {
     crate::app::link::scene_of(fragment).map_err(JsError::new)
 }
 
+/// Gives the page a worker, which answers each message by `work`.
+#[wasm_bindgen]
+pub fn employ(worker: web_sys::Worker) {
+    crate::app::system::worker::employ(worker);
+}
+
+/// What the worker sends back for a message.
+///
+/// # Errors
+/// The message is of another program.
+#[wasm_bindgen]
+pub fn work(message: &[u8]) -> Result<Vec<u8>, JsError> {
+    Ok(crate::app::system::worker::done(message)?)
+}
+
 /// The names of the built-in scenes.
 #[wasm_bindgen(js_name = presetNames)]
 #[must_use]

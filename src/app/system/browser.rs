@@ -1,5 +1,7 @@
 //! What a browser has: tasks of one thread, a dialog for files, and files by name alone.
 
+pub mod worker;
+
 use std::{
     cell::RefCell,
     io,
@@ -18,6 +20,7 @@ use crate::{
     app::{link::fragment, request::Target},
     gpu::{AdapterChoice, Gpu, GpuError},
     input::keep_file,
+    plan::{Product, Work},
 };
 
 /// The device that all canvases of a page share.
@@ -88,6 +91,11 @@ pub fn spawn(job: impl FnOnce() + 'static) -> io::Result<()> {
     let window = web_sys::window().ok_or_else(|| io::Error::other("there is no page"))?;
     let task = Closure::once_into_js(job);
     window.set_timeout_with_callback_and_timeout_and_arguments_0(task.unchecked_ref(), 50).map(|_| ()).map_err(refused)
+}
+
+/// Does work in the page's worker, or here if there is none.
+pub fn compute(work: Work, answer: impl FnOnce(Product) + 'static) -> io::Result<()> {
+    worker::ask(work, Box::new(answer))
 }
 
 /// A page forgets its files.

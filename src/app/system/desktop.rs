@@ -15,6 +15,7 @@ use winit::{
 use crate::{
     app::request::Target,
     gpu::{AdapterChoice, Gpu, GpuError},
+    plan::{Product, Work},
 };
 
 /// A dialog that ends sooner than this without an answer was never seen.
@@ -47,6 +48,11 @@ pub fn finish(opening: impl Future<Output = ()>) {
 /// Runs a piece of work that takes long on a thread of its own.
 pub fn spawn(job: impl FnOnce() + Send + 'static) -> io::Result<()> {
     std::thread::Builder::new().name("soapfilm files".to_owned()).spawn(job).map(|_| ())
+}
+
+/// Does work on a thread of its own.
+pub fn compute(work: Work, answer: impl FnOnce(Product) + Send + 'static) -> io::Result<()> {
+    spawn(move || answer(work.done()))
 }
 
 /// Whether a file can be opened another time.

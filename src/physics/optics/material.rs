@@ -1,5 +1,7 @@
 //! What a film is made of: its liquid, and the skins of soap on both faces.
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     Coherence, FilmIndex, Incidence, Polarised, REFERENCE_NM, SpectralIncidence, coated_coherence, coated_reflectance,
     equivalent_extra_nm, max_reflectance,
@@ -9,7 +11,7 @@ use super::{
 pub const WATER_INDEX: f64 = 1.334;
 
 /// A film's liquid and skins.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FilmMaterial {
     /// The liquid.
     pub index: FilmIndex,
