@@ -65,7 +65,7 @@ async function main() {
   const query = new URLSearchParams(location.search);
   if (query.has("size")) resize(query.get("size"));
   await load();
-  const bubble = new SoapBubble(canvas, sceneName(query), query.get("ui") !== "0", tell);
+  const bubble = await SoapBubble.show(canvas, sceneName(query), query.get("ui") !== "0", tell);
   bubble.pause(query.get("pause") === "1");
   const time = Number(query.get("time") ?? 0);
   if (!(time >= 0)) throw new Error(`time=${query.get("time")}: give seconds, 0 or more`);

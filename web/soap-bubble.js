@@ -111,7 +111,12 @@ export class SoapBubbleElement extends HTMLElement {
     const name = await sceneName(this.scene);
     // Taken off the page meanwhile.
     if (canvas !== this.#canvas) return;
-    this.#bubble = new SoapBubble(canvas, name, false, (state, text) => this.#tell(state, text));
+    const bubble = await SoapBubble.show(canvas, name, false, (state, text) => this.#tell(state, text));
+    if (canvas !== this.#canvas) {
+      bubble.remove();
+      return bubble.free();
+    }
+    this.#bubble = bubble;
     this.#bubble.seek(Number(this.getAttribute("time") ?? 0));
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) this.paused = true;
     this.#applyPause();
@@ -119,7 +124,7 @@ export class SoapBubbleElement extends HTMLElement {
   }
 
   async #load(scene) {
-    this.#bubble.load(await sceneName(scene));
+    await this.#bubble.load(await sceneName(scene));
   }
 
   #applyPause() {

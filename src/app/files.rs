@@ -17,10 +17,10 @@ use super::{
     system,
 };
 use crate::{
-    input::{LoadError, LoadedScene, load_environment, load_illuminant, load_scene},
+    input::{LoadError, LoadedScene, light_of_scene, load_environment, load_illuminant, load_scene},
     output::{Metadata, Picture, write_text},
     plan::Resources,
-    scene::{Light, Scene},
+    scene::{Light, Scene, SceneSource},
 };
 
 /// What came of a piece of work.
@@ -68,19 +68,27 @@ impl Files {
     /// Loads a scene by its path or a preset's name.
     pub fn load_scene(&mut self, model: &mut Model, name: String) {
         self.begin_load(model, &name);
-        self.run(move || match load_scene(&name) {
-            Ok(scene) => Outcome::Scene(Box::new(scene)),
-            Err(error) => Outcome::Failed(error.to_string()),
-        });
+        let named = name.clone();
+        self.run_lit(
+            move || light_of_scene(&named).ok(),
+            move || match load_scene(&name) {
+                Ok(scene) => Outcome::Scene(Box::new(scene)),
+                Err(error) => Outcome::Failed(error.to_string()),
+            },
+        );
     }
 
     /// Loads what work names that an earlier window left.
     pub fn take_up(&mut self, model: &mut Model, work: Unsaved) {
         self.begin_load(model, &work.name);
-        self.run(move || match LoadedScene::from_toml(&work.scene, &work.name, &work.folder) {
-            Ok(loaded) => Outcome::TakenUp(loaded.into(), work.into()),
-            Err(error) => Outcome::Failed(error.to_string()),
-        });
+        let (source, folder) = (SceneSource::new(&work.name, &work.scene, &[]), work.folder.clone());
+        self.run_lit(
+            move || Some((source.read().ok()?.light, folder)),
+            move || match LoadedScene::from_toml(&work.scene, &work.name, &work.folder) {
+                Ok(loaded) => Outcome::TakenUp(loaded.into(), work.into()),
+                Err(error) => Outcome::Failed(error.to_string()),
+            },
+        );
     }
 
     /// Loads the environment and illuminant that a light names; they and the light arrive together.
@@ -94,10 +102,14 @@ impl Files {
             && (&known.environment, known.constant, &known.patches, &known.lamps)
                 == (&light.environment, light.constant, &light.patches, &light.lamps);
         let resources = model.resources.clone();
-        self.run(move || match load_light(&light, &folder, same, resources) {
-            Ok((resources, notes)) => Outcome::Light(Box::new(light), resources, notes),
-            Err(error) => Outcome::Failed(error.to_string()),
-        });
+        let named = (light.clone(), folder.clone());
+        self.run_lit(
+            move || (!same).then_some(named),
+            move || match load_light(&light, &folder, same, resources) {
+                Ok((resources, notes)) => Outcome::Light(Box::new(light), resources, notes),
+                Err(error) => Outcome::Failed(error.to_string()),
+            },
+        );
     }
 
     fn begin_load(&mut self, model: &mut Model, what: &str) {
@@ -169,14 +181,29 @@ impl Files {
     }
 
     fn run(&self, work: impl FnOnce() -> Outcome + Send + 'static) {
+        self.told(system::spawn(self.job(work)));
+    }
+
+    /// Runs work that loads the environment of a light, whose paths start from a folder; where there is no light, the work says why.
+    fn run_lit(
+        &self,
+        light: impl FnOnce() -> Option<(Light, PathBuf)> + Send + 'static,
+        work: impl FnOnce() -> Outcome + Send + 'static,
+    ) {
+        self.told(system::spawn_lit(light, self.job(work)));
+    }
+
+    fn job(&self, work: impl FnOnce() -> Outcome + Send + 'static) -> impl FnOnce() + Send + 'static {
         let tell = self.teller();
-        let told = tell.clone();
-        let job = move || {
+        move || {
             let broken = |_| Outcome::Failed("an internal error stopped the work: please report it".to_owned());
             tell(catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(broken));
-        };
-        if let Err(error) = system::spawn(job) {
-            told(Outcome::Failed(format!("no thread could be started: {error}")));
+        }
+    }
+
+    fn told(&self, begun: std::io::Result<()>) {
+        if let Err(error) = begun {
+            self.teller()(Outcome::Failed(format!("no thread could be started: {error}")));
         }
     }
 

@@ -7,6 +7,8 @@ mod exr;
 #[cfg_attr(target_arch = "wasm32", path = "page_file.rs")]
 mod file;
 mod light;
+#[cfg(target_arch = "wasm32")]
+mod made_elsewhere;
 mod own;
 mod panic_guard;
 mod picture;
@@ -20,6 +22,8 @@ pub use error::{InputError, LoadError, MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_W
 #[cfg(target_arch = "wasm32")]
 pub use file::keep_file;
 pub use light::{load_environment, load_illuminant};
+#[cfg(target_arch = "wasm32")]
+pub use made_elsewhere::{LightNamed, MadeEnvironment, keep_environment};
 pub use plate::read_plate;
-pub use scene::{LoadedScene, load_liquid, load_scene, load_scene_with};
+pub use scene::{LoadedScene, light_of_scene, load_liquid, load_scene, load_scene_with};
 pub use text::{MAX_TEXT_BYTES, read_table_text, read_text};

@@ -19,8 +19,9 @@ use winit::{
 use crate::{
     app::{link::fragment, request::Target},
     gpu::{AdapterChoice, Gpu, GpuError},
-    input::keep_file,
+    input::{LightNamed, keep_environment},
     plan::{Product, Work},
+    scene::Light,
 };
 
 /// The device that all canvases of a page share.
@@ -95,7 +96,30 @@ pub fn spawn(job: impl FnOnce() + 'static) -> io::Result<()> {
 
 /// Does work in the page's worker, or here if there is none.
 pub fn compute(work: Work, answer: impl FnOnce(Product) + 'static) -> io::Result<()> {
-    worker::ask(work, Box::new(answer))
+    let asked = worker::Task::of(&work);
+    worker::ask(&asked, move |product| answer(product.unwrap_or_else(|| work.done())))
+}
+
+/// Runs work that loads the environment of a light, once the page's worker has made that.
+pub fn spawn_lit(
+    light: impl FnOnce() -> Option<(Light, PathBuf)> + 'static,
+    job: impl FnOnce() + 'static,
+) -> io::Result<()> {
+    spawn_local(async move {
+        if let Some((light, folder)) = light() {
+            make_environment(light, folder).await;
+        }
+        job();
+    });
+    Ok(())
+}
+
+/// Has the page's worker make the environment of a light, whose paths start from a folder. What fails there fails again where the light is loaded,
+/// which says why.
+pub async fn make_environment(light: Light, folder: PathBuf) {
+    if let Some(made) = worker::environment(LightNamed::new(&light, &folder)).await {
+        keep_environment(light, folder, made);
+    }
 }
 
 /// A page forgets its files.
@@ -154,6 +178,6 @@ async fn pick(accepted: &str) -> Result<Option<PathBuf>, JsValue> {
 
 async fn keep(file: &File) -> Result<(), JsValue> {
     let bytes = JsFuture::from(file.array_buffer()).await?;
-    keep_file(&file.name(), &js_sys::Uint8Array::new(&bytes).to_vec());
+    worker::keep_file(&file.name(), &js_sys::Uint8Array::new(&bytes).to_vec());
     Ok(())
 }

@@ -16,6 +16,7 @@ use crate::{
     app::request::Target,
     gpu::{AdapterChoice, Gpu, GpuError},
     plan::{Product, Work},
+    scene::Light,
 };
 
 /// A dialog that ends sooner than this without an answer was never seen.
@@ -48,6 +49,14 @@ pub fn finish(opening: impl Future<Output = ()>) {
 /// Runs a piece of work that takes long on a thread of its own.
 pub fn spawn(job: impl FnOnce() + Send + 'static) -> io::Result<()> {
     std::thread::Builder::new().name("soapfilm files".to_owned()).spawn(job).map(|_| ())
+}
+
+/// Runs work that loads the environment of a light on a thread of its own.
+pub fn spawn_lit(
+    _: impl FnOnce() -> Option<(Light, PathBuf)> + Send + 'static,
+    job: impl FnOnce() + Send + 'static,
+) -> io::Result<()> {
+    spawn(job)
 }
 
 /// Does work on a thread of its own.

@@ -27,8 +27,8 @@ use super::{
 use crate::{
     physics::{environment::CubeMap, sphere::CubedSphere},
     plan::{
-        DrawKey, FilmKey, Finish, FrameRequest, GpuState, Lighting, Pass, Plan, Prepared, Product, QuadratureKey, TableKey,
-        TonemapKey, Work, plan,
+        DrawKey, FilmKey, Finish, FrameRequest, GpuState, Lighting, Pass, Plan, Prepared, Product, QuadratureKey,
+        TableKey, TonemapKey, Work, plan,
     },
 };
 

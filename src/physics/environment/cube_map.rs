@@ -20,7 +20,7 @@ pub struct CubeLevel {
 /// All texels of a level as bytes.
 mod texels {
     use half::f16;
-    use serde::{Deserializer, Serializer, de::Error};
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
     use crate::physics::bulk;
 
@@ -29,8 +29,8 @@ mod texels {
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[Vec<[f16; 4]>; 6], D::Error> {
-        let texels: Vec<[f16; 4]> = bulk::deserialize(deserializer)?;
-        let faces: Vec<_> = texels.chunks_exact((texels.len() / 6).max(1)).map(<[_]>::to_vec).collect();
+        let bytes = <&[u8]>::deserialize(deserializer)?;
+        let faces: Vec<_> = bytes.chunks_exact((bytes.len() / 6).max(1)).map(bytemuck::pod_collect_to_vec).collect();
         faces.try_into().map_err(|_| D::Error::custom("a cube has six faces"))
     }
 }
