@@ -3,7 +3,7 @@
 // ?scene=NAME&time=SECONDS&size=WxH&ui=0&pause=1, and #scene=… with a whole scene in it.
 
 import { load } from "./program.js";
-import { SoapBubble, keepFile, sceneOfLink } from "./soapfilm.js";
+import { SoapBubble, keepFile, nameTabs, sceneOfLink } from "./soapfilm.js";
 
 const ADVICE =
   "This browser has no WebGPU, which soapfilm draws with. Use Chrome or Edge 113, Safari 26, or Firefox 141 or newer, with " +
@@ -48,6 +48,15 @@ function takeDroppedFiles(bubble) {
   });
 }
 
+// A lock tells other tabs that this one is open, so that its unsaved work is not taken for left. Browsers have locks where the page is safe.
+async function nameTab() {
+  if (!navigator.locks) return;
+  const own = crypto.randomUUID();
+  await new Promise((held) => navigator.locks.request(own, () => (held(), new Promise(() => {}))));
+  const { held } = await navigator.locks.query();
+  nameTabs(own, held.map((lock) => lock.name));
+}
+
 // The scene that the address holds, or the one that it names.
 function sceneName(query) {
   const toml = sceneOfLink(location.hash);
@@ -65,6 +74,7 @@ async function main() {
   const query = new URLSearchParams(location.search);
   if (query.has("size")) resize(query.get("size"));
   await load();
+  await nameTab();
   const bubble = await SoapBubble.show(canvas, sceneName(query), query.get("ui") !== "0", tell);
   bubble.pause(query.get("pause") === "1");
   const time = Number(query.get("time") ?? 0);

@@ -158,6 +158,18 @@ impl Files {
         });
     }
 
+    /// Copies a link that shows the scene.
+    #[cfg(target_arch = "wasm32")]
+    pub fn copy_link(&self, model: &Model) {
+        let tell = self.teller();
+        system::copy_link(&model.scene.to_toml(), move |copied| {
+            tell(match copied {
+                Ok(()) => Outcome::Done("The link is on the clipboard".to_owned()),
+                Err(text) => Outcome::NotSaved(text),
+            });
+        });
+    }
+
     /// Asks for a file.
     pub fn ask(&self, target: Target, model: &Model, window: &winit::window::Window) {
         let (tell, name) = (self.teller(), target.file_name(&model.name));

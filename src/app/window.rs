@@ -240,10 +240,7 @@ impl Handler {
             Request::LoadScene(name) => self.files.load_scene(&mut self.model, name),
             Request::LoadLight(light) => self.files.load_light(&mut self.model, light),
             #[cfg(target_arch = "wasm32")]
-            Request::CopyLink => match system::copy_link(&self.model.scene.to_toml()) {
-                Ok(()) => self.model.messages.note("The link is on the clipboard"),
-                Err(text) => self.model.messages.problem(text),
-            },
+            Request::CopyLink => self.files.copy_link(&self.model),
             Request::Save => self.model.file.iter().for_each(|file| self.files.save_scene(file.clone(), &self.model)),
             Request::Typed(target, text) => self.typed(target, text),
             Request::Left(fate) => {

@@ -4,6 +4,8 @@
 //! JavaScript around it (`web/`) reads the address, shows messages, and makes elements.
 
 mod page;
+#[cfg(debug_assertions)]
+mod shaders;
 
 use std::{cell::RefCell, rc::Rc};
 
@@ -47,6 +49,12 @@ pub fn scene_of_link(fragment: &str) -> Result<Option<String>, JsError> {
 #[wasm_bindgen]
 pub fn employ(worker: web_sys::Worker) {
     worker::employ(worker);
+}
+
+/// Names this tab of the browser, and all open tabs that show the page, so that they keep their unsaved work apart.
+#[wasm_bindgen(js_name = nameTabs)]
+pub fn name_tabs(own: String, open: Vec<String>) {
+    crate::app::storage::name_tabs(own, open);
 }
 
 /// What the worker answers to a message of the page.

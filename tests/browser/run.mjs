@@ -228,6 +228,40 @@ const TESTS = {
     assert.match(await page.textContent("#soapfilm-message"), /did you mean `windows`/);
   },
 
+  async "the browser's compiler takes every shader with every constant"({ page, address }) {
+    await page.goto(link(address, SCENE, "&ui=0"));
+    await ready(page);
+    const { failures, count } = await page.evaluate(async () => {
+      const { Shader } = await import("./soapfilm.js");
+      const device = await (await navigator.gpu.requestAdapter()).requestDevice();
+      // With the constants in their places the compiler sees what it would see of a pipeline, and no driver has to compile it.
+      const specialised = (text, constants) =>
+        constants.split(" ").filter(Boolean).reduce((text, constant) => {
+          const [name, value] = constant.split("=");
+          return text.replace(new RegExp(`^override ${name}: *([a-z0-9]+);`, "m"), `const ${name}: $1 = $1(${value}u);`);
+        }, text);
+      const failures = [];
+      let count = 0;
+      const compile = async (shader, constants) => {
+        count += 1;
+        const code = specialised(shader.text, constants);
+        device.pushErrorScope("validation");
+        const { messages } = await device.createShaderModule({ code }).getCompilationInfo();
+        await device.popErrorScope();
+        const left = /^override.*$/m.exec(code)?.[0];
+        if (left && constants) failures.push(`${left} has no value`);
+        const wrong = messages.filter((message) => message.type === "error");
+        failures.push(...wrong.map((message) => `${shader.place(message.lineNum)}: ${message.message} (${constants})`));
+      };
+      for (const shader of Shader.all()) {
+        for (const constants of ["", ...shader.specialisations]) await compile(shader, constants);
+      }
+      return { failures, count };
+    });
+    assert.deepEqual(failures, []);
+    assert(count > 300, `${count} shaders`);
+  },
+
   async "elements share a page"({ page, address }) {
     await page.goto(`${address}/npm/two.html`);
     const count = () => document.querySelectorAll('soap-bubble[data-state="ready"]').length;

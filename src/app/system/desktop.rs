@@ -3,9 +3,11 @@
 use std::{
     io,
     path::{Path, PathBuf},
+    sync::Arc,
     time::{Duration, Instant},
 };
 
+use include_dir::{Dir, include_dir};
 use winit::{
     dpi::LogicalSize,
     event_loop::ActiveEventLoop,
@@ -62,6 +64,14 @@ pub fn spawn_lit(
 /// Does work on a thread of its own.
 pub fn compute(work: Work, answer: impl FnOnce(Product) + Send + 'static) -> io::Result<()> {
     spawn(move || answer(work.done()))
+}
+
+/// Pictures of the presets, made by `./dev thumbnails`.
+static THUMBNAILS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/thumbnails");
+
+/// The small picture of a preset, a PNG file; empty if there is none. A desktop has it at once.
+pub fn thumbnail(name: &str) -> Option<Arc<[u8]>> {
+    Some(THUMBNAILS.get_file(format!("{name}.png")).map_or_else(Arc::default, |file| file.contents().into()))
 }
 
 /// Whether a file can be opened another time.
