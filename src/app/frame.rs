@@ -216,13 +216,13 @@ impl View {
             return false;
         }
         match self.bring(model) {
-            Ok(Brought::Later) => {
+            Ok(None) => {
                 self.progress = Progress::Under;
                 // Time stands until its picture is there.
                 model.clock.hold(0, first_tick);
                 false
             }
-            Ok(Brought::Now(request, plan)) => {
+            Ok(Some((request, plan))) => {
                 if model.loading.take_if(|loading| loading == FIRST_PICTURE).is_some() {
                     due.after(Duration::ZERO);
                 }
@@ -246,7 +246,8 @@ impl View {
 
     /// Renders towards the picture that the model asks for, or towards the one that has waited for the producer. Of a history that is edited while
     /// the producer works some pictures are thus shown, and the last one.
-    fn bring(&mut self, model: &Model) -> Result<Brought, String> {
+    /// Returns the passes that drew it, or nothing while it waits for the producer, which will wake the window.
+    fn bring(&mut self, model: &Model) -> Result<Option<(FrameRequest, Plan)>, String> {
         let request = match self.waiting.take() {
             Some(waiting) => waiting,
             None => self.request(model)?,
@@ -255,10 +256,10 @@ impl View {
         let plan = plan(&request, renderer.state());
         if !self.producer.prepare(&plan, &mut renderer.prepared) {
             self.waiting = Some(request);
-            return Ok(Brought::Later);
+            return Ok(None);
         }
         renderer.execute(&plan).map_err(|error| error.to_string())?;
-        Ok(Brought::Now(Box::new(request), plan))
+        Ok(Some((request, plan)))
     }
 
     /// What the picture of the model needs now.
@@ -417,14 +418,6 @@ impl View {
     pub fn lose_device(&self) {
         self.stage.renderer.gpu.device.destroy();
     }
-}
-
-/// What became of a frame.
-enum Brought {
-    /// It waits for the producer, which will wake the window.
-    Later,
-    /// It was drawn, by these passes.
-    Now(Box<FrameRequest>, Plan),
 }
 
 /// What the panels left to be painted.
