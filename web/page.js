@@ -2,7 +2,8 @@
 //
 // ?scene=NAME&time=SECONDS&size=WxH&ui=0&pause=1, and #scene=… with a whole scene in it.
 
-import init, { SoapBubble, keepFile, sceneOfLink } from "./soapfilm.js";
+import { load } from "./program.js";
+import { SoapBubble, keepFile, nameTabs, sceneOfLink } from "./soapfilm.js";
 
 const ADVICE =
   "This browser has no WebGPU, which soapfilm draws with. Use Chrome or Edge 113, Safari 26, or Firefox 141 or newer, with " +
@@ -47,6 +48,15 @@ function takeDroppedFiles(bubble) {
   });
 }
 
+// A lock tells other tabs that this one is open, so that its unsaved work is not taken for left. Browsers have locks where the page is safe.
+async function nameTab() {
+  if (!navigator.locks) return;
+  const own = crypto.randomUUID();
+  await new Promise((held) => navigator.locks.request(own, () => (held(), new Promise(() => {}))));
+  const { held } = await navigator.locks.query();
+  nameTabs(own, held.map((lock) => lock.name));
+}
+
 // The scene that the address holds, or the one that it names.
 function sceneName(query) {
   const toml = sceneOfLink(location.hash);
@@ -63,8 +73,9 @@ async function main() {
   }
   const query = new URLSearchParams(location.search);
   if (query.has("size")) resize(query.get("size"));
-  await init();
-  const bubble = new SoapBubble(canvas, sceneName(query), query.get("ui") !== "0", tell);
+  await load();
+  await nameTab();
+  const bubble = await SoapBubble.show(canvas, sceneName(query), query.get("ui") !== "0", tell);
   bubble.pause(query.get("pause") === "1");
   const time = Number(query.get("time") ?? 0);
   if (!(time >= 0)) throw new Error(`time=${query.get("time")}: give seconds, 0 or more`);

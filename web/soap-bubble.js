@@ -1,6 +1,7 @@
 // <soap-bubble scene="windows" time="2" controls></soap-bubble>: soap bubbles in any page.
 
-import init, { SoapBubble, keepFile } from "./soapfilm.js";
+import { load as loadProgram } from "./program.js";
+import { SoapBubble, keepFile } from "./soapfilm.js";
 
 const STYLE = `
   :host { display: inline-block; position: relative; width: 300px; height: 200px; background: #0e0e0e; }
@@ -17,7 +18,7 @@ let program;
 function load() {
   program ??= (async () => {
     if (!(navigator.gpu && (await navigator.gpu.requestAdapter()))) throw new Error(ADVICE);
-    await init();
+    await loadProgram();
   })();
   return program;
 }
@@ -110,7 +111,12 @@ export class SoapBubbleElement extends HTMLElement {
     const name = await sceneName(this.scene);
     // Taken off the page meanwhile.
     if (canvas !== this.#canvas) return;
-    this.#bubble = new SoapBubble(canvas, name, false, (state, text) => this.#tell(state, text));
+    const bubble = await SoapBubble.show(canvas, name, false, (state, text) => this.#tell(state, text));
+    if (canvas !== this.#canvas) {
+      bubble.remove();
+      return bubble.free();
+    }
+    this.#bubble = bubble;
     this.#bubble.seek(Number(this.getAttribute("time") ?? 0));
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) this.paused = true;
     this.#applyPause();
@@ -118,7 +124,7 @@ export class SoapBubbleElement extends HTMLElement {
   }
 
   async #load(scene) {
-    this.#bubble.load(await sceneName(scene));
+    await this.#bubble.load(await sceneName(scene));
   }
 
   #applyPause() {

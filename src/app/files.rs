@@ -19,10 +19,10 @@ use super::{
     system,
 };
 use crate::{
-    input::{LoadError, LoadedScene, Opened, load_environment, load_illuminant, load_step, open},
+    input::{LoadError, LoadedScene, Opened, light_of_scene, load_environment, load_illuminant, load_step, open},
     output::{Metadata, Picture, write_text},
     plan::{Resources, TonemapKey},
-    scene::{Light, Scene, lesson::Lesson},
+    scene::{Light, Scene, SceneSource, lesson::Lesson},
     verify::reference::MovedFilms,
 };
 
@@ -76,11 +76,15 @@ impl Files {
     /// Loads a scene or a lesson by its path, or a preset by its name.
     pub fn load_scene(&mut self, model: &mut Model, name: String) {
         self.begin_load(model, &name);
-        self.run(move || match open(&name) {
-            Ok(Opened::Scene(scene)) => Outcome::Scene(scene),
-            Ok(Opened::Lesson(lesson, folder)) => Outcome::Lesson(lesson, folder),
-            Err(error) => Outcome::Failed(error.to_string()),
-        });
+        let named = name.clone();
+        self.run_lit(
+            move || light_of_scene(&named).ok(),
+            move || match open(&name) {
+                Ok(Opened::Scene(scene)) => Outcome::Scene(scene),
+                Ok(Opened::Lesson(lesson, folder)) => Outcome::Lesson(lesson, folder),
+                Err(error) => Outcome::Failed(error.to_string()),
+            },
+        );
     }
 
     /// Loads the scene of the step that the lesson is at.
@@ -96,10 +100,14 @@ impl Files {
     /// Loads what work names that an earlier window left.
     pub fn take_up(&mut self, model: &mut Model, work: Unsaved) {
         self.begin_load(model, &work.name);
-        self.run(move || match LoadedScene::from_toml(&work.scene, &work.name, &work.folder) {
-            Ok(loaded) => Outcome::TakenUp(loaded.into(), work.into()),
-            Err(error) => Outcome::Failed(error.to_string()),
-        });
+        let (source, folder) = (SceneSource::new(&work.name, &work.scene, &[]), work.folder.clone());
+        self.run_lit(
+            move || Some((source.read().ok()?.light, folder)),
+            move || match LoadedScene::from_toml(&work.scene, &work.name, &work.folder) {
+                Ok(loaded) => Outcome::TakenUp(loaded.into(), work.into()),
+                Err(error) => Outcome::Failed(error.to_string()),
+            },
+        );
     }
 
     /// Loads the environment and illuminant that a light names; they and the light arrive together.
@@ -113,10 +121,14 @@ impl Files {
             && (&known.environment, known.constant, &known.patches, &known.lamps)
                 == (&light.environment, light.constant, &light.patches, &light.lamps);
         let resources = model.resources.clone();
-        self.run(move || match load_light(&light, &folder, same, resources) {
-            Ok((resources, notes)) => Outcome::Light(Box::new(light), resources, notes),
-            Err(error) => Outcome::Failed(error.to_string()),
-        });
+        let named = (light.clone(), folder.clone());
+        self.run_lit(
+            move || (!same).then_some(named),
+            move || match load_light(&light, &folder, same, resources) {
+                Ok((resources, notes)) => Outcome::Light(Box::new(light), resources, notes),
+                Err(error) => Outcome::Failed(error.to_string()),
+            },
+        );
     }
 
     fn begin_load(&mut self, model: &mut Model, what: &str) {
@@ -184,6 +196,18 @@ impl Files {
         self.run_or(move || Outcome::Exported(id, work()), move |fault| Outcome::Exported(id, Err(fault)));
     }
 
+    /// Copies a link that shows the scene.
+    #[cfg(target_arch = "wasm32")]
+    pub fn copy_link(&self, model: &Model) {
+        let tell = self.teller();
+        system::copy_link(&model.scene.to_toml(), move |copied| {
+            tell(match copied {
+                Ok(()) => Outcome::Done("The link is on the clipboard".to_owned()),
+                Err(text) => Outcome::NotSaved(text),
+            });
+        });
+    }
+
     /// Asks for a file.
     pub fn ask(&self, target: Target, model: &Model, window: &winit::window::Window) {
         let (tell, name) = (self.teller(), target.file_name(&model.name));
@@ -216,14 +240,33 @@ impl Files {
         work: impl FnOnce() -> Outcome + Send + 'static,
         failed: impl FnOnce(String) -> Outcome + Clone + Send + 'static,
     ) {
+        self.told(system::spawn(self.job(work, failed.clone())), failed);
+    }
+
+    /// Runs work that loads the environment of a light, whose paths start from a folder; where there is no light, the work says why.
+    fn run_lit(
+        &self,
+        light: impl FnOnce() -> Option<(Light, PathBuf)> + Send + 'static,
+        work: impl FnOnce() -> Outcome + Send + 'static,
+    ) {
+        self.told(system::spawn_lit(light, self.job(work, Outcome::Failed)), Outcome::Failed);
+    }
+
+    fn job(
+        &self,
+        work: impl FnOnce() -> Outcome + Send + 'static,
+        failed: impl FnOnce(String) -> Outcome + Send + 'static,
+    ) -> impl FnOnce() + Send + 'static {
         let tell = self.teller();
-        let (told, refused) = (tell.clone(), failed.clone());
-        let job = move || {
+        move || {
             let broken = |_| failed("an internal error stopped the work: please report it".to_owned());
             tell(catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(broken));
-        };
-        if let Err(error) = system::spawn(job) {
-            told(refused(format!("no thread could be started: {error}")));
+        }
+    }
+
+    fn told(&self, begun: std::io::Result<()>, failed: impl FnOnce(String) -> Outcome) {
+        if let Err(error) = begun {
+            self.teller()(failed(format!("no thread could be started: {error}")));
         }
     }
 

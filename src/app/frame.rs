@@ -20,13 +20,14 @@ use super::{
     model::Model,
     paint::{Contents, Painted},
     panels,
+    producer::Producer,
     request::Request,
     stage::Stage,
 };
 use crate::{
     gpu::readback::Readback,
     physics::colour::Gamut,
-    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot, TonemapKey},
+    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot, TonemapKey, plan},
 };
 
 /// Time between two looks at the clock while nothing but its reading changes.
@@ -73,6 +74,9 @@ pub struct View {
     redraws: u32,
     info: ViewportInfo,
     captures: Vec<Capture>,
+    producer: Producer,
+    /// The frame that waits for what the producer computes.
+    waiting: Option<FrameRequest>,
     reader: FilmReader,
     /// What is laid over the picture was made of this.
     overlaid: Option<overlays::Overlaid>,
@@ -105,7 +109,7 @@ impl Due {
 
 impl View {
     /// A view on a new window.
-    pub fn new(window: Arc<Window>, egui: egui_winit::State, stage: Stage) -> Self {
+    pub fn new(window: Arc<Window>, egui: egui_winit::State, stage: Stage, producer: Producer) -> Self {
         Self {
             window,
             egui,
@@ -117,6 +121,8 @@ impl View {
             redraws: 0,
             info: ViewportInfo::default(),
             captures: Vec::new(),
+            producer,
+            waiting: None,
             reader: FilmReader::default(),
             overlaid: None,
             compared: None,
@@ -210,25 +216,17 @@ impl View {
             due.after(Duration::ZERO);
             return false;
         }
-        if model.loading.take_if(|loading| loading == FIRST_PICTURE).is_some() {
-            due.after(Duration::ZERO);
-        }
-        let moment = model.clock.moment(&model.scene.motion);
-        let shot = Shot {
-            size: self.picture_size,
-            moment,
-            full_precision: false,
-            gamut: Gamut::Srgb,
-            yardstick: false,
-            pace: Pace::Frame,
-        };
-        let brought =
-            model.scene.request(&model.resources, &shot).map_err(|error| error.to_string()).and_then(|request| {
-                let plan = self.stage.renderer.render(&request).map_err(|error| error.to_string())?;
-                Ok((request, plan))
-            });
-        match brought {
-            Ok((request, plan)) => {
+        match self.bring(model) {
+            Ok(None) => {
+                self.progress = Progress::Under;
+                // Time stands until its picture is there.
+                model.clock.hold(0, first_tick);
+                false
+            }
+            Ok(Some((request, plan))) => {
+                if model.loading.take_if(|loading| loading == FIRST_PICTURE).is_some() {
+                    due.after(Duration::ZERO);
+                }
                 hold_clock(model, &request, self.stage.renderer.state(), first_tick);
                 self.account(model, &plan, due);
                 let is_done = is_done(&request, &plan, model.clock.running) && model.behind_ticks == 0;
@@ -245,6 +243,37 @@ impl View {
                 false
             }
         }
+    }
+
+    /// Renders towards the picture that the model asks for, or towards the one that has waited for the producer. Of a history that is edited while
+    /// the producer works some pictures are thus shown, and the last one.
+    /// Returns the passes that drew it, or nothing while it waits for the producer, which will wake the window.
+    fn bring(&mut self, model: &Model) -> Result<Option<(FrameRequest, Plan)>, String> {
+        let request = match self.waiting.take() {
+            Some(waiting) => waiting,
+            None => self.request(model)?,
+        };
+        let renderer = &mut self.stage.renderer;
+        let plan = plan(&request, renderer.state());
+        if !self.producer.prepare(&plan, &mut renderer.prepared) {
+            self.waiting = Some(request);
+            return Ok(None);
+        }
+        renderer.execute(&plan).map_err(|error| error.to_string())?;
+        Ok(Some((request, plan)))
+    }
+
+    /// What the picture of the model needs now.
+    fn request(&self, model: &Model) -> Result<FrameRequest, String> {
+        let shot = Shot {
+            size: self.picture_size,
+            moment: model.clock.moment(&model.scene.motion),
+            full_precision: false,
+            gamut: Gamut::Srgb,
+            yardstick: false,
+            pace: Pace::Frame,
+        };
+        model.scene.request(&model.resources, &shot).map_err(|error| error.to_string())
     }
 
     fn account(&mut self, model: &mut Model, plan: &Plan, due: &mut Due) {

@@ -16,6 +16,7 @@
 //! | [`overlay`], [`colour_map`] | false colour over the picture, and the profile of a film along a line |
 //! | `figure` | a plot as a picture for a file |
 //! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
+//! | `producer` | what a frame needs of the CPU, computed beside the window |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
 pub mod clock;
@@ -50,6 +51,7 @@ pub(crate) mod frame;
 mod input;
 mod keeper;
 mod paint;
+mod producer;
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 mod reload;
 mod stage;
@@ -57,7 +59,7 @@ mod style;
 mod surface;
 #[cfg_attr(target_arch = "wasm32", path = "system/browser.rs")]
 #[cfg_attr(not(target_arch = "wasm32"), path = "system/desktop.rs")]
-mod system;
+pub(crate) mod system;
 mod tools;
 pub(crate) mod window;
 

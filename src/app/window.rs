@@ -26,6 +26,7 @@ use super::{
     keeper::Keeper,
     model::Model,
     panels,
+    producer::Producer,
     request::{Question, Request, Target},
     stage::Stage,
     storage::Storage,
@@ -164,7 +165,9 @@ impl Handler {
         tell(format_args!("adapter: {}", self.model.costs.adapter));
         egui.set_max_texture_side(gpu.device.limits().max_texture_dimension_2d as usize);
         window.set_visible(true);
-        self.view = Some(View::new(window, egui, stage));
+        let waker = self.proxy.clone();
+        let producer = Producer::new(move || drop(waker.send_event(Outside::Arrival)));
+        self.view = Some(View::new(window, egui, stage, producer));
         Ok(())
     }
 
@@ -254,10 +257,7 @@ impl Handler {
             Request::LoadStep => self.files.load_step(&mut self.model),
             Request::LoadLight(light) => self.files.load_light(&mut self.model, light),
             #[cfg(target_arch = "wasm32")]
-            Request::CopyLink => match system::copy_link(&self.model.scene.to_toml()) {
-                Ok(()) => self.model.messages.note("The link is on the clipboard"),
-                Err(text) => self.model.messages.problem(text),
-            },
+            Request::CopyLink => self.files.copy_link(&self.model),
             #[cfg(not(target_arch = "wasm32"))]
             Request::Export => self.model.open_export(view.picture_size),
             Request::Save => self.model.file.iter().for_each(|file| self.files.save_scene(file.clone(), &self.model)),

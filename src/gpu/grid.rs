@@ -60,11 +60,6 @@ impl Grid {
         self.halo.get_or_init(|| gpu.storage("film halo", &halo_entries(self.sphere)))
     }
 
-    /// Solid angles of film in all cells, in the grid's order.
-    pub(in crate::gpu) fn film_areas(&self) -> Vec<f64> {
-        self.cap.map_or_else(|| self.sphere.areas(), |cap| film_areas(self.sphere, cap))
-    }
-
     /// A field with a number of bytes per cell, in padded storage.
     pub(in crate::gpu) fn field(&self, gpu: &Gpu, label: &str, bytes: u64) -> wgpu::Buffer {
         use wgpu::BufferUsages as Usage;

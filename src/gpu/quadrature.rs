@@ -81,11 +81,14 @@ impl Quadrature {
     /// Fits and sends them.
     #[must_use]
     pub fn fit(gpu: &Gpu, key: &QuadratureKey) -> Self {
-        if key.from_table {
-            return Self::white(gpu, &key.optics);
-        }
+        if key.from_table { Self::white(gpu, &key.optics) } else { Self::fitted(gpu, key, &key.wavelengths()) }
+    }
+
+    /// Sends those that were fitted for a key.
+    #[must_use]
+    pub fn fitted(gpu: &Gpu, key: &QuadratureKey, wavelengths: &[QuadratureWavelength]) -> Self {
         let resolved_nm = key.resolved_nm();
-        let quadrature = Self::of_count(gpu, &key.optics, key.task(), key.count(), resolved_nm.min(key.range_nm));
+        let quadrature = Self::upload(gpu, key.task(), wavelengths, key.fitted_nm());
         // A light of few lines is summed exactly, whatever the film.
         let is_fitted = key.optics.spectra().indices().len() > key.count();
         Self { thick: resolved_nm < key.range_nm && is_fitted, ..quadrature }
@@ -103,11 +106,15 @@ impl Quadrature {
     /// `count` wavelengths, or all wavelengths of the light if they are fewer, that resolve films up to a thickness.
     #[must_use]
     pub fn of_count(gpu: &Gpu, optics: &OpticsKey, task: QuadratureTask, count: usize, resolved_nm: f64) -> Self {
-        let quadrature = fit_quadrature(&optics.spectra_to(resolved_nm), task, count.min(MAX_WAVELENGTHS), resolved_nm);
+        let count = count.min(MAX_WAVELENGTHS);
+        Self::upload(gpu, task, &fit_quadrature(&optics.spectra_to(resolved_nm), task, count, resolved_nm), resolved_nm)
+    }
+
+    fn upload(gpu: &Gpu, task: QuadratureTask, quadrature: &[QuadratureWavelength], resolved_nm: f64) -> Self {
         let mut samples = [QuadratureSample::zeroed(); MAX_WAVELENGTHS];
         let gap_nm = (GAP * resolved_nm) as f32;
         let sample = |wavelength: &QuadratureWavelength| QuadratureSample { gap_nm, ..wavelength.into() };
-        samples.iter_mut().zip(&quadrature).for_each(|(place, wavelength)| *place = sample(wavelength));
+        samples.iter_mut().zip(quadrature).for_each(|(place, wavelength)| *place = sample(wavelength));
         Self { buffer: gpu.uniform("quadrature", &samples), count: quadrature.len() as u32, thick: false, task }
     }
 

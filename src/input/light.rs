@@ -24,6 +24,19 @@ pub fn load_environment(
     folder: &Path,
     notes: &mut Vec<String>,
 ) -> Result<(Arc<CubeMap>, Vec<SpectralLight>), LoadError> {
+    #[cfg(target_arch = "wasm32")]
+    if let Some(made) = super::made_elsewhere::take(light, folder) {
+        return Ok(made.into_parts(notes));
+    }
+    make_environment(light, folder, notes)
+}
+
+/// Reads or computes the environment that a light names.
+pub(super) fn make_environment(
+    light: &Light,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<(Arc<CubeMap>, Vec<SpectralLight>), LoadError> {
     let map = match &light.environment {
         // Without lamps its colour is a factor on white, which half floats do not round.
         _ if let Some(constant) = light.constant => {

@@ -8,6 +8,8 @@ mod exr;
 mod file;
 mod lesson;
 mod light;
+#[cfg(target_arch = "wasm32")]
+mod made_elsewhere;
 mod own;
 mod panic_guard;
 mod picture;
@@ -22,6 +24,8 @@ pub use error::{InputError, LoadError, MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_W
 pub use file::keep_file;
 pub use lesson::{Opened, load_step, open};
 pub use light::{load_environment, load_illuminant};
+#[cfg(target_arch = "wasm32")]
+pub use made_elsewhere::{LightNamed, MadeEnvironment, keep_environment};
 pub use plate::read_plate;
-pub use scene::{LoadedScene, load_liquid, load_scene, load_scene_with};
+pub use scene::{LoadedScene, light_of_scene, load_liquid, load_scene, load_scene_with};
 pub use text::{MAX_TEXT_BYTES, read_table_text, read_text};

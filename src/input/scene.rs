@@ -11,7 +11,8 @@ use crate::{
     physics::{optics::FilmIndex, picture::Plate},
     plan::{FrameRequest, Resources, Shot, request},
     scene::{
-        Fault, FilmIndexName, Scene, SceneError, SceneSource, Setting, is_table, nearest, preset_names, preset_toml,
+        Fault, FilmIndexName, Light, Scene, SceneError, SceneSource, Setting, is_table, nearest, preset_names,
+        preset_toml,
     },
 };
 
@@ -58,18 +59,32 @@ pub fn load_scene(name: impl AsRef<Path>) -> Result<LoadedScene, LoadError> {
 ///
 /// As [`load_scene`]; a setting at fault is named.
 pub fn load_scene_with(name: impl AsRef<Path>, settings: &[Setting]) -> Result<LoadedScene, LoadError> {
-    let path = name.as_ref();
+    let (source, folder) = source_of(name.as_ref(), settings)?;
+    let scene = source.read()?;
+    with_resources(scene, source, name.as_ref().display().to_string(), folder)
+}
+
+/// The light of a preset or a scene file, and the folder that its paths start from; nothing that it names is loaded.
+///
+/// # Errors
+///
+/// There is no such preset or file, or its text is no scene.
+pub fn light_of_scene(name: &str) -> Result<(Light, PathBuf), LoadError> {
+    let (source, folder) = source_of(name.as_ref(), &[])?;
+    Ok((source.read()?.light, folder))
+}
+
+/// The text of a preset or a scene file, and the folder that its paths start from.
+fn source_of(path: &Path, settings: &[Setting]) -> Result<(SceneSource, PathBuf), LoadError> {
     let name = path.display().to_string();
-    let (source, folder) = match preset_toml(&name) {
-        Some(text) => (SceneSource::new(&name, text, settings), PathBuf::new()),
-        None if is_word(path) && !path.exists() => return Err(no_such_scene(name)),
+    match preset_toml(&name) {
+        Some(text) => Ok((SceneSource::new(&name, text, settings), PathBuf::new())),
+        None if is_word(path) && !path.exists() => Err(no_such_scene(name)),
         None => {
             let folder = path.parent().map(Path::to_owned).unwrap_or_default();
-            (SceneSource::new(&name, &read_text(path)?, settings), folder)
+            Ok((SceneSource::new(&name, &read_text(path)?, settings), folder))
         }
-    };
-    let scene = source.read()?;
-    with_resources(scene, source, name, folder)
+    }
 }
 
 /// Loads what a scene names; file paths start from a folder. `source` is what the scene was read from.

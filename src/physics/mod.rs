@@ -4,6 +4,7 @@
 //! the two together.
 
 pub mod bubble;
+pub(crate) mod bulk;
 pub mod colour;
 pub mod environment;
 pub mod film;

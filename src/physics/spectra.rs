@@ -8,6 +8,8 @@ mod read;
 
 use std::array;
 
+use serde::{Deserialize, Serialize};
+
 pub use error::SpectrumError;
 
 /// First wavelength of the grid, nm.
@@ -31,9 +33,27 @@ pub fn wavelength_nm(i: usize) -> f64 {
 }
 
 /// A function of wavelength, sampled at 360, 361, …, 780 nm. What the values mean (relative power, reflectance) is the holder's business.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spectrum {
+    #[serde(with = "samples")]
     samples: Box<[f64; SAMPLES]>,
+}
+
+/// All samples as bytes.
+mod samples {
+    use serde::{Deserializer, Serializer, de::Error};
+
+    use super::SAMPLES;
+    use crate::physics::bulk;
+
+    pub fn serialize<S: Serializer>(samples: &[f64; SAMPLES], serializer: S) -> Result<S::Ok, S::Error> {
+        bulk::serialize(samples, serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Box<[f64; SAMPLES]>, D::Error> {
+        let samples: Vec<f64> = bulk::deserialize(deserializer)?;
+        samples.try_into().map_err(|_| D::Error::custom("a spectrum of another length"))
+    }
 }
 
 impl Spectrum {

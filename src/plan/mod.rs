@@ -19,6 +19,7 @@ mod shot;
 mod sight;
 mod story;
 mod turns;
+mod work;
 
 use std::fmt;
 
@@ -36,6 +37,7 @@ pub use pass::{Pass, Reason};
 pub use request::{Resources, SpectralLight, film_index, request};
 pub use shot::Shot;
 pub use story::Story;
+pub use work::{Prepared, Product, SeedKey, Work};
 
 /// How much work may be done before the next picture must be shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

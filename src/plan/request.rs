@@ -3,6 +3,7 @@
 use std::{collections::BTreeMap, sync::Arc};
 
 use glam::{DMat3, DVec2, DVec3};
+use serde::{Deserialize, Serialize};
 
 use super::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LentFilm, LightKey,
@@ -42,7 +43,7 @@ pub struct Resources {
 }
 
 /// All light of one illuminant other than the scene's own.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SpectralLight {
     /// Where it comes from, in linear BT.2020.
     pub environment: Arc<CubeMap>,

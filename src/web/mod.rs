@@ -4,14 +4,23 @@
 //! JavaScript around it (`web/`) reads the address, shows messages, and makes elements.
 
 mod page;
+#[cfg(debug_assertions)]
+mod shaders;
 
 use std::{cell::RefCell, rc::Rc};
 
 use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::future_to_promise;
 use web_sys::HtmlCanvasElement;
 
 use self::page::{Bubble, add};
-use crate::{app::model::Model, input::load_scene};
+use crate::{
+    app::{
+        model::Model,
+        system::{make_environment, worker},
+    },
+    input::{LoadedScene, light_of_scene, load_scene},
+};
 
 /// Prepares messages of errors for the browser's console.
 #[wasm_bindgen(start)]
@@ -24,7 +33,7 @@ fn prepare() {
 /// Keeps a file, so that scenes find it by its name.
 #[wasm_bindgen(js_name = keepFile)]
 pub fn keep_file(name: &str, bytes: &[u8]) {
-    crate::input::keep_file(name, bytes);
+    worker::keep_file(name, bytes);
 }
 
 /// The scene's TOML in the fragment of an address; none if the fragment holds no scene.
@@ -34,6 +43,25 @@ pub fn keep_file(name: &str, bytes: &[u8]) {
 #[wasm_bindgen(js_name = sceneOfLink)]
 pub fn scene_of_link(fragment: &str) -> Result<Option<String>, JsError> {
     crate::app::link::scene_of(fragment).map_err(JsError::new)
+}
+
+/// Gives the page a worker, which answers each message by `work`.
+#[wasm_bindgen]
+pub fn employ(worker: web_sys::Worker) {
+    worker::employ(worker);
+}
+
+/// Names this tab of the browser, and all open tabs that show the page, so that they keep their unsaved work apart.
+#[wasm_bindgen(js_name = nameTabs)]
+pub fn name_tabs(own: String, open: Vec<String>) {
+    crate::app::storage::name_tabs(own, open);
+}
+
+/// What the worker answers to a message of the page.
+#[wasm_bindgen]
+#[must_use]
+pub fn work(message: &[u8]) -> Vec<u8> {
+    worker::done(message)
 }
 
 /// The names of the built-in scenes.
@@ -56,14 +84,13 @@ impl SoapBubble {
     ///
     /// # Errors
     /// The scene cannot be loaded.
-    #[wasm_bindgen(constructor)]
-    pub fn new(
+    pub async fn show(
         canvas: HtmlCanvasElement,
-        scene: &str,
+        scene: String,
         panels: bool,
         told: js_sys::Function,
     ) -> Result<SoapBubble, JsError> {
-        let mut model = Model::new(load_scene(scene)?);
+        let mut model = Model::new(load(&scene).await?);
         (model.stands_alone, model.presents) = (!panels, !panels);
         Ok(Self { bubble: add(model, canvas, told)? })
     }
@@ -72,10 +99,13 @@ impl SoapBubble {
     ///
     /// # Errors
     /// The scene cannot be loaded; the one before stays.
-    pub fn load(&self, scene: &str) -> Result<(), JsError> {
-        let loaded = load_scene(scene)?;
-        self.change(|model| model.adopt(loaded));
-        Ok(())
+    pub fn load(&self, scene: String) -> js_sys::Promise {
+        let bubble = self.bubble.clone();
+        future_to_promise(async move {
+            let loaded = load(&scene).await?;
+            change(&bubble, |model| model.adopt(loaded));
+            Ok(JsValue::UNDEFINED)
+        })
     }
 
     /// Opens a kept file: a scene, or an environment for the scene.
@@ -129,9 +159,20 @@ impl SoapBubble {
         page::remove(&self.bubble);
     }
 
-    fn change(&self, change: impl FnOnce(&mut Model)) {
-        let handler = &mut self.bubble.borrow_mut().handler;
-        change(&mut handler.model);
-        handler.ask_for_redraw();
+    fn change(&self, changed: impl FnOnce(&mut Model)) {
+        change(&self.bubble, changed);
     }
+}
+
+fn change(bubble: &RefCell<Bubble>, change: impl FnOnce(&mut Model)) {
+    let handler = &mut bubble.borrow_mut().handler;
+    change(&mut handler.model);
+    handler.ask_for_redraw();
+}
+
+/// Loads a scene, its environment in the worker.
+async fn load(scene: &str) -> Result<LoadedScene, JsError> {
+    let (light, folder) = light_of_scene(scene)?;
+    make_environment(light, folder).await;
+    Ok(load_scene(scene)?)
 }

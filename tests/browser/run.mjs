@@ -222,10 +222,78 @@ const TESTS = {
     assert.equal(max, 0);
   },
 
+  async "the page does little itself until its picture is there"({ page, address }) {
+    const devtools = await page.context().newCDPSession(page);
+    await devtools.send("Performance.enable", { timeDomain: "threadTicks" });
+    await page.goto(`${address}/?scene=default&pause=1&ui=0`);
+    await ready(page);
+    const { metrics } = await devtools.send("Performance.getMetrics");
+    const spent_s = metrics.find(({ name }) => name === "TaskDuration").value;
+    // The film, the colours and the environments alone take 5 s of the page's own thread, this build's start half a second.
+    assert(spent_s < 2.5, `the page's thread worked for ${spent_s.toFixed(1)} s`);
+  },
+
+  async "tabs keep their unsaved work apart"({ page, address }) {
+    const works = () => page.evaluate(() => Object.keys(localStorage).filter((key) => key.startsWith("soapfilm unsaved ")));
+    const work = async (tab, count) => {
+      await tab.goto(link(address, SCENE));
+      await ready(tab);
+      await drag(tab, [300, 300], [120, 0]);
+      await tab.waitForFunction(
+        (count) => Object.keys(localStorage).filter((key) => key.startsWith("soapfilm unsaved ")).length === count,
+        count,
+        { timeout: PATIENCE_MS, polling: 200 },
+      );
+    };
+    await work(page, 1);
+    const other = await page.context().newPage();
+    await work(other, 2);
+    const kept = await works();
+    await other.close();
+    assert.deepEqual((await works()).sort(), kept.sort(), "a tab that closes leaves its work");
+  },
+
   async "a scene that there is not is an error in words"({ page, address }) {
     await page.goto(`${address}/?scene=widnows`);
     await page.waitForFunction(() => document.documentElement.dataset.soapfilm === "error");
     assert.match(await page.textContent("#soapfilm-message"), /did you mean `windows`/);
+  },
+
+  async "the browser's compiler takes every shader with every constant"({ page, address }) {
+    await page.goto(link(address, SCENE, "&ui=0"));
+    await ready(page);
+    const { failures, planted, count } = await page.evaluate(async () => {
+      const { Shader } = await import("./soapfilm.js");
+      const device = await (await navigator.gpu.requestAdapter()).requestDevice();
+      // With the constants in their places the compiler sees what it would see of a pipeline, and no driver has to compile it.
+      const specialised = (text, constants) =>
+        constants.split(" ").filter(Boolean).reduce((text, constant) => {
+          const [name, value] = constant.split("=");
+          return text.replace(new RegExp(`^override ${name}: *([a-z0-9]+);`, "m"), `const ${name}: $1 = $1(${value}u);`);
+        }, text);
+      const failures = [];
+      let count = 0;
+      const compile = async (shader, constants, more = "") => {
+        count += 1;
+        const code = specialised(shader.text, constants) + more;
+        device.pushErrorScope("validation");
+        const { messages } = await device.createShaderModule({ code }).getCompilationInfo();
+        await device.popErrorScope();
+        const left = /^override.*$/m.exec(code)?.[0];
+        if (left && constants) failures.push(`${left} has no value`);
+        const wrong = messages.filter((message) => message.type === "error");
+        failures.push(...wrong.map((message) => `${shader.place(message.lineNum)}: ${message.message} (${constants})`));
+      };
+      for (const shader of Shader.all()) {
+        for (const constants of ["", ...shader.specialisations]) await compile(shader, constants);
+      }
+      const works = failures.length;
+      await compile(Shader.all()[0], "", "fn planted() { nothing(); }");
+      return { failures: failures.slice(0, works), planted: failures[works], count };
+    });
+    assert.deepEqual(failures, []);
+    assert.match(planted ?? "", /\.wgsl:\d+: .*nothing/);
+    assert(count > 200, `${count} shaders`);
   },
 
   async "elements share a page"({ page, address }) {

@@ -1,6 +1,9 @@
 //! Every pass composes, validates with no optional capability, and translates to what each backend needs.
 
-use std::{collections::BTreeMap, process::Command};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    process::Command,
+};
 
 use naga::{
     Module, ShaderStage,
@@ -20,39 +23,26 @@ use crate::{
     support::{REQUIRE_TOOLS, has_tools},
 };
 
-/// Values for the constants that a module declares: each value of a constant, beside the first values of all others and beside the last.
+/// Values for the constants that a module declares.
 fn specialisations(kernel: &Kernel, module: &Module) -> Result<Vec<PipelineConstants>, String> {
-    let shared = SHARED_CONSTANTS.iter().map(|(name, value)| (*name, vec![*value]));
-    let declared = kernel.overrides.iter().map(|constant| (constant.name, constant.values.clone()));
-    let known: BTreeMap<&str, Vec<u32>> = declared.chain(shared).collect();
-    let mut own: Vec<(String, &[u32])> = Vec::new();
+    let shared: Vec<_> = SHARED_CONSTANTS.iter().map(|(name, value)| (*name, *value)).collect();
+    let mut declared = BTreeSet::new();
     for (_, constant) in module.overrides.iter() {
-        let name = constant.name.clone().unwrap_or_default();
-        let values = known.get(name.as_str()).filter(|values| !values.is_empty());
-        let values = values.ok_or_else(|| format!("{}: no values to test for `{name}`", kernel.pass))?;
+        let name = constant.name.as_deref().unwrap_or_default();
+        let own = kernel.overrides.iter().any(|constant| constant.name == name && !constant.values.is_empty());
+        if !own && shared.iter().all(|(known, _)| *known != name) {
+            return Err(format!("{}: no values to test for `{name}`", kernel.pass));
+        }
         if constant.init.is_some() {
             return Err(format!("{}: `{name}` has a default: a value that is forgotten must be refused", kernel.pass));
         }
-        own.push((name, values));
+        declared.insert(name);
     }
-    let ends = [0, usize::MAX].map(|end| {
-        let value = |values: &[u32]| f64::from(values[end.min(values.len() - 1)]);
-        own.iter().map(|(name, values)| (name.clone(), value(values))).collect::<PipelineConstants>()
-    });
-    let changed = |all: &PipelineConstants| {
-        let all = all.clone();
-        own.iter()
-            .flat_map(|(name, values)| values.iter().map(move |value| (name.clone(), f64::from(*value))))
-            .map(move |change| all.clone().into_iter().chain([change]).collect())
+    let of_all = shared.into_iter().filter(|(name, _)| declared.contains(name));
+    let whole = |own: BTreeMap<&'static str, u32>| {
+        own.into_iter().chain(of_all.clone()).map(|(name, value)| (name.to_owned(), f64::from(value))).collect()
     };
-    let mut every = Vec::new();
-    for constants in ends.iter().cloned().chain(ends.iter().flat_map(changed)) {
-        // Some changes of an end give the end itself.
-        if !every.contains(&constants) {
-            every.push(constants);
-        }
-    }
-    Ok(every)
+    Ok(kernel.specialisations(|name| declared.contains(name)).into_iter().map(whole).collect())
 }
 
 /// Runs a check on each specialised entry point of each kernel and fails with all that went wrong.

@@ -1,29 +1,30 @@
 //! Lessons and presets as pictures with their sentences, in groups.
 
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc, time::Duration};
 
 use egui::{
     Button, ColorImage, Context, Id, Image, Modal, RichText, ScrollArea, TextureHandle, TextureOptions, Ui, vec2,
 };
-use include_dir::{Dir, include_dir};
 
 use crate::{
-    app::{model::Model, request::Request},
+    app::{model::Model, request::Request, system::thumbnail},
     scene::{
         PRESET_GROUPS, TEST_PRESETS,
         lesson::{lesson, lesson_names},
-        preset_sentence,
+        preset_names, preset_sentence,
     },
 };
 
-/// Pictures of the presets, made by `./dev thumbnails`.
-static PICTURES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/thumbnails");
+/// Pictures decoded a frame: about 10 ms.
+const PER_FRAME: usize = 8;
+/// Time between two looks whether pictures have come.
+const LOOK: Duration = Duration::from_millis(50);
 
 /// Size of a picture, points.
 const SIZE: egui::Vec2 = vec2(168.0, 105.0);
 
-/// The pictures on the device, by the names of their presets.
-type Pictures = Arc<Vec<(String, TextureHandle)>>;
+/// The pictures on the device, by the names of their presets; none for those that there are no pictures of.
+type Pictures = Arc<BTreeMap<&'static str, Option<TextureHandle>>>;
 
 /// Shows the presets over everything, until one is chosen.
 pub fn show(ctx: &Context, model: &mut Model) {
@@ -41,7 +42,7 @@ pub fn show(ctx: &Context, model: &mut Model) {
                 ui.heading(*title);
                 ui.horizontal_wrapped(|ui| {
                     for name in *names {
-                        let picture = pictures.iter().find(|(known, _)| known == name).map(|(_, picture)| picture);
+                        let picture = pictures.get(name).and_then(Option::as_ref);
                         if card(ui, name, &preset_sentence(name).unwrap_or_default(), picture) {
                             chosen = Some((*name).to_owned());
                         }
@@ -61,8 +62,7 @@ fn lessons(ui: &mut Ui, pictures: &Pictures, chosen: &mut Option<String>) {
     ui.heading("Lessons");
     ui.horizontal_wrapped(|ui| {
         for (name, lesson) in lesson_names().filter_map(|name| Some((name, lesson(name)?))) {
-            let picture =
-                pictures.iter().find(|(known, _)| *known == lesson.steps[0].scene).map(|(_, picture)| picture);
+            let picture = pictures.get(lesson.steps[0].scene.as_str()).and_then(Option::as_ref);
             if card(ui, &lesson.title, &lesson.about, picture) {
                 *chosen = Some(name.to_owned());
             }
@@ -88,22 +88,26 @@ fn card(ui: &mut Ui, name: &str, sentence: &str, picture: Option<&TextureHandle>
     card.inner
 }
 
-/// The pictures, loaded when they are first shown.
+/// The pictures, loaded a few at a time once they are first shown.
 fn pictures(ctx: &Context) -> Pictures {
     let id = Id::unique("preset pictures");
-    if let Some(known) = ctx.data(|data| data.get_temp::<Pictures>(id)) {
-        return known;
+    let mut pictures = ctx.data(|data| data.get_temp::<Pictures>(id)).unwrap_or_default();
+    let missing = preset_names().filter(|name| !pictures.contains_key(name));
+    let come = |name: &'static str| Some((name, decoded(ctx, name, &thumbnail(name)?)));
+    let new: Vec<_> = missing.filter_map(come).take(PER_FRAME).collect();
+    Arc::make_mut(&mut pictures).extend(new);
+    if pictures.len() < preset_names().count() {
+        ctx.request_repaint_after(LOOK);
     }
-    let pictures = PICTURES.files().filter_map(|file| {
-        let name = file.path().file_stem()?.to_str()?;
-        let image = image::load_from_memory(file.contents()).ok()?.into_rgba8();
-        let size = [image.width() as usize, image.height() as usize];
-        let image = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
-        Some((name.to_owned(), ctx.load_texture(name, image, TextureOptions::LINEAR)))
-    });
-    let pictures: Pictures = pictures.collect::<Vec<_>>().into();
     ctx.data_mut(|data| data.insert_temp(id, pictures.clone()));
     pictures
+}
+
+fn decoded(ctx: &Context, name: &str, png: &[u8]) -> Option<TextureHandle> {
+    let image = image::load_from_memory(png).ok()?.into_rgba8();
+    let size = [image.width() as usize, image.height() as usize];
+    let image = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
+    Some(ctx.load_texture(name, image, TextureOptions::LINEAR))
 }
 
 /// Forgets the pictures, because the device that held them is lost.
@@ -114,13 +118,11 @@ pub fn forget(ctx: &Context) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::preset_names;
 
     #[test]
     fn every_preset_has_a_picture() {
         for name in preset_names() {
-            let file = PICTURES.get_file(format!("{name}.png"));
-            let image = file.and_then(|file| image::load_from_memory(file.contents()).ok());
+            let image = image::load_from_memory(&thumbnail(name).unwrap()).ok();
             let size = image.map(|image| (image.width(), image.height()));
             assert_eq!(size, Some((192, 120)), "{name}: run ./dev thumbnails");
         }

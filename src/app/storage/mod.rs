@@ -9,6 +9,8 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 pub use places::Storage;
+#[cfg(target_arch = "wasm32")]
+pub use places::name_tabs;
 
 /// Scenes that are remembered as opened lately.
 const RECENT: usize = 10;

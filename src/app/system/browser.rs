@@ -1,14 +1,18 @@
 //! What a browser has: tasks of one thread, a dialog for files, and files by name alone.
 
+pub mod worker;
+
 use std::{
     cell::RefCell,
+    collections::BTreeMap,
     io,
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 use wasm_bindgen::{JsCast, JsValue, closure::Closure};
 use wasm_bindgen_futures::{JsFuture, spawn_local};
-use web_sys::{File, HtmlInputElement};
+use web_sys::{File, HtmlInputElement, Response};
 use winit::{
     event_loop::ActiveEventLoop,
     window::{Window, WindowAttributes},
@@ -17,7 +21,9 @@ use winit::{
 use crate::{
     app::{link::fragment, request::Target},
     gpu::{AdapterChoice, Gpu, GpuError},
-    input::keep_file,
+    input::{LightNamed, keep_environment},
+    plan::{Product, Work},
+    scene::Light,
 };
 
 /// The device that all canvases of a page share.
@@ -54,19 +60,23 @@ pub async fn device(
     device.unwrap_or_else(|| Err(GpuError::NoAdapter(String::new())))
 }
 
-/// Puts a link to this page that shows a scene on the clipboard.
-pub fn copy_link(toml: &str) -> Result<(), String> {
-    let refused = |reason: JsValue| format!("the link is not copied: {reason:?}");
-    let window = web_sys::window().ok_or("there is no page")?;
-    let href = window.location().href().map_err(refused)?;
-    let page = href.split(['?', '#']).next().unwrap_or(&href);
-    let writing = window.navigator().clipboard().write_text(&format!("{page}{}", fragment(toml)));
+/// Puts a link to this page that shows a scene on the clipboard, and tells whether it is there.
+pub fn copy_link(toml: &str, told: impl FnOnce(Result<(), String>) + 'static) {
+    let writing = link(toml)
+        .and_then(|link| Ok(web_sys::window().ok_or("there is no page")?.navigator().clipboard().write_text(&link)));
     spawn_local(async move {
-        if let Err(reason) = JsFuture::from(writing).await {
-            log::error!("the link is not copied: {reason:?}");
-        }
+        let written = match writing {
+            Ok(writing) => JsFuture::from(writing).await.map(drop),
+            Err(reason) => Err(reason),
+        };
+        told(written.map_err(|reason| format!("the link is not copied: {reason:?}")));
     });
-    Ok(())
+}
+
+fn link(toml: &str) -> Result<String, JsValue> {
+    let href = web_sys::window().ok_or("there is no page")?.location().href()?;
+    let page = href.split(['?', '#']).next().unwrap_or(&href);
+    Ok(format!("{page}{}", fragment(toml)))
 }
 
 /// The page gives its canvas a size.
@@ -88,6 +98,61 @@ pub fn spawn(job: impl FnOnce() + 'static) -> io::Result<()> {
     let window = web_sys::window().ok_or_else(|| io::Error::other("there is no page"))?;
     let task = Closure::once_into_js(job);
     window.set_timeout_with_callback_and_timeout_and_arguments_0(task.unchecked_ref(), 50).map(|_| ()).map_err(refused)
+}
+
+/// Does work in the page's worker, or here if there is none.
+pub fn compute(work: Work, answer: impl FnOnce(Product) + 'static) -> io::Result<()> {
+    let asked = worker::Task::of(&work);
+    worker::ask(&asked, move |product| answer(product.unwrap_or_else(|| work.done())))
+}
+
+/// Runs work that loads the environment of a light, once the page's worker has made that.
+pub fn spawn_lit(
+    light: impl FnOnce() -> Option<(Light, PathBuf)> + 'static,
+    job: impl FnOnce() + 'static,
+) -> io::Result<()> {
+    spawn_local(async move {
+        if let Some((light, folder)) = light() {
+            make_environment(light, folder).await;
+        }
+        job();
+    });
+    Ok(())
+}
+
+/// Has the page's worker make the environment of a light, whose paths start from a folder. What fails there fails again where the light is loaded,
+/// which says why.
+pub async fn make_environment(light: Light, folder: PathBuf) {
+    if let Some(made) = worker::environment(LightNamed::new(&light, &folder)).await {
+        keep_environment(light, folder, made);
+    }
+}
+
+thread_local! {
+    /// Small pictures of presets that were asked for; none while they are on their way.
+    static THUMBNAILS: RefCell<BTreeMap<String, Option<Arc<[u8]>>>> = const { RefCell::new(BTreeMap::new()) };
+}
+
+/// The small picture of a preset, a PNG file; empty if there is none. A page fetches it when it is first asked for.
+pub fn thumbnail(name: &str) -> Option<Arc<[u8]>> {
+    let known = THUMBNAILS.with_borrow(|thumbnails| thumbnails.get(name).cloned());
+    known.unwrap_or_else(|| {
+        let name = name.to_owned();
+        THUMBNAILS.with_borrow_mut(|thumbnails| thumbnails.insert(name.clone(), None));
+        spawn_local(async move {
+            let png = fetch(&format!("thumbnails/{name}.png")).await.unwrap_or_default();
+            THUMBNAILS.with_borrow_mut(|thumbnails| thumbnails.insert(name, Some(png.into())));
+        });
+        None
+    })
+}
+
+/// The bytes at an address.
+async fn fetch(address: &str) -> Result<Vec<u8>, JsValue> {
+    let window = web_sys::window().ok_or("there is no page")?;
+    let response: Response = JsFuture::from(window.fetch_with_str(address)).await?.unchecked_into();
+    let bytes = JsFuture::from(response.array_buffer()?).await?;
+    Ok(js_sys::Uint8Array::new(&bytes).to_vec())
 }
 
 /// A page forgets its files.
@@ -112,7 +177,10 @@ pub fn choose_file(
     if !target.is_read() {
         return answer(Ok(Some(name.into())));
     }
-    let accepted: Vec<String> = target.file_type().1.iter().map(|ending| format!(".{ending}")).collect();
+    // A scene is opened together with the files that it names.
+    let named: &[&str] = if target == Target::OpenScene { &["exr", "hdr", "csv", "png", "jpg", "jpeg"] } else { &[] };
+    let endings = target.file_type().1.iter().chain(named);
+    let accepted: Vec<String> = endings.map(|ending| format!(".{ending}")).collect();
     spawn_local(async move {
         let kept = pick(&accepted.join(",")).await;
         answer(Ok(kept.unwrap_or_else(|reason| {
@@ -122,7 +190,7 @@ pub fn choose_file(
     });
 }
 
-/// Shows the browser's dialog, and keeps all files that are chosen; the first one's name.
+/// Shows the browser's dialog, and keeps all files that are chosen; the name of the scene among them, or of the first.
 async fn pick(accepted: &str) -> Result<Option<PathBuf>, JsValue> {
     let document = web_sys::window().and_then(|window| window.document()).ok_or("there is no page")?;
     let input: HtmlInputElement = document.create_element("input")?.unchecked_into();
@@ -136,16 +204,17 @@ async fn pick(accepted: &str) -> Result<Option<PathBuf>, JsValue> {
     input.click();
     JsFuture::from(chosen).await?;
     let Some(files) = input.files() else { return Ok(None) };
-    let mut first = None;
+    let mut names = Vec::new();
     for file in (0..files.length()).filter_map(|index| files.get(index)) {
         keep(&file).await?;
-        first = first.or(Some(PathBuf::from(file.name())));
+        names.push(PathBuf::from(file.name()));
     }
-    Ok(first)
+    let scene = names.iter().position(|name| name.extension().is_some_and(|ending| ending == "toml"));
+    Ok(names.into_iter().nth(scene.unwrap_or(0)))
 }
 
 async fn keep(file: &File) -> Result<(), JsValue> {
     let bytes = JsFuture::from(file.array_buffer()).await?;
-    keep_file(&file.name(), &js_sys::Uint8Array::new(&bytes).to_vec());
+    worker::keep_file(&file.name(), &js_sys::Uint8Array::new(&bytes).to_vec());
     Ok(())
 }

@@ -3,9 +3,11 @@
 use std::{
     io,
     path::{Path, PathBuf},
+    sync::Arc,
     time::{Duration, Instant},
 };
 
+use include_dir::{Dir, include_dir};
 use winit::{
     dpi::LogicalSize,
     event_loop::ActiveEventLoop,
@@ -15,6 +17,8 @@ use winit::{
 use crate::{
     app::request::Target,
     gpu::{AdapterChoice, Gpu, GpuError},
+    plan::{Product, Work},
+    scene::Light,
 };
 
 /// A dialog that ends sooner than this without an answer was never seen.
@@ -47,6 +51,27 @@ pub fn finish(opening: impl Future<Output = ()>) {
 /// Runs a piece of work that takes long on a thread of its own.
 pub fn spawn(job: impl FnOnce() + Send + 'static) -> io::Result<()> {
     std::thread::Builder::new().name("soapfilm files".to_owned()).spawn(job).map(|_| ())
+}
+
+/// Runs work that loads the environment of a light on a thread of its own.
+pub fn spawn_lit(
+    _: impl FnOnce() -> Option<(Light, PathBuf)> + Send + 'static,
+    job: impl FnOnce() + Send + 'static,
+) -> io::Result<()> {
+    spawn(job)
+}
+
+/// Does work on a thread of its own.
+pub fn compute(work: Work, answer: impl FnOnce(Product) + Send + 'static) -> io::Result<()> {
+    spawn(move || answer(work.done()))
+}
+
+/// Pictures of the presets, made by `./dev thumbnails`.
+static THUMBNAILS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/thumbnails");
+
+/// The small picture of a preset, a PNG file; empty if there is none. A desktop has it at once.
+pub fn thumbnail(name: &str) -> Option<Arc<[u8]>> {
+    Some(THUMBNAILS.get_file(format!("{name}.png")).map_or_else(Arc::default, |file| file.contents().into()))
 }
 
 /// Whether a file can be opened another time.

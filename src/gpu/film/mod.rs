@@ -19,7 +19,6 @@ mod moving;
 mod play;
 mod remap;
 mod rest;
-mod seeded;
 mod shown;
 mod step;
 
@@ -27,7 +26,6 @@ pub use company::{Company, Member};
 pub use free::{FreeMotion, Surroundings};
 pub use moving::{MovingFilm, rules};
 pub use play::play_together;
-use seeded::{Seeded, level_of};
 
 use super::{
     control::Control,
@@ -45,7 +43,7 @@ use super::{
     timing::{Groups, Recorder},
 };
 use crate::physics::{
-    film::{Cap, model::DrainLaw},
+    film::{Cap, Seed, SeedGrids, model::DrainLaw},
     sphere::{CubedSphere, GridError},
     transport::Scheme,
 };
@@ -226,12 +224,17 @@ impl Field {
     pub fn seed(&mut self, gpu: &Gpu, value: impl Fn(glam::DVec3) -> f64 + Sync) {
         // A density in a wind that diverges is multiplied on the way, as departures must not be.
         let has_level = self.rules.gathered != Gathered::LogArea;
-        self.level = if has_level { level_of(&self.film, &value) } else { 0.0 };
-        let film = Seeded::new(&self.film, self.level, &value);
-        let tracer = self.fine.as_ref().map(|grid| Seeded::new(grid, self.level, &value));
-        let tracer = tracer.as_ref().unwrap_or(&film);
+        let tracer = self.fine.as_ref().map(|grid| grid.sphere);
+        let grids = SeedGrids { film: self.film.sphere, tracer, cap: self.film.cap };
+        self.begin(gpu, &Seed::new(&grids, has_level, &value));
+    }
+
+    /// Sets the tracer to values on the field's own grids, and forgets all motion.
+    pub fn begin(&mut self, gpu: &Gpu, Seed { level, film, tracer }: &Seed) {
+        self.level = *level;
+        let tracer = tracer.as_ref().unwrap_or(film);
         gpu.upload(&self.tracer, &tracer.values);
-        self.targets = [(&film, self.level), (tracer, 0.0)].map(|(seeded, level)| {
+        self.targets = [(film, self.level), (tracer, 0.0)].map(|(seeded, level)| {
             let bounds = self.rules.bounded().then_some(seeded.range);
             Target { mean: seeded.mean, bounds, level }
         });

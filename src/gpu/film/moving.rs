@@ -10,7 +10,7 @@ use crate::{
         passes::{decide_remap::RemapRule, sample_tracer::Gathered, trace_step::Step},
         timing::Recorder,
     },
-    physics::film::{InitialFilm, PrescribedFlow},
+    physics::film::{PrescribedFlow, Seed},
     plan::{FieldKey, FlowLaw, RestingFilm},
 };
 
@@ -34,10 +34,10 @@ impl MovingFilm {
     }
 
     /// Sets the film to its beginning. Checkpoints stay.
-    pub fn seed(&mut self, gpu: &Gpu, initial: &InitialFilm) {
+    pub fn begin(&mut self, gpu: &Gpu, seed: &Seed) {
         self.motion = None;
         self.watch = RestWatch::default();
-        self.field.seed(gpu, initial.profile());
+        self.field.begin(gpu, seed);
     }
 
     /// Since when the film rests, if it does.

@@ -35,6 +35,8 @@ pub use slots::{
     Written2dArray, WrittenFormat,
 };
 
+use std::collections::BTreeMap;
+
 use super::{
     device::{Gpu, GpuError},
     pipelines::{ComputeKey, RenderKey},
@@ -52,6 +54,33 @@ pub struct Kernel {
     pub bindings: Vec<Binding>,
     /// Constants, but for those that all passes share.
     pub overrides: Vec<OverrideValues>,
+}
+
+impl Kernel {
+    /// Values for those of its constants that a shader declares: each value of a constant, beside the first values of all others and beside the
+    /// last. Constants that all passes share are not among them.
+    #[must_use]
+    pub fn specialisations(&self, declares: impl Fn(&str) -> bool) -> Vec<BTreeMap<&'static str, u32>> {
+        let own: Vec<&OverrideValues> =
+            self.overrides.iter().filter(|constant| declares(constant.name) && !constant.values.is_empty()).collect();
+        let ends = [0, usize::MAX].map(|end| {
+            let value = |values: &[u32]| values[end.min(values.len() - 1)];
+            own.iter().map(|constant| (constant.name, value(&constant.values))).collect::<BTreeMap<_, _>>()
+        });
+        let changes = own.iter().flat_map(|constant| constant.values.iter().map(|value| (constant.name, *value)));
+        let changed = |all: &BTreeMap<_, _>| {
+            let all = all.clone();
+            changes.clone().map(move |change| all.clone().into_iter().chain([change]).collect())
+        };
+        let mut every = Vec::new();
+        for constants in ends.iter().cloned().chain(ends.iter().flat_map(changed)) {
+            // Some changes of an end give the end itself.
+            if !every.contains(&constants) {
+                every.push(constants);
+            }
+        }
+        every
+    }
 }
 
 /// Entry points of a kernel.

@@ -10,8 +10,7 @@ use crate::{
         passes::open_hole::OpenHole,
         timing::Recorder,
     },
-    physics::sphere::CubedSphere,
-    plan::{FieldKey, OpenHoleKey, Pass},
+    plan::{FieldKey, OpenHoleKey, Pass, Product, SeedKey, Work},
 };
 
 /// Cells stepped in one submission, so that none runs long: about 50 ms on a software rasteriser.
@@ -22,14 +21,16 @@ impl Renderer {
         if self.products.films.len() <= film {
             self.products.films.resize_with(film + 1, || None);
         }
-        let sphere = CubedSphere::new(key.cells as usize).map_err(|error| GpuError::Refused(error.to_string()))?;
+        let seed = SeedKey::of(key).map_err(|error| GpuError::Refused(error.to_string()))?;
+        let sphere = seed.grids.film;
+        let Product::Seed(begun) = self.prepared.take(&Work::Seed(seed)) else { return Ok(()) };
         let slot = &mut self.products.films[film];
         let fits = |film: &MovingFilm| (film.field.sphere(), film.field.rules()) == (sphere, rules(key));
         let film = match slot.take().filter(fits) {
             Some(film) => slot.insert(film),
             None => slot.insert(MovingFilm::new(Field::new(&self.gpu, sphere, rules(key))?)),
         };
-        film.seed(&self.gpu, &key.initial);
+        film.begin(&self.gpu, &begun);
         Ok(())
     }
 

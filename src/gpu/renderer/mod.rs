@@ -26,7 +26,10 @@ use super::{
 };
 use crate::{
     physics::{environment::CubeMap, picture::Finish, sphere::CubedSphere},
-    plan::{DrawKey, FilmKey, FrameRequest, GpuState, Lighting, Pass, Plan, TableKey, TonemapKey, plan},
+    plan::{
+        DrawKey, FilmKey, FrameRequest, GpuState, Lighting, Pass, Plan, Prepared, Product, QuadratureKey, TableKey,
+        TonemapKey, Work, plan,
+    },
 };
 
 /// Everything that is on the device.
@@ -103,6 +106,8 @@ pub struct Renderer {
     /// Hears how much of a plan's [`Plan::work`] the device has just done, and tells whether the rest is still wanted. With it, the end of each
     /// submission is waited for.
     pub watcher: Option<Watcher>,
+    /// What passes send to the device, as far as it is computed already.
+    pub prepared: Prepared,
     state: GpuState,
     products: Products,
 }
@@ -116,6 +121,7 @@ impl Renderer {
             times: TimeLog::default(),
             counts: Counts::default(),
             watcher: None,
+            prepared: Prepared::default(),
             state: GpuState::default(),
             products: Products::default(),
         }
@@ -140,6 +146,7 @@ impl Renderer {
             return Ok(());
         }
         let result = self.run_all(plan).and_then(|()| self.gpu.check());
+        self.prepared.clear();
         // After a failure the state is unknown: everything is recreated.
         self.state = if result.is_ok() { plan.after.clone() } else { GpuState::default() };
         self.products.keep(&self.state);
@@ -219,7 +226,8 @@ impl Renderer {
                 Ok(())
             }
             Pass::DefocusBackdrop { light, key, adds } => {
-                let (map, present) = (key.map(), self.light(*light).defocused.take().filter(|_| *adds));
+                let Product::Map(map) = self.prepared.take(&Work::Defocus(key.clone())) else { return Ok(()) };
+                let present = self.light(*light).defocused.take().filter(|_| *adds);
                 let defocused = present.unwrap_or_else(|| Environment::new(&self.gpu, &map));
                 defocused.write(&self.gpu, &map, key.faces);
                 self.light(*light).defocused = Some(defocused);
@@ -231,7 +239,7 @@ impl Renderer {
             }
             Pass::BakeTable { light, material, key, rows } => self.bake([*light, *material], key, rows.clone()),
             Pass::FitQuadrature { light, material, key } => {
-                self.colours([*light, *material]).quadrature = Some(Quadrature::fit(&self.gpu, key));
+                self.fit([*light, *material], key);
                 Ok(())
             }
             Pass::SeedField { film, key } => self.seed(*film, key),
@@ -287,6 +295,14 @@ impl Renderer {
             colours.table = colours.baking.take();
         }
         Ok(())
+    }
+
+    fn fit(&mut self, place: [usize; 2], key: &QuadratureKey) {
+        let work = (!key.from_table).then(|| self.prepared.take(&Work::Fit(key.clone())));
+        self.colours(place).quadrature = Some(match work {
+            Some(Product::Wavelengths(wavelengths)) => Quadrature::fitted(&self.gpu, key, &wavelengths),
+            _ => Quadrature::fit(&self.gpu, key),
+        });
     }
 
     /// The picture in the scene's own light, plus the picture in each spectral light.

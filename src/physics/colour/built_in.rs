@@ -1,10 +1,12 @@
 //! The built-in illuminants: one table, which names, parsing, the light panel, the help and the tests follow. A new illuminant is a row here, its
 //! data, and its name in the help of `illuminant` in `scene/light.rs`, from which the page of the scene format is written.
 
+use serde::{Deserialize, Serialize};
+
 use crate::physics::spectra::Spectrum;
 
 /// All of a lamp's light at one wavelength.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Line {
     /// Where it is, 360 to 780 nm.
     pub wavelength_nm: f64,

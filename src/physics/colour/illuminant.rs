@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::{BUILT_IN, BuiltIn, Line, Observer};
@@ -30,7 +31,7 @@ pub enum UnknownIlluminant {
 
 /// A light source: its name and relative spectral power, continuous and in lines. The unit of power is free, as every integral divides it
 /// out.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Illuminant {
     name: String,
     spectrum: Spectrum,

@@ -7,12 +7,13 @@
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::{BT2020, ColourWeights, FilmOptics, Uplift, bt2020_to_bt709};
 use crate::physics::optics::Polarised;
 
 /// One wavelength of a fitted sum.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct QuadratureWavelength {
     /// Its wavelength.
     pub wavelength_nm: f64,

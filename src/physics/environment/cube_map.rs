@@ -3,21 +3,41 @@
 use glam::{DVec2, DVec3};
 use half::{f16, slice::HalfFloatSliceExt};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::{CubeFace, Equirect, Lamp, Repairs, mip};
 
 /// One mip level of a [`CubeMap`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CubeLevel {
     /// Texels along the edge of each face.
     pub size: usize,
     /// The faces in the order of [`CubeFace::ALL`], each row by row from s = t = −1: linear BT.2020, alpha 1.
+    #[serde(with = "texels")]
     pub faces: [Vec<[f16; 4]>; 6],
+}
+
+/// All texels of a level as bytes.
+mod texels {
+    use half::f16;
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    use crate::physics::bulk;
+
+    pub fn serialize<S: Serializer>(faces: &[Vec<[f16; 4]>; 6], serializer: S) -> Result<S::Ok, S::Error> {
+        bulk::serialize(&faces.concat(), serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[Vec<[f16; 4]>; 6], D::Error> {
+        let bytes = <&[u8]>::deserialize(deserializer)?;
+        let faces: Vec<_> = bytes.chunks_exact((bytes.len() / 6).max(1)).map(bytemuck::pod_collect_to_vec).collect();
+        faces.try_into().map_err(|_| D::Error::custom("a cube has six faces"))
+    }
 }
 
 /// Radiance from every direction, ready for `textureSampleLevel(cube, sampler, direction, lod)` with world directions as they
 /// are.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CubeMap {
     mips: Vec<CubeLevel>,
     lamps: Vec<Lamp>,

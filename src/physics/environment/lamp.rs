@@ -3,12 +3,13 @@
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
 
 use super::shape::{rounded_box_distance, smoothstep};
 
 /// A flat lamp that faces the scene: a disc, a softbox or a strip, as a rectangle with round corners. Lengths are as of a lamp one away, so they
 /// are tangents of angles.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lamp {
     /// Direction of its middle, a unit vector.
     pub towards: DVec3,

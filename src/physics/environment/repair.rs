@@ -4,12 +4,14 @@ use std::fmt;
 use std::iter::Sum;
 use std::ops::Add;
 
+use serde::{Deserialize, Serialize};
+
 /// The brightest radiance an environment keeps: just below the largest half float (65504), so that a filter's rounding stays
 /// finite.
 pub const MAX_RADIANCE: f32 = 65000.0;
 
 /// How many pixels (or texels) of an environment had to be repaired, each counted once, under the worst it had.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Repairs {
     /// Not a number in some component, replaced by 0.
     pub not_a_number: u64,

@@ -90,6 +90,7 @@ mod pushes;
 mod random;
 mod regeneration;
 mod rest;
+mod seed;
 mod states;
 mod thinning;
 
@@ -106,6 +107,7 @@ pub use pushes::Pushes;
 pub use random::{Random, fold_seed, pcg3d};
 pub use regeneration::{PATCH_THICKNESS, Patch, Regeneration, patch_speed};
 pub use rest::{ASKING_S, STEADY, resting_speed, rests};
+pub use seed::{Seed, SeedGrids, Seeded};
 pub use states::{InitialFilm, Profile};
 pub use thinning::{Thinning, thins_at_tick};
 

@@ -1,6 +1,7 @@
 //! Initial states of a film: its thickness as a function of direction.
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::marble::Marble;
 
@@ -8,7 +9,7 @@ use super::marble::Marble;
 pub type Profile = Box<dyn Fn(DVec3) -> f64 + Send + Sync>;
 
 /// A film before it flows. Thickness is the total along the normal, in nm; the top of the bubble is +z.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum InitialFilm {
     /// One thickness everywhere.
     Uniform {

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::liquids::{glycerol_solution_index, water_index, water_index_at};
@@ -32,7 +33,7 @@ pub enum FilmIndexError {
 }
 
 /// What the film is made of, as far as light is concerned.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum FilmIndex {
     /// Water at 20 °C with its dispersion.
     #[default]

@@ -1,5 +1,7 @@
 //! What a film is made of: its liquid, and the skins of soap on both faces.
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     Coherence, FilmIndex, Incidence, Polarised, REFERENCE_NM, SpectralIncidence, coated_coherence, coated_reflectance,
     cos_refracted, equivalent_extra_nm, max_reflectance,
@@ -17,7 +19,7 @@ pub fn newton_order(path_nm: f64) -> u32 {
 }
 
 /// A film's liquid and skins.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FilmMaterial {
     /// The liquid.
     pub index: FilmIndex,

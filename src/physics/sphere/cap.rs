@@ -5,11 +5,12 @@
 //! solver of the whole sphere solves for the cap above it (Newton 2001, "The N-Vortex Problem", on the method of images on the sphere).
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::CubedSphere;
 
 /// The part of the unit sphere above a circle of latitude.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cap {
     /// Height of the rim: the cosine of its colatitude.
     pub rim_z: f64,

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Cells of padding around each panel: what a 6×6 stencil reads beyond the edge, and no more.
@@ -39,7 +40,7 @@ pub struct PanelPoint {
 }
 
 /// An equiangular cubed sphere with N × N cells on each of its six panels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct CubedSphere {
     n: usize,
 }

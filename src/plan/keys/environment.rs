@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use crate::physics::environment::CubeMap;
 
 /// The light around the bubbles.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct EnvironmentKey(pub Arc<CubeMap>);
 
 impl EnvironmentKey {
@@ -23,7 +25,7 @@ impl PartialEq for EnvironmentKey {
 }
 
 /// The environment as it is seen behind the bubbles, out of focus.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DefocusKey {
     /// The environment.
     pub environment: EnvironmentKey,

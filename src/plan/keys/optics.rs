@@ -3,17 +3,18 @@
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 
 use crate::{
     physics::{
-        colour::{FilmOptics, Illuminant, QuadratureTask},
+        colour::{FilmOptics, Illuminant, QuadratureTask, QuadratureWavelength, fit_quadrature},
         optics::FilmMaterial,
     },
     scene::Quality,
 };
 
 /// A film in a light.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct OpticsKey {
     /// What the film is made of.
     pub film: FilmMaterial,
@@ -98,7 +99,7 @@ pub fn range_nm(thickest_nm: f64) -> f64 {
 }
 
 /// The fitted wavelengths that shaders sum over.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct QuadratureKey {
     /// Film and light.
     pub optics: OpticsKey,
@@ -135,6 +136,18 @@ impl QuadratureKey {
             && white.min_element() >= Self::MIN_PRIMARY * white.max_element()
             && optics.film.reference_index() <= Self::MAX_FACTOR_INDEX;
         Self { optics, range_nm, quality, from_table }
+    }
+
+    /// The wavelengths themselves.
+    #[must_use]
+    pub fn wavelengths(&self) -> Vec<QuadratureWavelength> {
+        fit_quadrature(&self.optics.spectra_to(self.fitted_nm()), self.task(), self.count(), self.fitted_nm())
+    }
+
+    /// Thickness that they resolve, in nm.
+    #[must_use]
+    pub fn fitted_nm(&self) -> f64 {
+        self.resolved_nm().min(self.range_nm)
     }
 
     /// The task of the sum.
