@@ -31,8 +31,22 @@ pub fn load_environment(
     make_environment(light, folder, notes)
 }
 
+#[cfg(target_arch = "wasm32")]
+impl super::LightNamed {
+    /// Makes its environment.
+    ///
+    /// # Errors
+    /// A file cannot be read.
+    pub fn made(&self) -> Result<super::MadeEnvironment, LoadError> {
+        let scene = crate::scene::SceneSource::new("light", &self.scene, &[]).read()?;
+        let mut notes = Vec::new();
+        let (map, spectral_lights) = make_environment(&scene.light, &self.folder, &mut notes)?;
+        Ok(super::MadeEnvironment(map, spectral_lights, notes))
+    }
+}
+
 /// Reads or computes the environment that a light names.
-pub(super) fn make_environment(
+fn make_environment(
     light: &Light,
     folder: &Path,
     notes: &mut Vec<String>,

@@ -9,24 +9,23 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use super::{LoadError, light::make_environment};
 use crate::{
     physics::environment::CubeMap,
     plan::SpectralLight,
-    scene::{Light, Scene, SceneSource},
+    scene::{Light, Scene},
 };
 
 /// What a light names, for another memory.
 #[derive(Serialize, Deserialize)]
 pub struct LightNamed {
     /// A scene with this light, TOML.
-    scene: String,
-    folder: PathBuf,
+    pub(super) scene: String,
+    pub(super) folder: PathBuf,
 }
 
 /// An environment, its spectral lights, and notes about files.
 #[derive(Serialize, Deserialize)]
-pub struct MadeEnvironment(Arc<CubeMap>, Vec<SpectralLight>, Vec<String>);
+pub struct MadeEnvironment(pub(super) Arc<CubeMap>, pub(super) Vec<SpectralLight>, pub(super) Vec<String>);
 
 thread_local! {
     static MADE: RefCell<Option<(Light, PathBuf, MadeEnvironment)>> = const { RefCell::new(None) };
@@ -38,17 +37,6 @@ impl LightNamed {
     pub fn new(light: &Light, folder: &Path) -> Self {
         let scene = Scene { light: light.clone(), ..Scene::default() }.to_toml();
         Self { scene, folder: folder.to_owned() }
-    }
-
-    /// Makes its environment.
-    ///
-    /// # Errors
-    /// A file cannot be read.
-    pub fn made(&self) -> Result<MadeEnvironment, LoadError> {
-        let scene = SceneSource::new("light", &self.scene, &[]).read()?;
-        let mut notes = Vec::new();
-        let (map, spectral_lights) = make_environment(&scene.light, &self.folder, &mut notes)?;
-        Ok(MadeEnvironment(map, spectral_lights, notes))
     }
 }
 

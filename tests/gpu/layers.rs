@@ -16,7 +16,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("studio", &["output", "input", "verify", "gpu", "plan", "scene", "physics"]),
     ("export", &["studio", "output", "input", "verify", "gpu", "plan", "scene", "physics"]),
     ("cli", &["export", "studio", "output", "input", "verify", "gpu", "plan", "scene", "physics"]),
-    ("app", &["export", "studio", "output", "input", "gpu", "plan", "scene", "physics"]),
+    ("app", &["export", "studio", "output", "input", "verify", "gpu", "plan", "scene", "physics"]),
     ("web", &["app", "input", "gpu", "scene"]),
 ];
 

@@ -5,13 +5,10 @@ use glam::DVec3;
 use crate::{
     physics::{
         colour::{FilmOptics, Illuminant, Walls},
-        film::properties::{DENSITY, GRAVITY, VISCOSITY},
-        optics::{FilmMaterial, cos_refracted, newton_order},
+        optics::{FilmMaterial, newton_order},
     },
     words::words,
 };
-
-use super::Task;
 
 words! {
     /// What a task asks for.
@@ -22,8 +19,8 @@ words! {
         Order = "order", "Order of Newton's colours, from 1 on";
         Luminance = "luminance", "Part of white light that is reflected as the eye weighs it (Y), per cent";
         Reflectance = "reflectance", "Part of unpolarised light of `wavelength_nm` that is reflected, per cent";
-        ReflectanceS = "reflectance-s", "The same of s light, whose electric field is perpendicular to the plane of incidence";
-        ReflectanceP = "reflectance-p", "The same of p light, whose electric field lies in the plane of incidence";
+        ReflectanceS = "reflectance-s", "Part of s light of `wavelength_nm` that is reflected, per cent; its electric field is perpendicular to the plane of incidence";
+        ReflectanceP = "reflectance-p", "Part of p light of `wavelength_nm` that is reflected, per cent; its electric field lies in the plane of incidence";
         ChromaticityX = "x", "Chromaticity x (CIE 1931) of the reflected light";
         ChromaticityY = "y", "Chromaticity y (CIE 1931) of the reflected light";
         BrightThickness = "bright-thickness", "Thickness, nm, that reflects `wavelength_nm` the most, of an `order`";
@@ -95,27 +92,4 @@ impl FilmPoint {
         let optics = FilmOptics::resolving(self.film.clone(), &self.illuminant, self.thickness_nm);
         optics.xyz(self.cos_theta, Walls::One { thickness_nm: self.thickness_nm })
     }
-}
-
-/// What the optics and mechanics say is the answer of a task about a film that its keys describe; `None` if they leave the film open.
-#[must_use]
-pub(super) fn computed(task: &Task) -> Option<f64> {
-    let (water, nm) = (FilmMaterial::default(), task.wavelength_nm);
-    let n = water.index.n(nm);
-    let fringe_nm = nm / (2.0 * n * cos_refracted(n, task.cos_theta()));
-    Some(match task.quantity {
-        Quantity::BrightThickness => (f64::from(task.order) - 0.5) * fringe_nm,
-        Quantity::DarkThickness => f64::from(task.order) * fringe_nm,
-        Quantity::BrewsterAngle => n.atan().to_degrees(),
-        Quantity::DrainageTime => drainage_s(task.thickness_nm?, task.to_nm?, task.radius_mm),
-        Quantity::EvaporationTime => (task.thickness_nm? - task.to_nm?) / task.evaporation_nm_s,
-        quantity => task.film()?.measure(quantity, nm)?,
-    })
-}
-
-/// Time in which the top of a bubble drains between immobile surfaces from one thickness to another, s: `dh/dt = −(ρ g / 6 μ R) h³` integrated.
-fn drainage_s(from_nm: f64, to_nm: f64, radius_mm: f64) -> f64 {
-    let inverse_square = |nm: f64| (1e-9 * nm).powi(-2);
-    let (mu, weight) = (VISCOSITY, DENSITY * GRAVITY);
-    3.0 * mu * 1e-3 * radius_mm / weight * (inverse_square(to_nm) - inverse_square(from_nm))
 }

@@ -1,7 +1,11 @@
 //! Tasks: what a student is asked, and how an answer is judged.
 
 use crate::{
-    physics::{colour::Illuminant, optics::FilmMaterial},
+    physics::{
+        colour::Illuminant,
+        film::properties::{DENSITY, GRAVITY, VISCOSITY},
+        optics::{FilmMaterial, cos_refracted},
+    },
     scene::{
         check::{Checked, Fault},
         section::section,
@@ -9,7 +13,7 @@ use crate::{
     words::words,
 };
 
-use super::{FilmPoint, Quantity, quantity::computed};
+use super::{FilmPoint, Quantity};
 
 words! {
     /// How a task is answered.
@@ -52,7 +56,7 @@ impl Task {
         self.check_ranges()?;
         self.illuminant.parse::<Illuminant>().map_err(|error| Fault::unusable("illuminant", error))?;
         let quantity = self.quantity.name();
-        match (self.kind, self.answer, computed(self)) {
+        match (self.kind, self.answer, self.computed()) {
             (Kind::Pin, _, _) if !self.quantity.is_of_point() => Err(Fault::new(
                 "quantity",
                 format!("is \"{quantity}\", which no point of a film has; ask for a number"),
@@ -68,11 +72,26 @@ impl Task {
         }
     }
 
+    /// What the optics and mechanics say is the answer, about the film that the keys describe; `None` if they leave the film open.
+    fn computed(&self) -> Option<f64> {
+        let (water, nm) = (FilmMaterial::default(), self.wavelength_nm);
+        let n = water.index.n(nm);
+        let fringe_nm = nm / (2.0 * n * cos_refracted(n, self.cos_theta()));
+        Some(match self.quantity {
+            Quantity::BrightThickness => (f64::from(self.order) - 0.5) * fringe_nm,
+            Quantity::DarkThickness => f64::from(self.order) * fringe_nm,
+            Quantity::BrewsterAngle => n.atan().to_degrees(),
+            Quantity::DrainageTime => drainage_s(self.thickness_nm?, self.to_nm?, self.radius_mm),
+            Quantity::EvaporationTime => (self.thickness_nm? - self.to_nm?) / self.evaporation_nm_s,
+            quantity => self.film()?.measure(quantity, nm)?,
+        })
+    }
+
     /// The right answer; `None` if it is what the probe has measured, and nothing is pinned.
     #[must_use]
     pub fn right_answer(&self, pinned: Option<&FilmPoint>) -> Option<f64> {
         let measured = || pinned?.measure(self.quantity, self.wavelength_nm);
-        self.answer.or_else(|| computed(self)).or_else(measured)
+        self.answer.or_else(|| self.computed()).or_else(measured)
     }
 
     /// Judges a number that was typed; `None` if a point must be pinned first.
@@ -94,12 +113,12 @@ impl Task {
         if off.abs() <= self.tolerance + 1e-9 * answer.abs() { Verdict::Right(given) } else { Verdict::Off(off) }
     }
 
-    pub(super) fn cos_theta(&self) -> f64 {
+    fn cos_theta(&self) -> f64 {
         self.angle_deg.to_radians().cos()
     }
 
     /// The film of water that the keys describe; `None` if they leave its thickness open.
-    pub(super) fn film(&self) -> Option<FilmPoint> {
+    fn film(&self) -> Option<FilmPoint> {
         let (thickness_nm, cos_theta) = (self.thickness_nm?, self.cos_theta());
         let illuminant = self.illuminant.parse().ok()?;
         Some(FilmPoint { film: FilmMaterial::default(), illuminant, thickness_nm, cos_theta })
@@ -109,4 +128,11 @@ impl Task {
     pub(super) fn with_every_key() -> Self {
         Self { answer: Some(0.0), thickness_nm: Some(0.0), to_nm: Some(1.0), ..Self::default() }
     }
+}
+
+/// Time in which the top of a bubble drains between immobile surfaces from one thickness to another, s: `dh/dt = −(ρ g / 6 μ R) h³` integrated.
+fn drainage_s(from_nm: f64, to_nm: f64, radius_mm: f64) -> f64 {
+    let inverse_square = |nm: f64| (1e-9 * nm).powi(-2);
+    let (mu, weight) = (VISCOSITY, DENSITY * GRAVITY);
+    3.0 * mu * 1e-3 * radius_mm / weight * (inverse_square(to_nm) - inverse_square(from_nm))
 }
