@@ -35,7 +35,7 @@ impl Seed {
         let cap = grids.cap;
         let values = |sphere| Values::new(sphere, cap, value);
         let film = values(grids.film);
-        let level = if from_mean { film.level() } else { 0.0 };
+        let level = if from_mean { film.level(grids, value) } else { 0.0 };
         Self { level, film: film.seeded(level), tracer: grids.tracer.map(|sphere| values(sphere).seeded(level)) }
     }
 }
@@ -76,9 +76,13 @@ impl Values {
         Self { values, cells, film_area }
     }
 
-    /// The mean over the film; 0 if it is not finite.
-    fn level(&self) -> f32 {
-        let sum: f64 = self.cells.iter().map(|(area, place)| area * self.values[*place]).sum();
+    /// The mean over the film; 0 if it is not finite. Cells that the rim cuts count with the function's own value, not its image's.
+    fn level(&self, grids: &SeedGrids, value: &impl Fn(DVec3) -> f64) -> f32 {
+        let at = |(cell, (area, place)): (usize, &(f64, usize))| {
+            let is_cut = *area > 0.0 && grids.cap.is_some_and(|cap| !cap.contains(grids.film.cell_direction(cell)));
+            area * if is_cut { value(grids.film.cell_direction(cell)) } else { self.values[*place] }
+        };
+        let sum: f64 = self.cells.iter().enumerate().map(at).sum();
         if sum.is_finite() { (sum / self.film_area) as f32 } else { 0.0 }
     }
 
