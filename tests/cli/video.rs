@@ -150,7 +150,7 @@ fn an_interrupted_video_leaves_nothing() {
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
     assert_ne!(desk.files(), ["a.gif"], "the run is over before it was interrupted");
-    assert!(Command::new("kill").args(["-s", "INT", &program.id().to_string()]).status().unwrap().success());
+    assert!(Command::new("kill").args(["-s", "TERM", &program.id().to_string()]).status().unwrap().success());
     program.wait().unwrap();
     assert_eq!(desk.files(), [] as [&str; 0]);
 }
