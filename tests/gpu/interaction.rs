@@ -118,7 +118,7 @@ fn a_pushed_bubble_matches_the_f64_picture() {
     for (to_m, largest_stretch, limit) in [([0.0, 0.05, 0.02], 0.02, 5e-4), ([0.0, 0.3, 0.1], 0.2, 3e-3)] {
         let mut loaded = dragged("tent", to_m);
         loaded.scene.camera.target_m = [0.0, to_m[1], to_m[2]];
-        let (seen, truth, stretch) = pushed_picture(&mut renderer, &loaded, [48, 30]);
+        let (seen, truth, stretch) = pushed_picture(&mut renderer, &loaded, [64, 40]);
         let size = (0..3).map(|k| (stretch.col(k) - DMat3::IDENTITY.col(k)).abs().max_element()).fold(0.0, f64::max);
         assert!(size > 1e-3 && size < largest_stretch, "{size}");
         let brightest = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
