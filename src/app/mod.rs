@@ -10,7 +10,7 @@
 //! | `system` | what differs between desktops and browsers: threads, dialogs, paths |
 //! | `exports` | the dialog for pictures, video and maps, and the queue of what is being made |
 //! | [`request`] | what goes from the model to the system, and the questions that come before |
-//! | [`compare`], [`reference`] | a kept picture beside another one, and the reference picture in f64 |
+//! | [`compare`], [`mod@reference`] | a kept picture beside another one, and the reference picture in f64 |
 //! | [`course`] | a lesson that is taken, and how its answers are judged |
 //! | [`probe`], `film_reader` | numbers of the film under the pointer, and all that is known of a pinned point |
 //! | [`overlay`], [`colour_map`] | false colour over the picture, and the profile of a film along a line |

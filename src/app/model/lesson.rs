@@ -53,7 +53,7 @@ impl Model {
         }
     }
 
-    /// Takes what the probe has read, as [`super::probe::Probe::answer`]; the lesson judges a new pin.
+    /// Takes what the probe has read, as [`Probe::answer`](crate::app::probe::Probe::answer); the lesson judges a new pin.
     pub fn answer_probe(&mut self, reading: Option<Reading>, walls: &[WallInSight], is_read: bool) -> bool {
         let is_pinned = is_read && self.probe.is_clicked();
         let is_new = self.probe.answer(reading, walls, is_read);
