@@ -27,7 +27,7 @@ pub struct Course {
 pub enum Outcome {
     /// It was judged.
     Judged(Verdict),
-    /// What was typed is no number.
+    /// What was typed is not a number.
     NotANumber,
     /// A point must be pinned first.
     PinFirst,

@@ -43,6 +43,7 @@ enum Outcome {
     Exported(u64, Result<(), String>),
     Failed(String),
     NotSaved(String),
+    NotChosen,
     Nothing,
 }
 
@@ -214,7 +215,7 @@ impl Files {
         system::choose_file(target, &model.folder, name, window, move |answer| {
             tell(match answer {
                 Ok(Some(path)) => Outcome::Chosen(target, path),
-                Ok(None) => Outcome::Nothing,
+                Ok(None) => Outcome::NotChosen,
                 Err(system::NoDialog) => Outcome::NoDialog(target),
             });
         });
@@ -318,8 +319,13 @@ impl Files {
                 model.loading = model.loading.take().filter(|_| !current);
                 model.once_saved = None;
             }
-            Outcome::Nothing => model.once_saved = None,
-            Outcome::Scene(_) | Outcome::Lesson(..) | Outcome::Step(_) | Outcome::TakenUp(..) | Outcome::Light(..) => {}
+            Outcome::NotChosen => model.once_saved = None,
+            Outcome::Nothing
+            | Outcome::Scene(_)
+            | Outcome::Lesson(..)
+            | Outcome::Step(_)
+            | Outcome::TakenUp(..)
+            | Outcome::Light(..) => {}
         }
         None
     }

@@ -99,7 +99,7 @@ pub enum OptionsError {
     /// A size that is none.
     #[error("write a size as WIDTHxHEIGHT, as in 1280x720")]
     NoSize,
-    /// A length that is no number.
+    /// A length that is not a number.
     #[error("`{0}` is not a number of pixels")]
     Length(String),
     /// A picture without pixels.

@@ -1,4 +1,4 @@
-//! What breaks solvers: extreme steps, grids, fields and winds, and values that are no numbers. In every case the field must stay finite,
+//! What breaks solvers: extreme steps, grids, fields and winds, and values that are not numbers. In every case the field must stay finite,
 //! within the range that it began with, and conserved.
 
 use glam::DVec3;
@@ -187,7 +187,7 @@ fn spoilt(run: &mut Run<'_>) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// Times that are no numbers, and steps back, are refused: 0 of them pass.
+/// Times that are not numbers, and steps back, are refused: 0 of them pass.
 fn refused(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut field = field(run.gpu, 16, RULES, bells)?;
     let mut passed = 0;

@@ -13,13 +13,10 @@ use crate::{
 };
 
 /// What an overlay was made of.
-#[derive(PartialEq)]
 pub(super) struct Overlaid {
     draw: DrawKey,
-    /// How many films had been read.
-    reads: u64,
-    of: FalseColour,
-    line: Option<[glam::DVec2; 2]>,
+    /// How many films had been read, what the colours show, and the line of a profile.
+    made_of: (u64, FalseColour, Option<[glam::DVec2; 2]>),
 }
 
 impl View {
@@ -33,8 +30,8 @@ impl View {
             return due.after(FETCH);
         }
         let line = model.overlay.profile.as_ref().map(|profile| profile.ends);
-        let made = Overlaid { draw: draw.clone(), reads: self.reader.reads(), of: model.overlay.of, line };
-        if self.overlaid.as_ref() == Some(&made) {
+        let made_of = (self.reader.reads(), model.overlay.of, line);
+        if self.overlaid.as_ref().is_some_and(|known| known.made_of == made_of && known.draw == *draw) {
             return;
         }
         let view = FilmView::new(draw, self.reader.films());
@@ -48,7 +45,7 @@ impl View {
                 bubbles.get(film).map_or(0.0, |bubble| bubble.film.thickness_nm)
             });
         }
-        self.overlaid = Some(made);
+        self.overlaid = Some(Overlaid { draw: draw.clone(), made_of });
         // The panels have not shown it yet.
         due.after(Duration::ZERO);
     }

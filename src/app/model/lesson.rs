@@ -27,7 +27,8 @@ impl Model {
         (course.typed, course.outcome) = (String::new(), None);
         let stage = |step| course.lesson.staged_by(step);
         // A step without a scene of its own goes on with what the student has made of the one before.
-        if step == 0 || stage(before) != stage(course.step) {
+        let staged = stage(course.step);
+        if staged.is_some() && (step == 0 || stage(before) != staged) {
             self.requests.push(Request::LoadStep);
         } else {
             self.take_probe();

@@ -30,33 +30,19 @@ impl Passage {
 
 /// What a display shows of a picture, with what the lens does to it.
 pub fn display(key: &TonemapKey, size: [u32; 2], radiance: &[Vec3]) -> Picture {
-    let display = key.display();
     let radiance = radiance.iter().map(|radiance| radiance.as_dvec3()).collect();
-    let finished = key.finish.applied(size, key.exposure_ev.exp2(), radiance);
-    encoded(key, size, &finished, |radiance, pixel| {
-        let [r, g, b] = display.encode(*radiance, pixel);
-        [r, g, b, u8::MAX]
-    })
+    Picture::Display { size, gamut: key.gamut, rgba: key.shown(size, radiance) }
 }
 
 /// What a display shows of bubbles alone, with straight alpha.
 pub fn display_alone(key: &TonemapKey, size: [u32; 2], light: &[Passage]) -> Picture {
-    let display = key.display();
+    let (display, width) = (key.display(), size[0] as usize);
     let to_display = key.gamut.from_bt2020() * key.balance;
-    encoded(key, size, light, |light, pixel| {
-        display.encode_alone(light.added.as_dvec3(), light.transmittance(&to_display), pixel)
-    })
-}
-
-fn encoded<T: Sync>(
-    key: &TonemapKey,
-    size: [u32; 2],
-    pixels: &[T],
-    encode: impl Fn(&T, [u32; 2]) -> [u8; 4] + Sync,
-) -> Picture {
-    let width = size[0] as usize;
-    let place = |k: usize| [(k % width) as u32, (k / width) as u32];
-    let rgba: Vec<[u8; 4]> = pixels.par_iter().enumerate().map(|(k, pixel)| encode(pixel, place(k))).collect();
+    let pixel = |(k, light): (usize, &Passage)| {
+        let place = [(k % width) as u32, (k / width) as u32];
+        display.encode_alone(light.added.as_dvec3(), light.transmittance(&to_display), place)
+    };
+    let rgba: Vec<[u8; 4]> = light.par_iter().enumerate().map(pixel).collect();
     Picture::Display { size, gamut: key.gamut, rgba: rgba.into_flattened() }
 }
 

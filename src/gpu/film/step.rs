@@ -15,7 +15,7 @@ use crate::gpu::{
 use crate::physics::film::model::{Operation, PRESCRIBED_STEP};
 
 impl Field {
-    /// Moves the liquid by one step that lasts some ticks. Steps back, and those whose times are no numbers, are refused.
+    /// Moves the liquid by one step that lasts some ticks. Steps back, and those whose times are not numbers, are refused.
     pub fn advance(&mut self, recorder: &mut Recorder<'_>, step: &Step, ticks: u32) -> Result<(), GpuError> {
         PRESCRIBED_STEP.into_iter().try_for_each(|operation| self.run(operation, recorder, step, ticks))
     }

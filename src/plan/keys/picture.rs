@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::{DefocusKey, EnvironmentKey, FilmKey, OpenHoleKey, Opening, PlateKey, QuadratureKey, TableKey};
 use crate::physics::{
@@ -380,6 +381,18 @@ impl TonemapKey {
     #[must_use]
     pub fn display(&self) -> Display {
         Display { exposure_ev: self.exposure_ev, balance: self.balance, gamut: self.gamut, dither: self.dither }
+    }
+
+    /// What a display shows of a linear picture of a size, BT.2020, row by row from the top left, with what a lens does to it: RGBA, 8 bits.
+    #[must_use]
+    pub fn shown(&self, size: [u32; 2], radiance: Vec<DVec3>) -> Vec<u8> {
+        let (display, width) = (self.display(), size[0] as usize);
+        let finished = self.finish.applied(size, self.exposure_ev.exp2(), radiance);
+        let pixel = |(k, radiance): (usize, &DVec3)| {
+            let [r, g, b] = display.encode(*radiance, [(k % width) as u32, (k / width) as u32]);
+            [r, g, b, u8::MAX]
+        };
+        finished.par_iter().enumerate().map(pixel).collect::<Vec<_>>().into_flattened()
     }
 
     /// Factor that exposes the linear picture, which is exposed by whole stops already.
