@@ -56,7 +56,7 @@ fn frames(text: &str) -> Result<Frames, String> {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let Frames(frames) = arguments.frames.clone();
-    let target = SequenceTarget::of(&arguments.output, arguments.format, arguments.overwrite);
+    let target = SequenceTarget::of(&arguments.output, arguments.format, arguments.overwrite)?;
     if let SequenceTarget::Video { path, format } = &target {
         check_target(path)?;
         if arguments.format == Format::Exr {

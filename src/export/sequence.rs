@@ -36,10 +36,18 @@ pub enum SequenceTarget {
 
 impl SequenceTarget {
     /// The video that a file's ending names, or else a folder. A folder that is there is one whatever it is called.
-    pub fn of(path: &Path, format: Format, overwrite: bool) -> Self {
-        match VideoFormat::of_ending(&ending(path)).filter(|_| !path.is_dir()) {
-            Some(format) => Self::Video { path: path.to_owned(), format },
-            None => Self::Folder { folder: path.to_owned(), format, overwrite },
+    ///
+    /// # Errors
+    /// It is called like one picture.
+    pub fn of(path: &Path, format: Format, overwrite: bool) -> anyhow::Result<Self> {
+        let is_new = !path.is_dir();
+        match VideoFormat::of_ending(&ending(path)).filter(|_| is_new) {
+            Some(format) => Ok(Self::Video { path: path.to_owned(), format }),
+            None if is_new && Format::of(path).is_ok() => bail!(
+                "{}: a sequence is more than one picture: name a folder for its frames, or a video (.mp4, .webm, .gif, .apng)",
+                path.display()
+            ),
+            None => Ok(Self::Folder { folder: path.to_owned(), format, overwrite }),
         }
     }
 
@@ -160,14 +168,19 @@ mod tests {
         let target = |name: &str| SequenceTarget::of(Path::new(name), Format::Png, false);
         for (name, format) in [("a.mp4", VideoFormat::Mp4), ("b.WebM", VideoFormat::WebM), ("c.gif", VideoFormat::Gif)]
         {
-            assert_eq!(target(name), SequenceTarget::Video { path: name.into(), format });
+            assert_eq!(target(name).unwrap(), SequenceTarget::Video { path: name.into(), format });
         }
-        for name in ["frames", "a.png", "v1.0"] {
-            assert!(matches!(target(name), SequenceTarget::Folder { .. }), "{name}");
+        for name in ["frames", "v1.0"] {
+            assert!(matches!(target(name), Ok(SequenceTarget::Folder { .. })), "{name}");
+        }
+        for name in ["a.png", "b.EXR"] {
+            assert!(target(name).unwrap_err().to_string().contains("more than one picture"), "{name}");
         }
         let folder = tempfile::tempdir().unwrap();
-        let named = folder.path().join("a.mp4");
-        std::fs::create_dir(&named).unwrap();
-        assert!(matches!(target(named.to_str().unwrap()), SequenceTarget::Folder { .. }));
+        for name in ["a.mp4", "a.png"] {
+            let named = folder.path().join(name);
+            std::fs::create_dir(&named).unwrap();
+            assert!(matches!(target(named.to_str().unwrap()), Ok(SequenceTarget::Folder { .. })));
+        }
     }
 }

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use glam::DVec3;
-use soapfilm::physics::colour::{BT709, ciede2000, srgb_decode, xyz_to_lab};
+use soapfilm::studio::difference;
 
 /// What differs between two pictures of the same size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,11 +25,10 @@ impl Comparison {
         if golden_size != size || golden.len() != now.len() || golden.len() != 4 * pixels {
             return Err(format!("{golden_size:?} against {size:?} pixels cannot be compared"));
         }
-        let pairs = || golden.chunks_exact(4).zip(now.chunks_exact(4));
         Ok(Self {
             max_steps: golden.iter().zip(now).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0),
-            pixels: pairs().filter(|(a, b)| a != b).count(),
-            mean_delta_e: pairs().map(|(a, b)| delta_e(a, b)).sum::<f64>() / pixels as f64,
+            pixels: golden.chunks_exact(4).zip(now.chunks_exact(4)).filter(|(a, b)| a != b).count(),
+            mean_delta_e: difference(golden, now).mean,
         })
     }
 }
@@ -43,17 +41,6 @@ impl fmt::Display for Comparison {
             self.pixels, self.max_steps, self.mean_delta_e
         )
     }
-}
-
-fn delta_e(a: &[u8], b: &[u8]) -> f64 {
-    if a == b {
-        return 0.0;
-    }
-    let lab = |pixel: &[u8]| {
-        let linear = [0, 1, 2].map(|channel: usize| srgb_decode(f64::from(pixel[channel]) / 255.0));
-        xyz_to_lab(BT709.to_xyz() * DVec3::from(linear), BT709.to_xyz() * DVec3::ONE)
-    };
-    ciede2000(lab(a), lab(b))
 }
 
 mod tests {
