@@ -17,8 +17,8 @@ use winit::{
 };
 
 use super::{
-    AppError, files::Files, frame::View, keeper::Keeper, model::Model, panels, producer::Producer, stage::Stage,
-    storage::Storage, style, system,
+    AppError, files::Files, frame::View, keeper::Keeper, model::Model, panels, producer::Producer, request::Request,
+    stage::Stage, storage::Storage, style, system,
 };
 use crate::{
     gpu::{AdapterChoice, Gpu},
