@@ -12,12 +12,12 @@ import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, extname, join, normalize } from "node:path";
 
-import { THREE_PAGES, THREE_TESTS } from "./three.mjs";
-import { PATIENCE_MS, SCENE, difference, drag, drop, link, ready, settle, toml, until } from "./tools.mjs";
+import { NODE_TESTS, THREE_PAGES, WEBGL_TESTS } from "./three.mjs";
+import { MODULES, PATIENCE_MS, SCENE, difference, drag, drop, link, ready, settle, toml, until } from "./tools.mjs";
 import { TOUCH_TESTS } from "./touch.mjs";
 
 const [folder, soapfilm, filter = ""] = process.argv.slice(2);
-const { chromium } = createRequire(join(process.env.PLAYWRIGHT ?? process.cwd(), "any.js"))("playwright-core");
+const { chromium } = createRequire(join(MODULES, "any.js"))("playwright-core");
 const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const scratch = mkdtempSync(join(tmpdir(), "soapfilm-browser-"));
 
@@ -30,6 +30,9 @@ const WITH_WEBGPU = [
   "--use-angle=vulkan",
   "--disable-gpu-watchdog",
 ];
+
+// A WebGPU that composes with Vulkan leaves Chromium no WebGL.
+const WITH_WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
 // Pages that only this test has.
 const PAGES = {
@@ -47,7 +50,7 @@ async function serve(root) {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://any").pathname));
     if (PAGES[path]) return response.writeHead(200, { "content-type": TYPES[extname(path)] ?? "text/plain" }).end(PAGES[path]);
     // Modules of npm lie beside the browser's driver.
-    const modules = path.startsWith("/three/") && join(process.env.PLAYWRIGHT ?? process.cwd(), "node_modules");
+    const modules = path.startsWith("/three/") && join(MODULES, "node_modules");
     const file = join(modules || root, path.endsWith("/") ? `${path}index.html` : path);
     if (!existsSync(file) || !statSync(file).isFile()) return response.writeHead(404).end();
     response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
@@ -235,17 +238,12 @@ const TESTS = {
 };
 
 /** Without WebGPU the page says what to do, and shows a picture. */
-async function testWithout() {
-  const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu"] });
-  const server = await serve(folder);
-  const page = await browser.newPage();
+async function testWithout({ page, address }) {
   await page.addInitScript(() => Object.defineProperty(Navigator.prototype, "gpu", { value: undefined }));
-  await page.goto(server.address);
+  await page.goto(address);
   await page.waitForFunction(() => document.documentElement.dataset.soapfilm === "error");
   assert.match(await page.textContent("#soapfilm-message"), /no WebGPU.*Use Chrome/);
   assert(await page.locator("img").evaluate((picture) => picture.decode().then(() => picture.checkVisibility())));
-  await browser.close();
-  server.close();
 }
 
 /** Runs a test in a page of its own, where every message of an error fails it. */
@@ -260,21 +258,29 @@ async function run(browser, address, test) {
   assert.deepEqual(errors, []);
 }
 
-const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", ...WITH_WEBGPU] });
 const server = await serve(folder);
-const all = { ...TESTS, ...TOUCH_TESTS, ...THREE_TESTS, "without WebGPU the page says so": testWithout };
 let failed = 0;
-for (const [name, test] of Object.entries(all).filter(([name]) => name.includes(filter))) {
-  const begun = performance.now();
-  try {
-    await run(browser, server.address, test);
-    console.log(`ok      ${name} (${((performance.now() - begun) / 1000).toFixed(1)} s)`);
-  } catch (error) {
-    failed += 1;
-    console.log(`FAILED  ${name}\n${error.stack}`);
+
+/** Runs the tests whose names are asked for, in a browser with these arguments. */
+async function runAll(tests, args) {
+  const asked = Object.entries(tests).filter(([name]) => name.includes(filter));
+  if (!asked.length) return;
+  const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", ...args] });
+  for (const [name, test] of asked) {
+    const begun = performance.now();
+    try {
+      await run(browser, server.address, test);
+      console.log(`ok      ${name} (${((performance.now() - begun) / 1000).toFixed(1)} s)`);
+    } catch (error) {
+      failed += 1;
+      console.log(`FAILED  ${name}\n${error.stack}`);
+    }
   }
+  await browser.close();
 }
-await browser.close();
+
+await runAll({ ...TESTS, ...TOUCH_TESTS, ...NODE_TESTS }, WITH_WEBGPU);
+await runAll({ ...WEBGL_TESTS, "without WebGPU the page says so": testWithout }, WITH_WEBGL);
 server.close();
 rmSync(scratch, { recursive: true });
 process.exitCode = failed ? 1 : 0;

@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 
 import { deltaE } from "./delta_e.mjs";
-import { PATIENCE_MS } from "./tools.mjs";
+import { MODULES, PATIENCE_MS } from "./tools.mjs";
 
 const IMPORTS = {
   three: "/three/build/three.module.js",
@@ -222,12 +222,14 @@ async function hold({ page, address, soapfilm }, name) {
   return { measure, one };
 }
 
-const ONE_WALL = { mean: 0.1, max: 1 };
-const TWO_WALLS = { mean: 1, max: 5 };
+// The table's own error, which `film.txt` tells: 0.018 and 0.08 with 512 rows.
+const ONE_WALL = { mean: 0.025, max: 0.1 };
+// Products of colours stand for products at each wavelength: measured 0.52 and 2.24.
+const TWO_WALLS = { mean: 0.6, max: 2.5 };
 
 /** Answers for the network with the package that is at hand. */
 async function routeThree(page) {
-  const root = join(process.env.PLAYWRIGHT ?? process.cwd(), "node_modules/three");
+  const root = join(MODULES, "node_modules/three");
   await page.route("https://cdn.jsdelivr.net/npm/three@*/**", (route) => {
     const path = new URL(route.request().url()).pathname.replace(/^\/npm\/three@[^/]*/, root);
     assert(existsSync(path), path);
@@ -235,16 +237,20 @@ async function routeThree(page) {
   });
 }
 
-export const THREE_TESTS = {
+/** Tests on WebGPU. */
+export const NODE_TESTS = {
+  async "the node material for three.js has the film's colours"(given) {
+    await hold(given, "nodes");
+  },
+};
+
+/** Tests on WebGL. */
+export const WEBGL_TESTS = {
   async "the material for three.js has the film's colours"(given) {
     const { measure, one } = await hold(given, "webgl");
     const theirs = errors(FILMS, await measure(FILMS, 1, "iridescence"), ofFilms(given.soapfilm), 1);
     console.log(`measured: KHR_materials_iridescence in three.js, one wall ${told(theirs)}`);
     assert(theirs.mean > 10 * one.mean, "the measure tells a wrong film from a right one");
-  },
-
-  async "the node material for three.js has the film's colours"(given) {
-    await hold(given, "nodes");
   },
 
   async "the node material has them on WebGL too"(given) {

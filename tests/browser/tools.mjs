@@ -1,7 +1,11 @@
 // What the tests of the page do with it.
 
 import assert from "node:assert/strict";
+import { resolve } from "node:path";
 import { deflateRawSync } from "node:zlib";
+
+/** Where npm has put modules. */
+export const MODULES = resolve(process.env.PLAYWRIGHT ?? ".");
 
 // Software machines are slow, and the gate runs on few cores.
 export const PATIENCE_MS = 120_000;
