@@ -253,8 +253,12 @@ async function run(browser, address, test) {
   const errors = [];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
-  await test({ page, address, soapfilm });
-  await context.close();
+  try {
+    await test({ page, address, soapfilm });
+  } finally {
+    // A page that is left would go on drawing, beside the next test.
+    await context.close();
+  }
   assert.deepEqual(errors, []);
 }
 

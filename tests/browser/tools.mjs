@@ -56,18 +56,24 @@ export function until(page, condition) {
 /** Waits until the page has had time for what it was told. */
 export async function settle(page) {
   await page.waitForTimeout(1000);
+  await frames(page);
+}
+
+/** Waits until the page has drawn what it was told: a press and a move in one frame are no drag. */
+export async function frames(page) {
+  await page.waitForTimeout(150);
   await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
 }
 
-/** Drags the pointer, slowly enough for egui to see a drag. */
+/** Drags the pointer. */
 export async function drag(page, [x, y], [dx, dy]) {
   await page.mouse.move(x, y);
   await page.mouse.down();
   for (let k = 1; k <= 4; k++) {
-    await page.waitForTimeout(150);
+    await frames(page);
     await page.mouse.move(x + (k * dx) / 4, y + (k * dy) / 4);
   }
-  await page.waitForTimeout(150);
+  await frames(page);
   await page.mouse.up();
 }
 

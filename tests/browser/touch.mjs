@@ -2,19 +2,19 @@
 
 import assert from "node:assert/strict";
 
-import { SCENE, link, ready, settle, toml, until } from "./tools.mjs";
+import { SCENE, frames, link, ready, settle, toml, until } from "./tools.mjs";
 
-/** Moves fingers in a few steps, slowly enough for egui to see each: `places(part)` are theirs for a part from 0 to 1. */
+/** Moves fingers in a few steps: `places(part)` are theirs for a part from 0 to 1. */
 async function fingers(page, places) {
   const devtools = await page.context().newCDPSession(page);
   const touch = (type, places) =>
     devtools.send("Input.dispatchTouchEvent", { type, touchPoints: places.map(([x, y], id) => ({ x, y, id })) });
   await touch("touchStart", places(0));
   for (let k = 1; k <= 4; k++) {
-    await page.waitForTimeout(150);
+    await frames(page);
     await touch("touchMove", places(k / 4));
   }
-  await page.waitForTimeout(150);
+  await frames(page);
   await touch("touchEnd", []);
 }
 
@@ -31,9 +31,15 @@ export const TOUCH_TESTS = {
     await oneFinger(page);
     await until(page, `(toml) => toml !== ${JSON.stringify(begun)}`);
     await settle(page);
+    await page.keyboard.press("2");
+    await page.keyboard.press("Space");
+    await settle(page);
+    await oneFinger(page);
+    await until(page, '(toml) => toml.includes("[[event]]")');
+    await settle(page);
+
     const [azimuth_deg, distance_m] = [await value(page, "azimuth_deg"), await value(page, "distance_m")];
     assert(Number.isFinite(azimuth_deg), await toml(page));
-
     await fingers(page, (part) => [
       [300 - 60 * part, 300],
       [340 + 60 * part, 300],
@@ -43,11 +49,5 @@ export const TOUCH_TESTS = {
     // Fingers 160 pixels apart that were 40 apart.
     const nearer = distance_m / (await value(page, "distance_m"));
     assert(nearer > 2, `${nearer} times nearer: ${await toml(page)}`);
-
-    await page.keyboard.press("2");
-    await page.keyboard.press("Space");
-    await settle(page);
-    await oneFinger(page);
-    await until(page, '(toml) => toml.includes("[[event]]")');
   },
 };
