@@ -13,7 +13,7 @@ import { tmpdir } from "node:os";
 import { dirname, extname, join, normalize } from "node:path";
 
 import { NODE_TESTS, THREE_PAGES, WEBGL_TESTS } from "./three.mjs";
-import { MODULES, PATIENCE_MS, SCENE, difference, drag, drop, link, ready, settle, toml, until } from "./tools.mjs";
+import { MODULES, PATIENCE_MS, SCENE, difference, drag, drop, link, ready, settle, ticks, toml, until } from "./tools.mjs";
 import { TOUCH_TESTS } from "./touch.mjs";
 
 const [folder, soapfilm, filter = ""] = process.argv.slice(2);
@@ -107,7 +107,7 @@ const TESTS = {
     await page.keyboard.press("2");
     await page.keyboard.press("Space");
     await settle(page);
-    await drag(page, [300, 300], [120, 0]);
+    await drag(page, [300, 300], [120, 0], ticks);
     await until(page, '(toml) => toml.includes("[[event]]")');
     await settle(page);
     await page.keyboard.press("Control+z");

@@ -65,15 +65,22 @@ export async function frames(page) {
   await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
 }
 
-/** Drags the pointer. */
-export async function drag(page, [x, y], [dx, dy]) {
+/** Waits until film time has passed: only what lasts in that stirs a film, and a slow machine needs long for a tick. */
+export async function ticks(page) {
+  await frames(page);
+  const begun = await page.evaluate(() => window.soapfilm.time);
+  await page.waitForFunction((begun) => window.soapfilm.time > begun, begun, { timeout: PATIENCE_MS });
+}
+
+/** Drags the pointer, and waits at each step. */
+export async function drag(page, [x, y], [dx, dy], wait = frames) {
   await page.mouse.move(x, y);
   await page.mouse.down();
   for (let k = 1; k <= 4; k++) {
-    await frames(page);
+    await wait(page);
     await page.mouse.move(x + (k * dx) / 4, y + (k * dy) / 4);
   }
-  await frames(page);
+  await wait(page);
   await page.mouse.up();
 }
 

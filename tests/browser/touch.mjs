@@ -2,23 +2,23 @@
 
 import assert from "node:assert/strict";
 
-import { SCENE, frames, link, ready, settle, toml, until } from "./tools.mjs";
+import { SCENE, frames, link, ready, settle, ticks, toml, until } from "./tools.mjs";
 
-/** Moves fingers in a few steps: `places(part)` are theirs for a part from 0 to 1. */
-async function fingers(page, places) {
+/** Moves fingers in a few steps, and waits at each: `places(part)` are theirs for a part from 0 to 1. */
+async function fingers(page, places, wait = frames) {
   const devtools = await page.context().newCDPSession(page);
   const touch = (type, places) =>
     devtools.send("Input.dispatchTouchEvent", { type, touchPoints: places.map(([x, y], id) => ({ x, y, id })) });
   await touch("touchStart", places(0));
   for (let k = 1; k <= 4; k++) {
-    await frames(page);
+    await wait(page);
     await touch("touchMove", places(k / 4));
   }
-  await frames(page);
+  await wait(page);
   await touch("touchEnd", []);
 }
 
-const oneFinger = (page) => fingers(page, (part) => [[300 + 120 * part, 300]]);
+const oneFinger = (page, wait) => fingers(page, (part) => [[300 + 120 * part, 300]], wait);
 
 /** A number of the scene. */
 const value = async (page, key) => Number(new RegExp(`^${key} = (.*)$`, "m").exec(await toml(page))?.[1]);
@@ -34,7 +34,7 @@ export const TOUCH_TESTS = {
     await page.keyboard.press("2");
     await page.keyboard.press("Space");
     await settle(page);
-    await oneFinger(page);
+    await oneFinger(page, ticks);
     await until(page, '(toml) => toml.includes("[[event]]")');
     await settle(page);
 
