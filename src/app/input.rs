@@ -6,12 +6,20 @@ use egui::{Event, RawInput};
 /// of a button once a part then sees every press, at its place.
 #[must_use]
 pub fn one_by_one(mut input: RawInput) -> Vec<RawInput> {
-    let events = std::mem::take(&mut input.events);
+    let mut events = std::mem::take(&mut input.events);
+    events.iter_mut().for_each(join_fingers);
     // A frame without input is a frame.
     if events.is_empty() {
         return vec![input];
     }
     events.split_inclusive(ends_part).map(|events| part(&mut input, events.to_vec())).collect()
+}
+
+/// Browsers name a device for each finger, and egui zooms by the fingers of one device.
+fn join_fingers(event: &mut Event) {
+    if let Event::Touch { device_id, .. } = event {
+        *device_id = egui::TouchDeviceId(0);
+    }
 }
 
 /// Whether an event is a press or a release that must be seen by itself.
@@ -75,5 +83,28 @@ mod tests {
         assert_eq!(parts.iter().map(|part| part.events.len()).collect::<Vec<_>>(), [3, 1]);
         assert_eq!(parts.into_iter().flat_map(|part| part.events).collect::<Vec<_>>(), events);
         assert_eq!(one_by_one(RawInput::default()).len(), 1, "a frame without input is a frame");
+    }
+
+    #[test]
+    fn fingers_belong_together_whatever_device_is_named_for_each() {
+        let ctx = Context::default();
+        let touch = |finger: u64, phase, x: f32| Event::Touch {
+            device_id: egui::TouchDeviceId(finger),
+            id: egui::TouchId(finger),
+            phase,
+            pos: pos2(x, 0.0),
+            force: None,
+        };
+        let mut zoom = 1.0;
+        for events in [
+            vec![Event::PointerMoved(pos2(0.0, 0.0))],
+            vec![touch(1, egui::TouchPhase::Start, 0.0), touch(2, egui::TouchPhase::Start, 40.0)],
+            vec![touch(2, egui::TouchPhase::Move, 120.0)],
+        ] {
+            for part in one_by_one(RawInput { events, ..RawInput::default() }) {
+                ctx.run_ui(part, |ui| zoom *= ui.input(egui::InputState::zoom_delta)).drop_without_applying_deltas();
+            }
+        }
+        assert!((zoom - 3.0).abs() < 1e-4, "{zoom}");
     }
 }

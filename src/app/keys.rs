@@ -137,7 +137,7 @@ pub const POINTER: [(&str, &str); 6] = [
     ("Drag", "Turn around the bubble"),
     ("Click", "Select a bubble"),
     ("Drag with a tool", "Stir, blow at or move a bubble; beside it, turn the view"),
-    ("Right or Shift drag", "Shift the view"),
+    ("Right, Shift or two-finger drag", "Shift the view"),
     ("Wheel, pinch", "Zoom, also into the bubble"),
     ("Double click", "Frame the bubbles"),
 ];

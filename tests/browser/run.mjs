@@ -1,7 +1,8 @@
 // The program in a real browser: node tests/browser/run.mjs FOLDER SOAPFILM [FILTER]
 //
 // FOLDER is what `./dev web` builds, SOAPFILM the command-line program, FILTER a part of the tests' names. Chromium draws with SwiftShader, and so
-// does the program that it is compared with. CHROMIUM and PLAYWRIGHT name the browser and the folder of playwright-core.
+// does the program that it is compared with. CHROMIUM and PLAYWRIGHT name the browser and the folder where npm has put
+// playwright-core and three.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -10,15 +11,16 @@ import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, extname, join, normalize } from "node:path";
-import { deflateRawSync } from "node:zlib";
+
+import { NODE_TESTS, THREE_PAGES, WEBGL_TESTS } from "./three.mjs";
+import { MODULES, PATIENCE_MS, SCENE, difference, drag, drop, link, ready, settle, ticks, toml, until } from "./tools.mjs";
+import { TOUCH_TESTS } from "./touch.mjs";
 
 const [folder, soapfilm, filter = ""] = process.argv.slice(2);
-const { chromium } = createRequire(join(process.env.PLAYWRIGHT ?? process.cwd(), "any.js"))("playwright-core");
+const { chromium } = createRequire(join(MODULES, "any.js"))("playwright-core");
 const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const scratch = mkdtempSync(join(tmpdir(), "soapfilm-browser-"));
 
-// Software machines are slow, and the gate runs on few cores.
-const PATIENCE_MS = 120_000;
 // Chromium shows canvases of WebGPU only if it composes with Vulkan too.
 const WITH_WEBGPU = [
   "--enable-unsafe-webgpu",
@@ -29,20 +31,15 @@ const WITH_WEBGPU = [
   "--disable-gpu-watchdog",
 ];
 
-// Soap films of few cells in even light, which cost little.
-const SCENE = `version = 1
-[light]
-constant = [1.0, 1.0, 1.0]
-[[bubble]]
-[bubble.film]
-cells = 64
-`;
+// A WebGPU that composes with Vulkan leaves Chromium no WebGL.
+const WITH_WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
 // Pages that only this test has.
 const PAGES = {
   "/npm/two.html": `<!doctype html><link rel="icon" href="data:," /><script type="module" src="./soap-bubble.js"></script>
     <soap-bubble scene="furnace" controls></soap-bubble><soap-bubble scene="./quiet.toml" paused></soap-bubble>`,
   "/npm/quiet.toml": SCENE,
+  ...THREE_PAGES,
 };
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".jpg": "image/jpeg" };
@@ -52,7 +49,9 @@ async function serve(root) {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://any").pathname));
     if (PAGES[path]) return response.writeHead(200, { "content-type": TYPES[extname(path)] ?? "text/plain" }).end(PAGES[path]);
-    const file = join(root, path.endsWith("/") ? `${path}index.html` : path);
+    // Modules of npm lie beside the browser's driver.
+    const modules = path.startsWith("/three/") && join(MODULES, "node_modules");
+    const file = join(modules || root, path.endsWith("/") ? `${path}index.html` : path);
     if (!existsSync(file) || !statSync(file).isFile()) return response.writeHead(404).end();
     response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
     response.end(readFileSync(file));
@@ -79,76 +78,7 @@ function rendered(scene, size, time) {
   return readFileSync(file);
 }
 
-/** The greatest difference of two PNG files, in levels of 8 bits, and how many pixels differ by more than 2. */
-function difference(page, pngs) {
-  const texts = pngs.map((png) => `data:image/png;base64,${png.toString("base64")}`);
-  return page.evaluate(async (texts) => {
-    const pixels = async (text) => {
-      const picture = await createImageBitmap(await (await fetch(text)).blob(), { colorSpaceConversion: "none" });
-      const context = new OffscreenCanvas(picture.width, picture.height).getContext("2d");
-      context.drawImage(picture, 0, 0);
-      return context.getImageData(0, 0, picture.width, picture.height);
-    };
-    const [a, b] = await Promise.all(texts.map(pixels));
-    if (a.width !== b.width || a.height !== b.height) return { sizes: [a.width, a.height, b.width, b.height] };
-    const differences = a.data.map((value, at) => Math.abs(value - b.data[at]));
-    return { max: differences.reduce((x, y) => Math.max(x, y)), above2: differences.filter((d) => d > 2).length };
-  }, texts);
-}
-
-const state = (page) => page.evaluate(() => document.documentElement.dataset.soapfilm);
-
-/** Waits until a page's picture is there, or fails with its message. */
-async function ready(page) {
-  await page.waitForFunction(() => ["ready", "error"].includes(document.documentElement.dataset.soapfilm), null, {
-    timeout: PATIENCE_MS,
-  });
-  assert.equal(await state(page), "ready", await page.textContent("#soapfilm-message"));
-}
-
-const toml = (page) => page.evaluate(() => window.soapfilm.toToml());
-
-/** Waits until the scene's TOML passes a test. */
-function until(page, condition) {
-  return page.waitForFunction(`(${condition})(window.soapfilm.toToml())`, null, { timeout: PATIENCE_MS, polling: 200 });
-}
-
-/** Waits until the page has had time for what it was told. */
-async function settle(page) {
-  await page.waitForTimeout(1000);
-  await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
-}
-
-/** Drags the pointer, slowly enough for egui to see a drag. */
-async function drag(page, [x, y], [dx, dy]) {
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  for (let k = 1; k <= 4; k++) {
-    await page.waitForTimeout(150);
-    await page.mouse.move(x + (k * dx) / 4, y + (k * dy) / 4);
-  }
-  await page.waitForTimeout(150);
-  await page.mouse.up();
-}
-
-/** Drops a file on the page. */
-function drop(page, name, text) {
-  return page.evaluate(
-    ([name, text]) => {
-      const dataTransfer = new DataTransfer();
-      dataTransfer.items.add(new File([text], name));
-      document.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
-    },
-    [name, text],
-  );
-}
-
 const SIZE = "240x160";
-
-/** The address of a page that shows a scene, with time paused. */
-function link(address, toml, query = "") {
-  return `${address}/?pause=1${query}#scene=${deflateRawSync(toml).toString("base64url")}`;
-}
 
 const TESTS = {
   async "the picture is the program's own"({ page, address }) {
@@ -177,7 +107,7 @@ const TESTS = {
     await page.keyboard.press("2");
     await page.keyboard.press("Space");
     await settle(page);
-    await drag(page, [300, 300], [120, 0]);
+    await drag(page, [300, 300], [120, 0], ticks);
     await until(page, '(toml) => toml.includes("[[event]]")');
     await settle(page);
     await page.keyboard.press("Control+z");
@@ -308,17 +238,12 @@ const TESTS = {
 };
 
 /** Without WebGPU the page says what to do, and shows a picture. */
-async function testWithout() {
-  const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu"] });
-  const server = await serve(folder);
-  const page = await browser.newPage();
+async function testWithout({ page, address }) {
   await page.addInitScript(() => Object.defineProperty(Navigator.prototype, "gpu", { value: undefined }));
-  await page.goto(server.address);
+  await page.goto(address);
   await page.waitForFunction(() => document.documentElement.dataset.soapfilm === "error");
   assert.match(await page.textContent("#soapfilm-message"), /no WebGPU.*Use Chrome/);
   assert(await page.locator("img").evaluate((picture) => picture.decode().then(() => picture.checkVisibility())));
-  await browser.close();
-  server.close();
 }
 
 /** Runs a test in a page of its own, where every message of an error fails it. */
@@ -328,26 +253,38 @@ async function run(browser, address, test) {
   const errors = [];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
-  await test({ page, address });
-  await context.close();
+  try {
+    await test({ page, address, soapfilm });
+  } finally {
+    // A page that is left would go on drawing, beside the next test.
+    await context.close();
+  }
   assert.deepEqual(errors, []);
 }
 
-const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", ...WITH_WEBGPU] });
 const server = await serve(folder);
-const all = { ...TESTS, "without WebGPU the page says so": testWithout };
 let failed = 0;
-for (const [name, test] of Object.entries(all).filter(([name]) => name.includes(filter))) {
-  const begun = performance.now();
-  try {
-    await run(browser, server.address, test);
-    console.log(`ok      ${name} (${((performance.now() - begun) / 1000).toFixed(1)} s)`);
-  } catch (error) {
-    failed += 1;
-    console.log(`FAILED  ${name}\n${error.stack}`);
+
+/** Runs the tests whose names are asked for, in a browser with these arguments. */
+async function runAll(tests, args) {
+  const asked = Object.entries(tests).filter(([name]) => name.includes(filter));
+  if (!asked.length) return;
+  const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", ...args] });
+  for (const [name, test] of asked) {
+    const begun = performance.now();
+    try {
+      await run(browser, server.address, test);
+      console.log(`ok      ${name} (${((performance.now() - begun) / 1000).toFixed(1)} s)`);
+    } catch (error) {
+      failed += 1;
+      console.log(`FAILED  ${name}\n${error.stack}`);
+    }
   }
+  await browser.close();
 }
-await browser.close();
+
+await runAll({ ...TESTS, ...TOUCH_TESTS, ...NODE_TESTS }, WITH_WEBGPU);
+await runAll({ ...WEBGL_TESTS, "without WebGPU the page says so": testWithout }, WITH_WEBGL);
 server.close();
 rmSync(scratch, { recursive: true });
 process.exitCode = failed ? 1 : 0;

@@ -1,7 +1,8 @@
 //! The picture's place in the window, and what the pointer does there.
 
 use egui::{
-    CentralPanel, Color32, Context, Frame, LayerId, PointerButton, Pos2, Rect, Response, Sense, Stroke, Ui, vec2,
+    CentralPanel, Color32, Context, Frame, InputState, LayerId, PointerButton, Pos2, Rect, Response, Sense, Stroke, Ui,
+    Vec2, vec2,
 };
 use glam::DVec2;
 
@@ -22,15 +23,42 @@ pub fn show(ui: &mut Ui, follow_deg: f64) -> Picture {
         .show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
+            let fingers = fingers(ui, &response);
             Picture {
                 rect,
-                gesture: gesture(ui, &response, follow_deg),
-                pressed: pressed(ui, &response),
+                gesture: gesture(ui, &response, follow_deg, fingers),
+                pressed: if fingers == Fingers::One { pressed(ui, &response) } else { None },
                 hovered: response.hover_pos().map(|at| place(rect, at)),
                 clicked: response.clicked(),
             }
         })
         .inner
+}
+
+/// How many fingers hold the picture; a mouse is one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fingers {
+    One,
+    /// Two or more, and how far their middle has moved, in points.
+    More(Vec2),
+    /// One of more that have been lifted since.
+    Left,
+}
+
+/// The first of several fingers is also the pointer: until it is lifted, it neither turns the view nor has a tool in hand.
+fn fingers(ui: &Ui, response: &Response) -> Fingers {
+    let were_more = response.id.with("fingers");
+    if let Some(touch) = ui.input(InputState::multi_touch) {
+        ui.data_mut(|data| data.insert_temp(were_more, true));
+        return Fingers::More(touch.translation_delta);
+    }
+    if !ui.data(|data| data.get_temp(were_more).unwrap_or(false)) {
+        return Fingers::One;
+    }
+    if !ui.input(|input| input.pointer.any_down() || input.any_touches()) {
+        ui.data_mut(|data| data.insert_temp(were_more, false));
+    }
+    Fingers::Left
 }
 
 /// The pointer, if its primary button is held without Shift, which would shift the view.
@@ -62,11 +90,17 @@ pub fn outline(ctx: &Context, picture: Rect, model: &Model) {
     }
 }
 
-fn gesture(ui: &Ui, response: &Response, follow_deg: f64) -> Gesture {
+fn gesture(ui: &Ui, response: &Response, follow_deg: f64, fingers: Fingers) -> Gesture {
     let height = f64::from(response.rect.height()).max(1.0);
-    let drag = response.drag_delta();
+    let drag = match fingers {
+        Fingers::One => response.drag_delta(),
+        Fingers::More(moved) if response.contains_pointer() => moved,
+        Fingers::More(_) | Fingers::Left => Vec2::ZERO,
+    };
     let drag = DVec2::new(f64::from(drag.x), f64::from(drag.y)) / height;
-    let shifts = ui.input(|input| input.modifiers.shift) || !response.dragged_by(PointerButton::Primary);
+    let shifts = fingers != Fingers::One
+        || ui.input(|input| input.modifiers.shift)
+        || !response.dragged_by(PointerButton::Primary);
     let mut gesture = Gesture { frame: response.double_clicked(), ..Gesture::default() };
     *(if shifts { &mut gesture.shift } else { &mut gesture.turn }) = drag;
     if response.hovered() && !ui.input(|input| input.pointer.any_down()) {

@@ -189,3 +189,43 @@ fn every_size_of_window_has_a_layout() {
         assert!(window.state().picture.is_some());
     }
 }
+
+#[test]
+fn two_fingers_zoom_and_shift_but_neither_turn_nor_press() {
+    let mut window = window();
+    let middle = window.state().picture.unwrap().rect.center();
+    let touch = |id: u64, phase, pos| egui::Event::Touch {
+        device_id: egui::TouchDeviceId(1),
+        id: egui::TouchId(id),
+        phase,
+        pos,
+        force: None,
+    };
+    // The first finger is the pointer too, as in a window.
+    window.drag_at(middle);
+    window.event(touch(1, egui::TouchPhase::Start, middle));
+    window.step();
+    assert!(window.state().picture.unwrap().pressed.is_some());
+    window.event(touch(2, egui::TouchPhase::Start, middle + vec2(50.0, 0.0)));
+    window.step();
+    window.hover_at(middle - vec2(50.0, 0.0));
+    window.event(touch(1, egui::TouchPhase::Move, middle - vec2(50.0, 0.0)));
+    window.step();
+    let picture = window.state().picture.unwrap();
+    assert!((picture.gesture.zoom - 2.0_f64.ln()).abs() < 1e-3, "{}", picture.gesture.zoom);
+    let shift = picture.gesture.shift * f64::from(picture.rect.height());
+    assert!((shift.x + 25.0).abs() < 0.01 && shift.y == 0.0, "{shift}");
+    assert_eq!((picture.gesture.turn, picture.pressed.is_none()), (glam::DVec2::ZERO, true));
+    // The finger that is left does nothing until it is lifted.
+    window.event(touch(2, egui::TouchPhase::End, middle + vec2(50.0, 0.0)));
+    window.hover_at(middle);
+    window.step();
+    let picture = window.state().picture.unwrap();
+    assert_eq!((picture.gesture.turn, picture.pressed.is_none()), (glam::DVec2::ZERO, true));
+    window.event(touch(1, egui::TouchPhase::End, middle));
+    window.drop_at(middle);
+    window.run_steps(2);
+    window.drag_at(middle);
+    window.step();
+    assert!(window.state().picture.unwrap().pressed.is_some());
+}
