@@ -155,7 +155,7 @@ impl Run<'_> {
         let started = Instant::now();
         match part {
             Part::Optics => optics::run(self),
-            Part::Picture => picture::run(self).and_then(|()| antialiasing::run(self)),
+            Part::Picture => antialiasing::run(self).and_then(|()| picture::run(self)),
             Part::Crowd => crowd::run(self),
             Part::Transport => transport::run(self),
             Part::Flow => flow::run(self),
