@@ -18,11 +18,18 @@ import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, W
 import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
 import package::sphere::others::OtherBubble;
-import package::sphere::path::{Path, footprint, polarisation_along};
+import package::sphere::path::{Path, footprint, polarisation_along, spanned_angles};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
-// Samples along each side of a pixel: 1, or more near the outline, and for bubbles of a few pixels, whose film is finer than a pixel.
+// Samples along each side of a pixel, or in all where they stand in a line: 1, or more near the outline, and for bubbles of a few pixels, whose film
+// is finer than a pixel.
 override SAMPLES: u32;
+// 1: the samples stand in a line through the pixel's middle, towards the bubble's center, along which a bubble shows most in a pixel.
+override IN_LINE: u32;
+// Lookups of the surroundings in a reflection, at most.
+override ENVIRONMENT_TAPS: u32;
+// How many times as long as wide what a lookup of the surroundings is filtered over may be.
+const MAX_TAP_ASPECT: f32 = 2.0;
 // 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
 override OUTLINE: u32;
 // 1: the bubble is an ellipsoid. It is traced where it is round: `unstretch` takes the picture there, `stretch` back.
@@ -164,6 +171,24 @@ fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
     return environment_radiance(environment, environment_sampler, light, upward(direction), footprint);
 }
 
+// Light from the surroundings along a reflection, averaged over what the sample spans of them: towards the limb a strip in the plane of incidence,
+// which lookups stand along. All of them share what is seen of the film, which changes less across a pixel.
+fn reflected_surroundings(path: Path, direction: vec3f, turns: f32) -> vec3f {
+    let angles = spanned_angles(path, direction, turns);
+    if (ENVIRONMENT_TAPS == 1u) {
+        return surroundings(direction, footprint(angles));
+    }
+    let taps = clamp(ceil(angles.x / (MAX_TAP_ASPECT * max(angles.y, 1e-9))), 1.0, f32(ENVIRONMENT_TAPS));
+    let part = vec2f(angles.x / taps, angles.y);
+    // Straight through the middle there is no plane of incidence, and one lookup.
+    let along = cross(path.across / max(length(path.across), 1e-9), direction);
+    var sum = vec3f(0.0);
+    for (var k = 0.0; k < taps; k += 1.0) {
+        sum += surroundings(direction + (k + 0.5 - 0.5 * taps) * part.x * along, footprint(part));
+    }
+    return sum / taps;
+}
+
 fn dimmed(steps: mat4x3f, first: vec3f, later: vec3f) -> mat4x3f {
     return mat4x3f(first * steps[0], later * steps[1], later * steps[2], later * steps[3]);
 }
@@ -208,7 +233,7 @@ struct Followed {
 
 fn followed(path: Path, before: Followed) -> Followed {
     var after = reflected_inside(path, before);
-    after.light *= surroundings(after.hop.direction, footprint(path, after.hop.direction, -2.0 * after.reflections));
+    after.light *= reflected_surroundings(path, after.hop.direction, -2.0 * after.reflections);
     return after;
 }
 
@@ -240,12 +265,14 @@ fn straight_through(path: Path, is_inside: bool) -> Followed {
         let front = select(past_meniscus(front_z, bubble.radius_m), 1.0, is_inside);
         behind = front * past_meniscus(back.z, bubble.radius_m) * drawn_light(path.position);
     } else {
-        behind = left * crossing(back.z, path.direction.z, path.direction) * backdrop(path.direction, path.pixel);
+        let width = sqrt(path.pixel.x * path.pixel.y);
+        behind = left * crossing(back.z, path.direction.z, path.direction) * backdrop(path.direction, width);
     }
     return Followed(Hop(back, path.direction), 0.0, left, behind);
 }
 
-// Width of the thicknesses that a sample spans, in nm: the change of the path in the film from pixel to pixel, which angles have a part in.
+// Width of the thicknesses that a sample spans, in nm: the change of the path in the film from pixel to pixel, which angles have a part in. Of samples
+// in a line each spans its part of the pixel along the line, and all of it across.
 fn spread_nm(path: Path, walls_nm: vec4f) -> vec4f {
     if (FILTERED == 0u) {
         return vec4f(0.0);
@@ -254,7 +281,13 @@ fn spread_nm(path: Path, walls_nm: vec4f) -> vec4f {
     let path_nm = cos_t * walls_nm;
     let across = dpdx(path_nm);
     let down = dpdy(path_nm);
-    return sqrt(across * across + down * down) / (f32(SAMPLES) * cos_t);
+    if (IN_LINE == 0u) {
+        return sqrt(across * across + down * down) / (f32(SAMPLES) * cos_t);
+    }
+    let line = outward_in_picture(path.position);
+    let along = (line.x * across + line.y * down) / f32(SAMPLES);
+    let beside = line.x * down - line.y * across;
+    return sqrt(along * along + beside * beside) / cos_t;
 }
 
 // Four hits more, and where the ray is after them.
@@ -315,11 +348,11 @@ struct MirroredRays {
 
 // Light from both, with other bubbles in it.
 fn outer_and_first(path: Path, rays: MirroredRays, is_inside: bool) -> array<vec3f, 2> {
-    let outer = footprint(path, rays.outward, 2.0);
-    let first = footprint(path, rays.inward, -2.0);
     if (MIRRORS_OTHERS == 0u) {
-        return array(surroundings(rays.outward, outer), surroundings(rays.inward, first));
+        return array(reflected_surroundings(path, rays.outward, 2.0), reflected_surroundings(path, rays.inward, -2.0));
     }
+    let outer = footprint(spanned_angles(path, rays.outward, 2.0));
+    let first = footprint(spanned_angles(path, rays.inward, -2.0));
     var seen = array(vec3f(0.0), vec3f(0.0));
     // In a loop, so that its code stands once.
     for (var k = select(0u, 1u, is_inside); k < 2u; k++) {
@@ -412,7 +445,7 @@ fn wall_reflection(path: Path, nm: f32, spread_nm: f32, polarisation: vec2f, ste
 }
 
 // Geometry of a view ray that meets the sphere.
-fn path_along(direction: vec3f, width: f32, position: vec2f) -> Path {
+fn path_along(direction: vec3f, width: vec2f, position: vec2f) -> Path {
     let eye = to_round(-bubble.to_center_m) / bubble.radius_m;
     var round = direction;
     if (STRETCHED == 1u) {
@@ -464,17 +497,18 @@ fn outline(plane: vec3f, width: f32) -> Silhouette {
 }
 
 // What is seen of the bubble along a ray that is known to meet it.
-fn bubble_radiance(direction: vec3f, width: f32, position: vec2f) -> vec3f {
+fn bubble_radiance(direction: vec3f, width: vec2f, position: vec2f) -> vec3f {
     return film_radiance(path_along(direction, width, position), eye_is_inside());
 }
 
-// One sample: the bubble as far as it covers the sample's square, what is beside it in the rest.
-fn sample_radiance(position: vec2f, width: f32) -> vec3f {
+// One sample: the bubble as far as it covers the sample's box, what is beside it in the rest. `width` is the box's, in pixels: towards the bubble's
+// center and across.
+fn sample_radiance(position: vec2f, width: vec2f) -> vec3f {
     let plane = view_plane(view, position);
     if (OUTLINE == 0u) {
         return bubble_radiance(normalize(plane), width, position);
     }
-    let edge = outline(plane, width);
+    let edge = outline(plane, width.x);
     // Not only where it is covered: derivatives need the neighbours.
     let radiance = bubble_radiance(edge.inside, width, position);
     let ray = normalize(plane);
@@ -488,15 +522,38 @@ fn mean_radiance(position: vec2f, side: u32) -> vec3f {
     var total = vec3f(0.0);
     for (var k = 0u; k < side * side; k++) {
         let offset = vec2f(f32(k % side) + 0.5, f32(k / side) + 0.5) * width;
-        total += sample_radiance(corner + offset, width);
+        total += sample_radiance(corner + offset, vec2f(width));
     }
     return total * width * width;
+}
+
+// The mean over samples in a line through a pixel's middle. Across any direction a pixel is as wide as its side, by its variance.
+fn mean_in_line(position: vec2f, count: u32) -> vec3f {
+    let along = outward_in_picture(position);
+    let width = 1.0 / f32(count);
+    var total = vec3f(0.0);
+    for (var k = 0u; k < count; k++) {
+        let offset = (f32(k) + 0.5) * width - 0.5;
+        total += sample_radiance(position + offset * along, vec2f(width, 1.0));
+    }
+    return total * width;
+}
+
+// Unit vector in the picture, y down, along which the angle to the bubble's center grows.
+fn outward_in_picture(position: vec2f) -> vec2f {
+    let ray = normalize(view_plane(view, position));
+    let turn = dot(ray, bubble.to_center_m) * ray - bubble.to_center_m;
+    let rate = vec2f(dot(turn, view.right), -dot(turn, view.up));
+    return rate / max(length(rate), 1e-30);
 }
 
 @fragment
 fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if (SAMPLES == 1u) {
-        return vec4f(storable(sample_radiance(position.xy, 1.0)), 1.0);
+        return vec4f(storable(sample_radiance(position.xy, vec2f(1.0))), 1.0);
+    }
+    if (IN_LINE == 1u) {
+        return vec4f(storable(mean_in_line(position.xy, SAMPLES)), 1.0);
     }
     return vec4f(storable(mean_radiance(position.xy, SAMPLES)), 1.0);
 }
@@ -510,8 +567,8 @@ fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if (edge.coverage <= 0.0) {
         return vec4f(storable(behind), 1.0);
     }
-    let path = path_along(edge.inside, 1.0, position.xy);
+    let path = path_along(edge.inside, vec2f(1.0), position.xy);
     let direction = mirrored(path, path.foot - path.half_chord * path.round);
-    let shown = light.seen * surroundings(direction, footprint(path, direction, 2.0));
+    let shown = light.seen * surroundings(direction, footprint(spanned_angles(path, direction, 2.0)));
     return vec4f(storable(mix(behind, shown, edge.coverage)), 1.0);
 }

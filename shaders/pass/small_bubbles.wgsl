@@ -11,7 +11,7 @@ import package::optics::film_colour::{COLOURED, POLARISED};
 import package::optics::shares::between_walls;
 import package::optics::table::{FilmPoint, TableAxes, table_coordinates};
 import package::sphere::others::{OtherBubble, chord_through, other_nm};
-import package::sphere::path::{Path, footprint, polarisation_along};
+import package::sphere::path::{Path, footprint, polarisation_along, spanned_angles};
 import package::sphere::silhouette::silhouette;
 
 // Side of a tile in pixels.
@@ -77,7 +77,7 @@ fn path_through(bubble: OtherBubble, direction: vec3f, pixel: f32) -> Path {
         foot,
         cos_theta,
         cos_theta,
-        pixel,
+        vec2f(pixel),
         abs(dot(eye, direction)) / max(cos_theta, 1e-3),
         length(foot) / distance,
         -eye / distance,
@@ -87,7 +87,8 @@ fn path_through(bubble: OtherBubble, direction: vec3f, pixel: f32) -> Path {
 }
 
 fn surroundings(path: Path, direction: vec3f, turns: f32) -> vec3f {
-    return environment_radiance(environment, environment_sampler, light, direction, footprint(path, direction, turns));
+    let width = footprint(spanned_angles(path, direction, turns));
+    return environment_radiance(environment, environment_sampler, light, direction, width);
 }
 
 // What a wall makes of light: a column for each primary.

@@ -14,8 +14,8 @@ struct Path {
     // Half of a chord there.
     half_chord: f32,
     cos_theta: f32,
-    // Angle that the sample spans.
-    pixel: f32,
+    // Angles that the sample spans: towards the bubble's center and across.
+    pixel: vec2f,
     // Rate at which theta turns as the ray turns, radians per radian.
     theta_rate: f32,
     // sin of the angle between the ray and the direction to the center.
@@ -28,12 +28,17 @@ struct Path {
     position: vec2f,
 }
 
-// Footprint of a reflected direction: its spread in the plane of incidence, where the sphere's curvature widens it, and across,
-// where it turns about the axis through the center. The geometric mean, but no finer than a quarter of the wider one.
-fn footprint(path: Path, direction: vec3f, turns: f32) -> f32 {
-    let along = path.pixel * abs(1.0 + turns * path.theta_rate);
-    let across = path.pixel * length(cross(direction, path.to_center)) / max(path.sin_view, 1e-6);
-    return max(sqrt(along * across), 0.25 * max(along, across));
+// Angles that a sample spans of reflected directions: in the plane of incidence, where the sphere's curvature widens its spread, and across,
+// where it turns about the axis through the center.
+fn spanned_angles(path: Path, direction: vec3f, turns: f32) -> vec2f {
+    let along = path.pixel.x * abs(1.0 + turns * path.theta_rate);
+    let across = path.pixel.y * length(cross(direction, path.to_center)) / max(path.sin_view, 1e-6);
+    return vec2f(along, across);
+}
+
+// Footprint of a lookup over such angles. The geometric mean, but no finer than a quarter of the wider one.
+fn footprint(angles: vec2f) -> f32 {
+    return max(sqrt(angles.x * angles.y), 0.25 * max(angles.x, angles.y));
 }
 
 // Shares of s and p light that a polariser leaves which passes fields along a direction: theirs stand across the plane of incidence and in it.

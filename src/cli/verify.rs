@@ -9,7 +9,10 @@ use super::{AdapterArguments, PHYSICS_IS_LESS_CERTAIN, failure, progress::Bar};
 use crate::{
     export::Progress,
     gpu::Gpu,
+    input::load_scene,
     output::{check_target, print, write_text},
+    plan::Resources,
+    scene::Scene,
     verify::{Check, Extent, Part, Run},
 };
 
@@ -73,12 +76,18 @@ fn measure(arguments: &Arguments, gpu: &Gpu) -> anyhow::Result<Vec<Check>> {
             checks.push(check);
         };
         let extent = if arguments.long { Extent::Long } else { Extent::Full };
-        Run { gpu, extent, report: &mut report }.part(*part)?;
+        Run { gpu, extent, preset: &preset, report: &mut report }.part(*part)?;
     }
     if parts.iter().any(|part| matches!(part, Part::Optics | Part::Picture)) {
         print(PHYSICS_IS_LESS_CERTAIN)?;
     }
     Ok(checks)
+}
+
+/// A preset, with all that it names.
+fn preset(name: &str) -> Option<(Scene, Resources)> {
+    // Each preset loads, as a test shows; without this one its checks fail.
+    load_scene(name).ok().map(|loaded| (loaded.scene, loaded.resources))
 }
 
 /// Characters of a check's name; longer ones move the numbers to the right.

@@ -1,6 +1,8 @@
 //! The rings that a bubble's disc is drawn in. Towards its outline light grazes the film, stays inside for more reflections, and changes
 //! faster than pixels do: rings there follow more reflections and take more samples, and the middle does not pay for it.
 
+use glam::DMat3;
+
 use crate::{
     physics::{
         bubble::reach,
@@ -20,8 +22,12 @@ pub struct Ring {
     pub edges_rad: Option<[f64; 2]>,
     /// Inner reflections whose films are looked up: 1, 3, 7 or 11. After eleven, light is followed on: see `shaders/optics/walls.wgsl`.
     pub inner_reflections: u32,
-    /// Samples along each side of a pixel.
+    /// Samples along each side of a pixel, or in all where they stand in a line.
     pub samples: u32,
+    /// Whether the samples stand in a line through the pixel's middle, towards the bubble's center.
+    pub in_line: bool,
+    /// Lookups of the surroundings in a reflection, at most.
+    pub environment_taps: u32,
     /// Whether the outline crosses it.
     pub outline: bool,
 }
@@ -39,9 +45,26 @@ struct Care {
     deep_reflections: u32,
     /// How many within [`LIMB_PIXELS`] of the limb.
     limb_reflections: u32,
-    /// Samples along each side of a pixel there.
-    limb_samples: u32,
+    /// Samples of a pixel there.
+    limb_samples: LimbSamples,
 }
+
+/// Where samples are at the limb.
+#[derive(Clone, Copy)]
+enum LimbSamples {
+    /// On a grid, so many along each side of a pixel.
+    Grid(u32),
+    /// In a line towards the center, along which a bubble changes most: as good as a grid of the square of their number.
+    Line(u32),
+}
+
+/// Lookups of the surroundings in a reflection, at most. Pixels span more of them in the plane of incidence than across it: twice as much at a
+/// cosine of incidence of 0.7, and eight times at 0.35.
+const ENVIRONMENT_TAPS: u32 = 4;
+/// Cosine of incidence below which a film that is filtered takes several samples: a cell of 2.4 pixels, seen so obliquely, is one wide.
+const FILM_COS: f64 = 0.42;
+/// How many there.
+const FILM_SAMPLES: u32 = 2;
 
 /// Width of the outermost ring, in pixels: beyond it the cosine of incidence changes by less than a fifth from pixel to pixel.
 const LIMB_PIXELS: f64 = 3.0;
@@ -66,15 +89,15 @@ impl Care {
     }
 
     /// So many inner reflections in the middle, beyond an angle of incidence, and at the limb.
-    fn following([middle, deep, limb]: [u32; 3], deep_cos: f64, limb_samples: u32) -> Self {
+    fn following([middle, deep, limb]: [u32; 3], deep_cos: f64, limb_samples: LimbSamples) -> Self {
         Self { middle_reflections: middle, deep_cos, deep_reflections: deep, limb_reflections: limb, limb_samples }
     }
 
     fn of_water(quality: Quality) -> Self {
         match quality {
-            Quality::Fast => Self::following([1, 3, 3], 0.5, 2),
-            Quality::Standard => Self::following([3, 7, 7], 0.35, 2),
-            Quality::Spectral => Self::following([3, 7, 11], 0.7, 4),
+            Quality::Fast => Self::following([1, 3, 3], 0.5, LimbSamples::Line(4)),
+            Quality::Standard => Self::following([3, 7, 7], 0.35, LimbSamples::Line(4)),
+            Quality::Spectral => Self::following([3, 7, 11], 0.7, LimbSamples::Grid(4)),
         }
     }
 }
@@ -82,7 +105,7 @@ impl Care {
 impl Ring {
     /// The whole picture: what a bubble covers from inside.
     fn everywhere(inner_reflections: u32, samples: u32) -> Self {
-        Self { edges_rad: None, inner_reflections, samples, outline: false }
+        Self { edges_rad: None, inner_reflections, samples, in_line: false, environment_taps: 1, outline: false }
     }
 
     /// For the inner and the outer edge, a corner of the polygon around it: parts along the direction of the center and across.
@@ -113,8 +136,8 @@ fn pixel_rad(camera: &CameraKey, bubble: &BubbleKey) -> f64 {
 #[must_use]
 pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality, film: &FilmMaterial) -> Vec<Ring> {
     let care = Care::of(quality, film);
-    let deep_sin = (1.0 - care.deep_cos * care.deep_cos).sqrt();
     let Some(limb_rad) = limb_rad(camera, bubble) else {
+        let deep_sin = (1.0 - care.deep_cos * care.deep_cos).sqrt();
         let is_deep = eye_radii(camera, bubble) > deep_sin;
         return vec![Ring::everywhere(
             if is_deep { care.deep_reflections } else { care.middle_reflections },
@@ -123,18 +146,57 @@ pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality, film: &Fi
     };
     let pixel_rad = pixel_rad(camera, bubble);
     let ring_rad = (limb_rad - LIMB_PIXELS * pixel_rad).max(0.0);
-    let deep_rad = (deep_sin * limb_rad.sin()).asin().min(ring_rad);
-    let ring = |edges_rad: [f64; 2], inner_reflections: u32| Ring {
-        edges_rad: Some(edges_rad),
-        inner_reflections,
-        samples: bubble.samples,
-        outline: false,
+    let at_cos = |cos: f64| ((1.0 - cos * cos).sqrt() * limb_rad.sin()).asin().min(ring_rad);
+    let (deep_rad, film_rad) =
+        (at_cos(care.deep_cos), if is_filtered_in_line(bubble) { at_cos(FILM_COS) } else { ring_rad });
+    let inner = |[from, to]: [f64; 2]| {
+        let is_in_line = from >= film_rad;
+        Ring {
+            edges_rad: Some([from, to]),
+            inner_reflections: if from >= deep_rad { care.deep_reflections } else { care.middle_reflections },
+            samples: if is_in_line { FILM_SAMPLES } else { bubble.samples },
+            in_line: is_in_line,
+            environment_taps: environment_taps(bubble),
+            outline: false,
+        }
     };
-    let limb = ring([ring_rad, limb_rad + MARGIN_PIXELS * pixel_rad], care.limb_reflections);
-    let limb = Ring { samples: bubble.samples.max(care.limb_samples), outline: true, ..limb };
-    let rings =
-        [ring([0.0, deep_rad], care.middle_reflections), ring([deep_rad, ring_rad], care.deep_reflections), limb];
-    rings.into_iter().filter(|ring| ring.edges_rad.is_some_and(|[inner, outer]| outer > inner)).collect()
+    let edges_rad = [0.0, deep_rad.min(film_rad), deep_rad.max(film_rad), ring_rad];
+    let rings = edges_rad.windows(2).map(|edges| inner([edges[0], edges[1]]));
+    let limb = limb_ring(bubble, &care, [ring_rad, limb_rad + MARGIN_PIXELS * pixel_rad]);
+    rings.chain([limb]).filter(|ring| ring.edges_rad.is_some_and(|[inner, outer]| outer > inner)).collect()
+}
+
+/// The outermost ring, which the outline crosses.
+fn limb_ring(bubble: &BubbleKey, care: &Care, edges_rad: [f64; 2]) -> Ring {
+    let (samples, in_line) = match care.limb_samples {
+        LimbSamples::Line(samples) if is_sampled_in_line(bubble) => (samples, true),
+        // As many samples as the line has.
+        LimbSamples::Line(samples) => (bubble.samples.max(samples.isqrt()), false),
+        LimbSamples::Grid(side) => (bubble.samples.max(side), false),
+    };
+    Ring {
+        edges_rad: Some(edges_rad),
+        inner_reflections: care.limb_reflections,
+        samples,
+        in_line,
+        environment_taps: environment_taps(bubble),
+        outline: true,
+    }
+}
+
+/// Whether samples of a bubble may stand in a line: pixels have one elsewhere, and all reflections lie in the plane through the center.
+fn is_sampled_in_line(bubble: &BubbleKey) -> bool {
+    bubble.samples == 1 && bubble.stretch == DMat3::IDENTITY
+}
+
+/// Whether a film is filtered that may take samples in a line.
+fn is_filtered_in_line(bubble: &BubbleKey) -> bool {
+    bubble.filtered && is_sampled_in_line(bubble)
+}
+
+/// Lookups of the surroundings in a reflection. Where a pixel has several samples anyway they are lookups enough.
+fn environment_taps(bubble: &BubbleKey) -> u32 {
+    if is_sampled_in_line(bubble) { ENVIRONMENT_TAPS } else { 1 }
 }
 
 /// The one ring that covers all of a bubble: for the yardstick.
@@ -147,8 +209,62 @@ pub fn disc(camera: &CameraKey, bubble: &BubbleKey) -> Ring {
 
 #[cfg(test)]
 mod tests {
+    use glam::{DVec2, DVec3};
+
     use super::*;
-    use crate::physics::optics::FilmIndex;
+    use crate::{physics::optics::FilmIndex, plan::FilmKey};
+
+    /// A round bubble of 253 pixels before a camera, whose film is filtered or not.
+    fn seen(filtered: bool, stretch: DMat3) -> (CameraKey, BubbleKey) {
+        let camera = CameraKey {
+            eye_m: DVec3::ZERO,
+            forward: DVec3::X,
+            right: DVec3::NEG_Y,
+            up: DVec3::Z,
+            pixel_height_m: 1.0 / 2530.0,
+            shift: DVec2::ZERO,
+        };
+        let bubble = BubbleKey {
+            id: 1,
+            index: 0,
+            material: 0,
+            center_m: DVec3::X,
+            radius_m: 0.1,
+            stretch,
+            bounds: [DVec2::NEG_ONE, DVec2::ONE],
+            to_film: DMat3::IDENTITY,
+            evaporated_nm: 0.0,
+            samples: 1,
+            magnified: false,
+            filtered,
+            film: FilmKey::Uniform(500.0),
+            thickness_factor: 1.0,
+            hole: None,
+            cap: None,
+        };
+        (camera, bubble)
+    }
+
+    #[test]
+    fn rings_of_a_round_bubble_take_samples_in_a_line_and_join() {
+        for quality in [Quality::Fast, Quality::Standard, Quality::Spectral] {
+            let rings_of = |filtered, stretch| {
+                let (camera, bubble) = seen(filtered, stretch);
+                rings(&camera, &bubble, quality, &FilmMaterial::default())
+            };
+            let stretched = DMat3::from_diagonal(DVec3::new(1.01, 1.0, 1.0));
+            assert!(rings_of(true, stretched).iter().all(|ring| !ring.in_line && ring.environment_taps == 1));
+            let [plain, filtered] = [false, true].map(|filtered| rings_of(filtered, DMat3::IDENTITY));
+            let in_line = |rings: &[Ring]| rings.iter().filter(|ring| ring.in_line && !ring.outline).count();
+            assert!(in_line(&plain) == 0 && in_line(&filtered) > 0, "{filtered:?}");
+            for rings in [plain, filtered] {
+                let edges: Vec<[f64; 2]> = rings.iter().filter_map(|ring| ring.edges_rad).collect();
+                assert!(edges[0][0] == 0.0 && edges.windows(2).all(|pair| pair[0][1] == pair[1][0]), "{edges:?}");
+                assert!(rings.is_sorted_by_key(|ring| ring.inner_reflections));
+                assert!(rings.iter().all(|ring| ring.environment_taps == ENVIRONMENT_TAPS));
+            }
+        }
+    }
 
     #[test]
     fn denser_films_are_followed_for_longer_at_more_angles() {

@@ -1,6 +1,7 @@
 //! Whether this machine's GPU tells the truth: each part measures what the program computes against an independent reference, and holds it
 //! to a limit.
 
+mod antialiasing;
 mod crowd;
 mod extremes;
 mod flow;
@@ -20,7 +21,11 @@ mod transport;
 
 use std::time::Instant;
 
-use crate::gpu::{Gpu, GpuError};
+use crate::{
+    gpu::{Gpu, GpuError},
+    plan::Resources,
+    scene::Scene,
+};
 
 /// One measurement and its limit.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +68,7 @@ impl Check {
 pub enum Part {
     /// Colours of films, against the spectral sum in f64.
     Optics,
-    /// Whole pictures in coloured light, against the f64 picture.
+    /// Whole pictures in coloured light, against the f64 picture; pictures of one sample per pixel, against those of many.
     Picture,
     /// Bubbles seen through and in one another, against the f64 picture.
     Crowd,
@@ -111,7 +116,7 @@ impl Part {
     fn effort(self) -> (u64, u64) {
         match self {
             Self::Optics => (85, 130),
-            Self::Picture => (12, 300),
+            Self::Picture => (14, 310),
             Self::Crowd => (32, 200),
             Self::Transport => (45, 60),
             Self::Flow => (35, 160),
@@ -138,6 +143,8 @@ pub struct Run<'a> {
     pub gpu: &'a Gpu,
     /// How much to verify.
     pub extent: Extent,
+    /// Gives a preset, with all that it names, by its name: files are not read here.
+    pub preset: &'a dyn Fn(&str) -> Option<(Scene, Resources)>,
     /// Hears of each check.
     pub report: &'a mut dyn FnMut(Check),
 }
@@ -148,7 +155,7 @@ impl Run<'_> {
         let started = Instant::now();
         match part {
             Part::Optics => optics::run(self),
-            Part::Picture => picture::run(self),
+            Part::Picture => antialiasing::run(self).and_then(|()| picture::run(self)),
             Part::Crowd => crowd::run(self),
             Part::Transport => transport::run(self),
             Part::Flow => flow::run(self),

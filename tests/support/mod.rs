@@ -110,7 +110,8 @@ pub fn hold(part: Part, at_least: usize) {
         since = ProcessTime::now();
     };
     let extent = short_or_long(Extent::Short, Extent::Full);
-    Run { gpu: &gpu, extent, report: &mut report }.part(part).unwrap();
+    let preset = |name: &str| load_scene(name).ok().map(|loaded| (loaded.scene, loaded.resources));
+    Run { gpu: &gpu, extent, preset: &preset, report: &mut report }.part(part).unwrap();
     assert!(checks.len() >= at_least, "only {} checks", checks.len());
     let (made, told) = (checks.len() as u64, part.checks());
     assert!(

@@ -62,6 +62,8 @@ pub(super) fn ring_overrides(
         UNIFORM_FILM: matches!(bubble.film, FilmKey::Uniform(_)),
         MAGNIFIED: bubble.magnified,
         SAMPLES: ring.samples.min(max_samples(colours.quadrature)),
+        IN_LINE: ring.in_line,
+        ENVIRONMENT_TAPS: ring.environment_taps,
         OUTLINE: ring.outline,
         FILTERED: bubble.filtered,
         STRETCHED: bubble.stretch != DMat3::IDENTITY,

@@ -114,8 +114,12 @@ overrides! {
         override UNIFORM_FILM: bool;
         /// Whether the film is looked up through its flow map.
         override MAGNIFIED: bool;
-        /// Samples along each side of a pixel.
+        /// Samples along each side of a pixel, or in all where they stand in a line.
         override SAMPLES: u32 in [1, 4];
+        /// Whether the samples stand in a line.
+        override IN_LINE: bool;
+        /// Lookups of the surroundings in a reflection, at most.
+        override ENVIRONMENT_TAPS: u32 in [1, 4];
         /// Whether the bubble's outline crosses the ring.
         override OUTLINE: bool;
         /// Whether the film is finer than pixels, and what it reflects is filtered.
