@@ -61,7 +61,8 @@ enum LimbSamples {
 /// Lookups of the surroundings in a reflection, at most. Pixels span more of them in the plane of incidence than across it: twice as much at a
 /// cosine of incidence of 0.7, and eight times at 0.35.
 const ENVIRONMENT_TAPS: u32 = 4;
-/// Cosine of incidence below which a film that is filtered takes several samples: a cell of 2.4 pixels, seen so obliquely, is one wide.
+/// Cosine of incidence below which a film that is filtered takes several samples: its cells, finer than pixels in the middle, are there less than half
+/// as wide.
 const FILM_COS: f64 = 0.42;
 /// How many there.
 const FILM_SAMPLES: u32 = 2;

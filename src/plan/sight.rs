@@ -18,14 +18,10 @@ pub(super) fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, di
     field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
 }
 
-/// Cells of a film that are smaller than so many pixels may change by much of a fringe across a pixel where the film is seen obliquely, and lines
-/// of the film may be as thin as a cell anywhere.
-const FILTERED_CELL_PIXELS: f64 = 3.0;
-
-/// Whether a pixel may span so much of a film that what it reflects is filtered over the thicknesses there. Several samples per pixel
+/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples per pixel
 /// see that better than a filter which takes the film to change evenly from pixel to pixel.
 pub(super) fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
-    let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < FILTERED_CELL_PIXELS);
+    let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < 1.0);
     is_finer && samples(radius_pixels) == 1
 }
 

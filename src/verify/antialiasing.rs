@@ -16,9 +16,6 @@ const TIME_S: f64 = 0.5;
 const TILE_PIXELS: u32 = 2048;
 /// Qualities that take few samples per pixel, and their smallest PSNR in dB.
 const TARGETS_DB: [(Quality, f64); 2] = [(Quality::Standard, 40.0), (Quality::Fast, 36.0)];
-/// The smallest PSNR in dB of `park`, whose film has lines as thin as its cells, which bilinear lookups blur, among leaves smaller than texels.
-const PARK_TARGET_DB: f64 = 34.0;
-
 /// Pictures of a size, and the samples along each side of a pixel that they are compared with.
 struct Comparison {
     presets: &'static [&'static str],
@@ -53,11 +50,7 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
         {
             scene.view.quality = quality;
             let error = error_over_white(&mut renderer, &scene, &resources, compared)?;
-            let target_db = match *preset {
-                _ if is_short => SHORT.1,
-                "park" => PARK_TARGET_DB,
-                _ => target_db,
-            };
+            let target_db = if is_short { SHORT.1 } else { target_db };
             let name = format!(
                 "{preset}, {}, {} pixels: PSNR {:.1} dB, RMS error over white",
                 quality.name(),

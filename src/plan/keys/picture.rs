@@ -39,7 +39,7 @@ pub struct BubbleKey {
     pub samples: u32,
     /// Whether the film is looked up through its flow map at each pixel: where cells are larger than pixels.
     pub magnified: bool,
-    /// Whether thickness is filtered over each sample: where cells of the film are not much larger than pixels.
+    /// Whether thickness is filtered over each sample: where a pixel spans more of the film than a cell.
     pub filtered: bool,
     /// The film.
     pub film: FilmKey,
