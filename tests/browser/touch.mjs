@@ -25,7 +25,7 @@ const value = async (page, key) => Number(new RegExp(`^${key} = (.*)$`, "m").exe
 
 export const TOUCH_TESTS = {
   async "one finger turns the view, or stirs, and two fingers zoom"({ page, address }) {
-    await page.goto(link(address, SCENE, "&ui=0"));
+    await page.goto(link(address, SCENE));
     await ready(page);
     const begun = await toml(page);
     await oneFinger(page);

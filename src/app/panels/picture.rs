@@ -23,11 +23,11 @@ pub fn show(ui: &mut Ui, follow_deg: f64) -> Picture {
         .show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
-            let fingers = fingers(ui, &response);
+            let (fingers, held) = (fingers(ui, &response), is_held(ui, &response));
             Picture {
                 rect,
-                gesture: gesture(ui, &response, follow_deg, fingers),
-                pressed: if fingers == Fingers::One { pressed(ui, &response) } else { None },
+                gesture: gesture(ui, &response, follow_deg, fingers, held),
+                pressed: if held && fingers == Fingers::One { pressed(ui, rect) } else { None },
                 hovered: response.hover_pos().map(|at| place(rect, at)),
                 clicked: response.clicked(),
             }
@@ -61,12 +61,25 @@ fn fingers(ui: &Ui, response: &Response) -> Fingers {
     Fingers::Left
 }
 
-/// The pointer, if its primary button is held without Shift, which would shift the view.
-fn pressed(ui: &Ui, response: &Response) -> Option<Press> {
-    let (is_down, from) =
-        ui.input(|input| (input.pointer.primary_down() && !input.modifiers.shift, input.pointer.press_origin()));
-    let at = response.interact_pointer_pos().filter(|_| is_down && response.is_pointer_button_down_on())?;
-    let place = |at| place(response.rect, at);
+/// Whether the pointer went down on the picture and is down since. egui takes a finger that rests for a secondary click, and gives it up; on a
+/// picture it goes on holding a tool or the view.
+fn is_held(ui: &Ui, response: &Response) -> bool {
+    let was_held = response.id.with("held");
+    let is_down = ui.input(|input| input.pointer.any_down());
+    let goes_on = ui.data(|data| data.get_temp(was_held).unwrap_or(false));
+    let is_held = is_down && (goes_on || response.is_pointer_button_down_on());
+    ui.data_mut(|data| data.insert_temp(was_held, is_held));
+    is_held
+}
+
+/// The pointer that holds the picture, if by its primary button without Shift, which would shift the view.
+fn pressed(ui: &Ui, picture: Rect) -> Option<Press> {
+    let (is_down, from, at) = ui.input(|input| {
+        let pointer = &input.pointer;
+        (pointer.primary_down() && !input.modifiers.shift, pointer.press_origin(), pointer.interact_pos())
+    });
+    let at = at.filter(|_| is_down)?;
+    let place = |at| place(picture, at);
     Some(Press { from: place(from.unwrap_or(at)), at: place(at) })
 }
 
@@ -90,9 +103,11 @@ pub fn outline(ctx: &Context, picture: Rect, model: &Model) {
     }
 }
 
-fn gesture(ui: &Ui, response: &Response, follow_deg: f64, fingers: Fingers) -> Gesture {
+fn gesture(ui: &Ui, response: &Response, follow_deg: f64, fingers: Fingers, held: bool) -> Gesture {
     let height = f64::from(response.rect.height()).max(1.0);
+    let has_rested = held && !response.is_pointer_button_down_on();
     let drag = match fingers {
+        Fingers::One if has_rested => ui.input(|input| input.pointer.delta()),
         Fingers::One => response.drag_delta(),
         Fingers::More(moved) if response.contains_pointer() => moved,
         Fingers::More(_) | Fingers::Left => Vec2::ZERO,
@@ -100,7 +115,7 @@ fn gesture(ui: &Ui, response: &Response, follow_deg: f64, fingers: Fingers) -> G
     let drag = DVec2::new(f64::from(drag.x), f64::from(drag.y)) / height;
     let shifts = fingers != Fingers::One
         || ui.input(|input| input.modifiers.shift)
-        || !response.dragged_by(PointerButton::Primary);
+        || !(has_rested || response.dragged_by(PointerButton::Primary));
     let mut gesture = Gesture { frame: response.double_clicked(), ..Gesture::default() };
     *(if shifts { &mut gesture.shift } else { &mut gesture.turn }) = drag;
     if response.hovered() && !ui.input(|input| input.pointer.any_down()) {

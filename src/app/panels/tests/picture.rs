@@ -229,3 +229,29 @@ fn two_fingers_zoom_and_shift_but_neither_turn_nor_press() {
     window.step();
     assert!(window.state().picture.unwrap().pressed.is_some());
 }
+
+#[test]
+fn a_finger_that_rests_goes_on_holding_the_picture() {
+    let mut window = window();
+    let middle = window.state().picture.unwrap().rect.center();
+    window.drag_at(middle);
+    window.event(egui::Event::Touch {
+        device_id: egui::TouchDeviceId(1),
+        id: egui::TouchId(1),
+        phase: egui::TouchPhase::Start,
+        pos: middle,
+        force: None,
+    });
+    // Longer than a click may take, which is when egui takes a finger for a secondary click.
+    window.input_mut().time = Some(0.0);
+    window.step();
+    window.input_mut().time = Some(2.0);
+    window.step();
+    window.step();
+    assert!(window.state().picture.unwrap().pressed.is_some());
+    window.hover_at(middle + vec2(60.0, 0.0));
+    window.step();
+    let picture = window.state().picture.unwrap();
+    let turn = picture.gesture.turn * f64::from(picture.rect.height());
+    assert!((turn.x - 60.0).abs() < 0.01 && picture.pressed.is_some(), "{turn}");
+}
