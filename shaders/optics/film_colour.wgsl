@@ -12,8 +12,8 @@ override POLARISED: u32;
 // 1: films are means over the thicknesses that a sample spans.
 override FILTERED: u32;
 
-// Where such a mean is taken, from the middle, in parts of the width: the points of Gauss and Legendre's rule, exact to the third power.
-const SPREAD_POINT: f32 = 0.288675135;
+// Thicknesses that such a mean is taken over.
+const SPREAD_TAPS: u32 = 4u;
 
 fn table_light(table: texture_2d_array<f32>, table_sampler: sampler, uv: vec2f, first: u32, light: vec3f) -> vec3f {
     let red = textureSampleLevel(table, table_sampler, uv, first, 0.0).rgb;
@@ -39,14 +39,14 @@ fn film_reflection(
         return reflection_at(table, table_sampler, axes, film, polarisation, light);
     }
     var sum = vec3f(0.0);
-    for (var k = 0u; k < 2u; k++) {
-        let part = select(-SPREAD_POINT, SPREAD_POINT, k == 1u);
+    for (var k = 0u; k < SPREAD_TAPS; k++) {
+        let part = (f32(k) + 0.5) / f32(SPREAD_TAPS) - 0.5;
         // Reflectance is even in the thickness.
         let nm = abs(film.thickness_nm + part * film.spread_nm);
         let tap = FilmPoint(film.cos_theta, nm, 0.0);
         sum += reflection_at(table, table_sampler, axes, tap, polarisation, light);
     }
-    return 0.5 * sum;
+    return sum / f32(SPREAD_TAPS);
 }
 
 fn reflection_at(

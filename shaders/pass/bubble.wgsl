@@ -1,7 +1,7 @@
 // One ring of a bubble's disc: an exact sphere traced at each pixel. Front reflection, transmission, back wall, inner reflections, each
 // wall with the thickness at its own hit.
 
-import package::camera::view::{View, clip_position, pixel_angle, view_plane};
+import package::camera::view::{View, clip_position, view_plane};
 import package::film::control::Balance;
 import package::film::hole::{Rim, TAU};
 import package::film::wall::optical_nm;
@@ -17,25 +17,16 @@ import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls};
 import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
+import package::sphere::hops::{Followed, Hop, followed, left_before, mirrored, reflected_inside};
 import package::sphere::others::OtherBubble;
 import package::sphere::path::{Path, footprint, polarisation_along, spanned_angles};
-import package::sphere::silhouette::{Silhouette, silhouette};
+import package::sphere::samples::{IN_LINE, SAMPLES, outward_in_picture, pixel_radiance};
+import package::sphere::trace::{eye_is_inside, from_round, outline, path_along, to_round};
 
-// Samples along each side of a pixel, or in all where they stand in a line: 1, or more near the outline, and for bubbles of a few pixels, whose film
-// is finer than a pixel.
-override SAMPLES: u32;
-// 1: the samples stand in a line through the pixel's middle, towards the bubble's center, along which a bubble shows most in a pixel.
-override IN_LINE: u32;
 // Lookups of the surroundings in a reflection, at most.
 override ENVIRONMENT_TAPS: u32;
 // How many times as long as wide what a lookup of the surroundings is filtered over may be.
 const MAX_TAP_ASPECT: f32 = 2.0;
-// 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
-override OUTLINE: u32;
-// 1: the bubble is an ellipsoid. It is traced where it is round: `unstretch` takes the picture there, `stretch` back.
-override STRETCHED: u32;
-// 1: the eye is inside the bubble.
-override INSIDE: u32;
 // 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
 override OVER_OTHERS: u32;
 // 1: the bubble mirrors other bubbles.
@@ -125,22 +116,6 @@ fn ring(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return clip_position(view, from_round(ray));
 }
 
-// A vector of the world where the bubble is round.
-fn to_round(vector: vec3f) -> vec3f {
-    if (STRETCHED == 0u) {
-        return vector;
-    }
-    return bubble.unstretch * vector;
-}
-
-// The inverse.
-fn from_round(vector: vec3f) -> vec3f {
-    if (STRETCHED == 0u) {
-        return vector;
-    }
-    return bubble.stretch * vector;
-}
-
 // The whole picture: what a bubble covers from inside.
 @vertex
 fn everywhere(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -184,72 +159,14 @@ fn reflected_surroundings(path: Path, direction: vec3f, turns: f32) -> vec3f {
     let along = cross(path.across / max(length(path.across), 1e-9), direction);
     var sum = vec3f(0.0);
     for (var k = 0.0; k < taps; k += 1.0) {
-        sum += surroundings(direction + (k + 0.5 - 0.5 * taps) * part.x * along, footprint(part));
+        let turn = (k + 0.5 - 0.5 * taps) * part.x;
+        sum += surroundings(cos(turn) * direction + sin(turn) * along, footprint(part));
     }
     return sum / taps;
 }
 
 fn dimmed(steps: mat4x3f, first: vec3f, later: vec3f) -> mat4x3f {
     return mat4x3f(first * steps[0], later * steps[1], later * steps[2], later * steps[3]);
-}
-
-// A ray inside that heads for the wall at a point of the unit sphere.
-struct Hop {
-    point: vec3f,
-    direction: vec3f,
-}
-
-fn reflected(hop: Hop, chord: f32) -> Hop {
-    if (STRETCHED == 1u) {
-        let turned = reflect(hop.direction, wall_normal(hop.point));
-        let round = normalize(to_round(turned));
-        return Hop(hop.point - 2.0 * dot(hop.point, round) * round, turned);
-    }
-    let direction = hop.direction - chord * hop.point;
-    return Hop(hop.point + chord * direction, direction);
-}
-
-// The wall's normal at a point of the unit sphere.
-fn wall_normal(point: vec3f) -> vec3f {
-    return normalize(to_round(point));
-}
-
-// The outer reflection at a point of the unit sphere.
-fn mirrored(path: Path, front: vec3f) -> vec3f {
-    if (STRETCHED == 1u) {
-        return reflect(path.direction, wall_normal(front));
-    }
-    return path.direction + 2.0 * path.cos_theta * front;
-}
-
-// How far a ray was followed inside: where it heads now, how often it was reflected, what a bath on the way there leaves of light, and the
-// light from there.
-struct Followed {
-    hop: Hop,
-    reflections: f32,
-    left: f32,
-    light: vec3f,
-}
-
-fn followed(path: Path, before: Followed) -> Followed {
-    var after = reflected_inside(path, before);
-    after.light *= reflected_surroundings(path, after.hop.direction, -2.0 * after.reflections);
-    return after;
-}
-
-// How far it is followed, with what is left of light from there as its light.
-fn reflected_inside(path: Path, before: Followed) -> Followed {
-    let hop = reflected(before.hop, 2.0 * path.half_chord);
-    let left = before.left * crossing(before.hop.point.z, hop.point.z, hop.direction)
-        * past_meniscus(hop.point.z, bubble.radius_m);
-    let leaving = left * crossing(hop.point.z, hop.direction.z, hop.direction);
-    return Followed(hop, before.reflections + 1.0, left, vec3f(leaving));
-}
-
-// What a bath leaves of light between the eye and beyond the front wall.
-fn left_before(path: Path) -> f32 {
-    let front_z = path.foot.z - path.half_chord * path.round.z;
-    return crossing(-bubble.to_center_m.z, front_z, path.direction) * past_meniscus(front_z, bubble.radius_m);
 }
 
 // The ray straight through, which heads for the back wall.
@@ -444,118 +361,14 @@ fn wall_reflection(path: Path, nm: f32, spread_nm: f32, polarisation: vec2f, ste
     return film_reflection(table, table_sampler, axes, FilmPoint(path.cos_theta, nm, spread_nm), polarisation, step);
 }
 
-// Geometry of a view ray that meets the sphere.
-fn path_along(direction: vec3f, width: vec2f, position: vec2f) -> Path {
-    let eye = to_round(-bubble.to_center_m) / bubble.radius_m;
-    var round = direction;
-    if (STRETCHED == 1u) {
-        round = normalize(to_round(direction));
-    }
-    let foot = eye - dot(eye, round) * round;
-    let half_chord = sqrt(max(1.0 - dot(foot, foot), 0.0));
-    var cos_theta = half_chord;
-    if (STRETCHED == 1u) {
-        let front = -dot(direction, wall_normal(foot - half_chord * round));
-        let back = dot(direction, wall_normal(foot + half_chord * round));
-        cos_theta = select(0.5 * (front + back), back, eye_is_inside());
-    }
-    let distance = length(eye);
-    // At the center no direction leads there, and what a bubble reflects is as wide as the pixel whichever is taken.
-    let is_central = distance < 1e-6;
-    return Path(
-        direction,
-        round,
-        foot,
-        half_chord,
-        cos_theta,
-        width * pixel_angle(view, direction),
-        abs(dot(eye, round)) / max(cos_theta, 1e-3),
-        select(length(foot) / max(distance, 1e-6), 1.0, is_central),
-        select(bubble.to_center_m / max(length(bubble.to_center_m), 1e-30), perpendicular(direction), is_central),
-        cross(direction, to_round(foot)),
-        position,
-    );
-}
-
-fn eye_is_inside() -> bool {
-    return INSIDE == 1u;
-}
-
-// The outline, a sphere's where the bubble is round.
-fn outline(plane: vec3f, width: f32) -> Silhouette {
-    if (INSIDE == 1u) {
-        return Silhouette(1.0, normalize(plane));
-    }
-    if (STRETCHED == 0u) {
-        return silhouette(view, bubble.to_center_m, bubble.radius_m, plane, width);
-    }
-    var round = view;
-    round.right = to_round(view.right);
-    round.up = to_round(view.up);
-    let edge = silhouette(round, to_round(bubble.to_center_m), bubble.radius_m, to_round(plane), width);
-    return Silhouette(edge.coverage, normalize(from_round(edge.inside)));
-}
-
 // What is seen of the bubble along a ray that is known to meet it.
 fn bubble_radiance(direction: vec3f, width: vec2f, position: vec2f) -> vec3f {
     return film_radiance(path_along(direction, width, position), eye_is_inside());
 }
 
-// One sample: the bubble as far as it covers the sample's box, what is beside it in the rest. `width` is the box's, in pixels: towards the bubble's
-// center and across.
-fn sample_radiance(position: vec2f, width: vec2f) -> vec3f {
-    let plane = view_plane(view, position);
-    if (OUTLINE == 0u) {
-        return bubble_radiance(normalize(plane), width, position);
-    }
-    let edge = outline(plane, width.x);
-    // Not only where it is covered: derivatives need the neighbours.
-    let radiance = bubble_radiance(edge.inside, width, position);
-    let ray = normalize(plane);
-    return mix(beside(ray, pixel_angle(view, ray), position), radiance, edge.coverage);
-}
-
-// The mean over a grid of samples in a pixel.
-fn mean_radiance(position: vec2f, side: u32) -> vec3f {
-    let corner = floor(position);
-    let width = 1.0 / f32(side);
-    var total = vec3f(0.0);
-    for (var k = 0u; k < side * side; k++) {
-        let offset = vec2f(f32(k % side) + 0.5, f32(k / side) + 0.5) * width;
-        total += sample_radiance(corner + offset, vec2f(width));
-    }
-    return total * width * width;
-}
-
-// The mean over samples in a line through a pixel's middle. Across any direction a pixel is as wide as its side, by its variance.
-fn mean_in_line(position: vec2f, count: u32) -> vec3f {
-    let along = outward_in_picture(position);
-    let width = 1.0 / f32(count);
-    var total = vec3f(0.0);
-    for (var k = 0u; k < count; k++) {
-        let offset = (f32(k) + 0.5) * width - 0.5;
-        total += sample_radiance(position + offset * along, vec2f(width, 1.0));
-    }
-    return total * width;
-}
-
-// Unit vector in the picture, y down, along which the angle to the bubble's center grows.
-fn outward_in_picture(position: vec2f) -> vec2f {
-    let ray = normalize(view_plane(view, position));
-    let turn = dot(ray, bubble.to_center_m) * ray - bubble.to_center_m;
-    let rate = vec2f(dot(turn, view.right), -dot(turn, view.up));
-    return rate / max(length(rate), 1e-30);
-}
-
 @fragment
 fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    if (SAMPLES == 1u) {
-        return vec4f(storable(sample_radiance(position.xy, vec2f(1.0))), 1.0);
-    }
-    if (IN_LINE == 1u) {
-        return vec4f(storable(mean_in_line(position.xy, SAMPLES)), 1.0);
-    }
-    return vec4f(storable(mean_radiance(position.xy, SAMPLES)), 1.0);
+    return vec4f(storable(pixel_radiance(position.xy)), 1.0);
 }
 
 // The yardstick of the frame's cost: a plain mirror with one filtered environment lookup.

@@ -195,6 +195,7 @@ impl Gpu {
         let lost = Arc::new(Loss::default());
         let failure = Arc::new(Mutex::new(None));
         watch(&device, &lost, &failure);
+        #[cfg_attr(target_arch = "wasm32", expect(clippy::arc_with_non_send_sync, reason = "a page has one thread"))]
         let (pipelines, uploaded_bytes) = (Arc::new(Pipelines::new()), Arc::default());
         Ok(Self { instance, adapter, device, queue, pipelines, lost, failure, uploaded_bytes })
     }

@@ -52,21 +52,15 @@ struct Care {
 /// Where samples are at the limb.
 #[derive(Clone, Copy)]
 enum LimbSamples {
-    /// On a grid, so many along each side of a pixel.
+    /// On a grid, with this number of samples along each side of a pixel.
     Grid(u32),
-    /// In a line towards the center, along which a bubble changes most: as good as a grid of the square of their number.
+    /// In a line towards the center, along which a bubble changes most: this number of samples, in place of its square on a grid.
     Line(u32),
 }
 
 /// Lookups of the surroundings in a reflection, at most. Pixels span more of them in the plane of incidence than across it: twice as much at a
 /// cosine of incidence of 0.7, and eight times at 0.35.
 const ENVIRONMENT_TAPS: u32 = 4;
-/// Cosine of incidence below which a film that is filtered takes several samples: its cells, finer than pixels in the middle, are there less than half
-/// as wide.
-const FILM_COS: f64 = 0.42;
-/// How many there.
-const FILM_SAMPLES: u32 = 2;
-
 /// Width of the outermost ring, in pixels: beyond it the cosine of incidence changes by less than a fifth from pixel to pixel.
 const LIMB_PIXELS: f64 = 3.0;
 /// How far outside the outline a pixel may have its center and still be crossed by it, in pixels.
@@ -137,8 +131,8 @@ fn pixel_rad(camera: &CameraKey, bubble: &BubbleKey) -> f64 {
 #[must_use]
 pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality, film: &FilmMaterial) -> Vec<Ring> {
     let care = Care::of(quality, film);
+    let deep_sin = (1.0 - care.deep_cos * care.deep_cos).sqrt();
     let Some(limb_rad) = limb_rad(camera, bubble) else {
-        let deep_sin = (1.0 - care.deep_cos * care.deep_cos).sqrt();
         let is_deep = eye_radii(camera, bubble) > deep_sin;
         return vec![Ring::everywhere(
             if is_deep { care.deep_reflections } else { care.middle_reflections },
@@ -147,24 +141,21 @@ pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality, film: &Fi
     };
     let pixel_rad = pixel_rad(camera, bubble);
     let ring_rad = (limb_rad - LIMB_PIXELS * pixel_rad).max(0.0);
-    let at_cos = |cos: f64| ((1.0 - cos * cos).sqrt() * limb_rad.sin()).asin().min(ring_rad);
-    let (deep_rad, film_rad) =
-        (at_cos(care.deep_cos), if is_filtered_in_line(bubble) { at_cos(FILM_COS) } else { ring_rad });
-    let inner = |[from, to]: [f64; 2]| {
-        let is_in_line = from >= film_rad;
-        Ring {
-            edges_rad: Some([from, to]),
-            inner_reflections: if from >= deep_rad { care.deep_reflections } else { care.middle_reflections },
-            samples: if is_in_line { FILM_SAMPLES } else { bubble.samples },
-            in_line: is_in_line,
-            environment_taps: environment_taps(bubble),
-            outline: false,
-        }
+    let deep_rad = (deep_sin * limb_rad.sin()).asin().min(ring_rad);
+    let inner = |edges_rad: [f64; 2], inner_reflections: u32| Ring {
+        edges_rad: Some(edges_rad),
+        inner_reflections,
+        samples: bubble.samples,
+        in_line: false,
+        environment_taps: environment_taps(bubble),
+        outline: false,
     };
-    let edges_rad = [0.0, deep_rad.min(film_rad), deep_rad.max(film_rad), ring_rad];
-    let rings = edges_rad.windows(2).map(|edges| inner([edges[0], edges[1]]));
-    let limb = limb_ring(bubble, &care, [ring_rad, limb_rad + MARGIN_PIXELS * pixel_rad]);
-    rings.chain([limb]).filter(|ring| ring.edges_rad.is_some_and(|[inner, outer]| outer > inner)).collect()
+    let rings = [
+        inner([0.0, deep_rad], care.middle_reflections),
+        inner([deep_rad, ring_rad], care.deep_reflections),
+        limb_ring(bubble, &care, [ring_rad, limb_rad + MARGIN_PIXELS * pixel_rad]),
+    ];
+    rings.into_iter().filter(|ring| ring.edges_rad.is_some_and(|[inner, outer]| outer > inner)).collect()
 }
 
 /// The outermost ring, which the outline crosses.
@@ -190,11 +181,6 @@ fn is_sampled_in_line(bubble: &BubbleKey) -> bool {
     bubble.samples == 1 && bubble.stretch == DMat3::IDENTITY
 }
 
-/// Whether a film is filtered that may take samples in a line.
-fn is_filtered_in_line(bubble: &BubbleKey) -> bool {
-    bubble.filtered && is_sampled_in_line(bubble)
-}
-
 /// Lookups of the surroundings in a reflection. Where a pixel has several samples anyway they are lookups enough.
 fn environment_taps(bubble: &BubbleKey) -> u32 {
     if is_sampled_in_line(bubble) { ENVIRONMENT_TAPS } else { 1 }
@@ -215,8 +201,8 @@ mod tests {
     use super::*;
     use crate::{physics::optics::FilmIndex, plan::FilmKey};
 
-    /// A round bubble of 253 pixels before a camera, whose film is filtered or not.
-    fn seen(filtered: bool, stretch: DMat3) -> (CameraKey, BubbleKey) {
+    /// A bubble of 253 pixels before a camera.
+    fn seen(stretch: DMat3) -> (CameraKey, BubbleKey) {
         let camera = CameraKey {
             eye_m: DVec3::ZERO,
             forward: DVec3::X,
@@ -237,7 +223,7 @@ mod tests {
             evaporated_nm: 0.0,
             samples: 1,
             magnified: false,
-            filtered,
+            filtered: false,
             film: FilmKey::Uniform(500.0),
             thickness_factor: 1.0,
             hole: None,
@@ -247,23 +233,23 @@ mod tests {
     }
 
     #[test]
-    fn rings_of_a_round_bubble_take_samples_in_a_line_and_join() {
+    fn rings_join_and_only_the_limb_of_a_round_bubble_takes_samples_in_a_line() {
         for quality in [Quality::Fast, Quality::Standard, Quality::Spectral] {
-            let rings_of = |filtered, stretch| {
-                let (camera, bubble) = seen(filtered, stretch);
+            let rings_of = |stretch| {
+                let (camera, bubble) = seen(stretch);
                 rings(&camera, &bubble, quality, &FilmMaterial::default())
             };
-            let stretched = DMat3::from_diagonal(DVec3::new(1.01, 1.0, 1.0));
-            assert!(rings_of(true, stretched).iter().all(|ring| !ring.in_line && ring.environment_taps == 1));
-            let [plain, filtered] = [false, true].map(|filtered| rings_of(filtered, DMat3::IDENTITY));
-            let in_line = |rings: &[Ring]| rings.iter().filter(|ring| ring.in_line && !ring.outline).count();
-            assert!(in_line(&plain) == 0 && in_line(&filtered) > 0, "{filtered:?}");
-            for rings in [plain, filtered] {
-                let edges: Vec<[f64; 2]> = rings.iter().filter_map(|ring| ring.edges_rad).collect();
-                assert!(edges[0][0] == 0.0 && edges.windows(2).all(|pair| pair[0][1] == pair[1][0]), "{edges:?}");
-                assert!(rings.is_sorted_by_key(|ring| ring.inner_reflections));
-                assert!(rings.iter().all(|ring| ring.environment_taps == ENVIRONMENT_TAPS));
-            }
+            let stretched = rings_of(DMat3::from_diagonal(DVec3::new(1.01, 1.0, 1.0)));
+            assert!(stretched.iter().all(|ring| !ring.in_line && ring.environment_taps == 1));
+            let rings = rings_of(DMat3::IDENTITY);
+            assert!(
+                rings.iter().all(|ring| ring.in_line == (ring.outline && quality != Quality::Spectral)),
+                "{rings:?}"
+            );
+            assert!(rings.iter().all(|ring| ring.environment_taps == ENVIRONMENT_TAPS));
+            assert!(rings.is_sorted_by_key(|ring| ring.inner_reflections));
+            let edges: Vec<[f64; 2]> = rings.iter().filter_map(|ring| ring.edges_rad).collect();
+            assert!(edges[0][0] == 0.0 && edges.windows(2).all(|pair| pair[0][1] == pair[1][0]), "{edges:?}");
         }
     }
 

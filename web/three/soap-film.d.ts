@@ -26,9 +26,8 @@ export interface SoapFilmParameters {
   transparent?: boolean;
 }
 
-/** A soap film for `WebGLRenderer`. Lights of the scene do not act on it: a film mirrors, and its light is the environment. */
-export class SoapFilmMaterial extends ShaderMaterial {
-  constructor(parameters: SoapFilmParameters);
+/** What can be read from a material of a soap film, and set. */
+export interface SoapFilm {
   readonly table: DataArrayTexture;
   readonly walls: 1 | 2;
   thicknessNm: number;
@@ -37,6 +36,12 @@ export class SoapFilmMaterial extends ShaderMaterial {
   environment: Texture | CubeTexture | null;
   environmentIntensity: number;
 }
+
+/** A soap film for `WebGLRenderer`. Lights of the scene do not act on it: a film mirrors, and its light is the environment. */
+export class SoapFilmMaterial extends ShaderMaterial {
+  constructor(parameters: SoapFilmParameters);
+}
+export interface SoapFilmMaterial extends SoapFilm {}
 
 /** Loads the table of film colours, water in daylight (D65), from beside this file, or from where a bundler has put `film.bin` and `film.json`. */
 export function loadFilmTable(address?: string | URL): Promise<DataArrayTexture>;

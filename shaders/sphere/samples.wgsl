@@ -1,0 +1,71 @@
+// The samples that a pixel of a bubble is the mean of.
+//
+// The pass that draws bubbles declares what this reads: `view`, `bubble`, and the functions `bubble_radiance` and `beside`.
+
+import package::camera::view::{pixel_angle, view_plane};
+import package::sphere::trace::outline;
+
+// Samples along each side of a pixel, or in all where they stand in a line: 1, or more near the outline, and for bubbles of a few pixels, whose film
+// is finer than a pixel.
+override SAMPLES: u32;
+// 1: the samples stand in a line through the pixel's middle, towards the bubble's center, along which a bubble shows most in a pixel.
+override IN_LINE: u32;
+// 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
+override OUTLINE: u32;
+
+// Light through a pixel.
+fn pixel_radiance(position: vec2f) -> vec3f {
+    if (SAMPLES == 1u) {
+        return sample_radiance(position, vec2f(1.0));
+    }
+    if (IN_LINE == 1u) {
+        return mean_in_line(position, SAMPLES);
+    }
+    return mean_radiance(position, SAMPLES);
+}
+
+// One sample: the bubble as far as it covers the sample's box, what is beside it in the rest. `width` is the box's, in pixels: towards the bubble's
+// center and across.
+fn sample_radiance(position: vec2f, width: vec2f) -> vec3f {
+    let plane = view_plane(view, position);
+    if (OUTLINE == 0u) {
+        return bubble_radiance(normalize(plane), width, position);
+    }
+    let edge = outline(plane, width.x);
+    // Not only where it is covered: derivatives need the neighbours.
+    let radiance = bubble_radiance(edge.inside, width, position);
+    let ray = normalize(plane);
+    return mix(beside(ray, pixel_angle(view, ray), position), radiance, edge.coverage);
+}
+
+// The mean over a grid of samples in a pixel.
+fn mean_radiance(position: vec2f, side: u32) -> vec3f {
+    let corner = floor(position);
+    let width = 1.0 / f32(side);
+    var total = vec3f(0.0);
+    for (var k = 0u; k < side * side; k++) {
+        let offset = vec2f(f32(k % side) + 0.5, f32(k / side) + 0.5) * width;
+        total += sample_radiance(corner + offset, vec2f(width));
+    }
+    return total * width * width;
+}
+
+// The mean over samples in a line through a pixel's middle. Across any direction a pixel is as wide as its side, by its variance.
+fn mean_in_line(position: vec2f, count: u32) -> vec3f {
+    let along = outward_in_picture(position);
+    let width = 1.0 / f32(count);
+    var total = vec3f(0.0);
+    for (var k = 0u; k < count; k++) {
+        let offset = (f32(k) + 0.5) * width - 0.5;
+        total += sample_radiance(position + offset * along, vec2f(width, 1.0));
+    }
+    return total * width;
+}
+
+// Unit vector in the picture, y down, along which the angle to the bubble's center grows.
+fn outward_in_picture(position: vec2f) -> vec2f {
+    let ray = normalize(view_plane(view, position));
+    let turn = dot(ray, bubble.to_center_m) * ray - bubble.to_center_m;
+    let rate = vec2f(dot(turn, view.right), -dot(turn, view.up));
+    return rate / max(length(rate), 1e-30);
+}
