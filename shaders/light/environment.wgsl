@@ -40,10 +40,21 @@ fn environment_radiance(
     footprint: f32,
 ) -> vec3f {
     let turned = in_environment(light, direction);
+    let far = map_radiance(environment, environment_sampler, light, turned, footprint);
+    return light.gain * (far + lamps_radiance(turned, 0.0, footprint));
+}
+
+// The map's part of that, before the gain, from a direction in the environment's own axes.
+fn map_radiance(
+    environment: texture_cube<f32>,
+    environment_sampler: sampler,
+    light: Light,
+    turned: vec3f,
+    footprint: f32,
+) -> vec3f {
     // A texel of a level, blurred by its own box and by interpolation, has the variance of a box sqrt(3) times as wide.
     let level = log2(max(0.577 * footprint / light.texel_angle, 1.0));
-    let far = textureSampleLevel(environment, environment_sampler, turned, level).rgb;
-    return light.gain * (far + lamps_radiance(turned, 0.0, footprint));
+    return textureSampleLevel(environment, environment_sampler, turned, level).rgb;
 }
 
 // A direction in the environment's own axes.

@@ -9,6 +9,7 @@ import package::light::environment::{Light, backdrop_radiance, environment_radia
 import package::light::lamps::Lamp;
 import package::light::others::{AMONG_OTHERS, mirrored_light, passed_others};
 import package::light::stored::storable;
+import package::light::strips::reflected_surroundings;
 import package::light::water::{crossing, past_meniscus, upward};
 import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::quadrature::QuadratureSample;
@@ -23,10 +24,6 @@ import package::sphere::path::{Path, footprint, polarisation_along, spanned_angl
 import package::sphere::samples::{IN_LINE, SAMPLES, outward_in_picture, pixel_radiance};
 import package::sphere::trace::{eye_is_inside, from_round, outline, path_along, to_round};
 
-// Lookups of the surroundings in a reflection, at most.
-override ENVIRONMENT_TAPS: u32;
-// How many times as long as wide what a lookup of the surroundings is filtered over may be.
-const MAX_TAP_ASPECT: f32 = 2.0;
 // 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
 override OVER_OTHERS: u32;
 // 1: the bubble mirrors other bubbles.
@@ -144,25 +141,6 @@ fn beside(direction: vec3f, footprint: f32, position: vec2f) -> vec3f {
 
 fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
     return environment_radiance(environment, environment_sampler, light, upward(direction), footprint);
-}
-
-// Light from the surroundings along a reflection, averaged over what the sample spans of them: towards the limb a strip in the plane of incidence,
-// which lookups stand along. All of them share what is seen of the film, which changes less across a pixel.
-fn reflected_surroundings(path: Path, direction: vec3f, turns: f32) -> vec3f {
-    let angles = spanned_angles(path, direction, turns);
-    if (ENVIRONMENT_TAPS == 1u) {
-        return surroundings(direction, footprint(angles));
-    }
-    let taps = clamp(ceil(angles.x / (MAX_TAP_ASPECT * max(angles.y, 1e-9))), 1.0, f32(ENVIRONMENT_TAPS));
-    let part = vec2f(angles.x / taps, angles.y);
-    // Straight through the middle there is no plane of incidence, and one lookup.
-    let along = cross(path.across / max(length(path.across), 1e-9), direction);
-    var sum = vec3f(0.0);
-    for (var k = 0.0; k < taps; k += 1.0) {
-        let turn = (k + 0.5 - 0.5 * taps) * part.x;
-        sum += surroundings(cos(turn) * direction + sin(turn) * along, footprint(part));
-    }
-    return sum / taps;
 }
 
 fn dimmed(steps: mat4x3f, first: vec3f, later: vec3f) -> mat4x3f {

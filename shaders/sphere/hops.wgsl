@@ -1,7 +1,8 @@
 // The way of a ray from wall to wall of a bubble.
 //
-// The pass that draws bubbles declares what this reads: `bubble`, and the function `reflected_surroundings`.
+// The pass that draws bubbles declares what this reads: `bubble`.
 
+import package::light::strips::reflected_surroundings;
 import package::light::water::{crossing, past_meniscus};
 import package::sphere::path::Path;
 import package::sphere::trace::{STRETCHED, to_round, wall_normal};
