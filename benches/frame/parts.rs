@@ -54,10 +54,11 @@ const INNER: Edit = edit(
     "    if (INNER > 1u) {\n        let a = last;",
     "    if (INNER > 99u) {\n        let a = last;",
 );
-const LIMB: Edit = edit("pass/bubble.wgsl", "    if (SAMPLES == 1u) {", "    if (SAMPLES < 3u) {");
+const LIMB: Edit = edit("sphere/samples.wgsl", "    if (SAMPLES == 1u) {", "    if (SAMPLES < 99u) {");
+const STRIPS: Edit = edit("light/strips.wgsl", "ENVIRONMENT_TAPS == 1u", "ENVIRONMENT_TAPS < 99u");
 
 /// Parts by name.
-const PARTS: [(&str, &[Edit]); 10] = [
+const PARTS: [(&str, &[Edit]); 11] = [
     ("gamut mapping", &[GAMUT]),
     ("sRGB curve (a square root instead)", &[CURVE]),
     ("dither", &[DITHER]),
@@ -66,8 +67,9 @@ const PARTS: [(&str, &[Edit]); 10] = [
     ("table lookups (a formula instead)", &[TABLE]),
     ("wavelengths but one", &[WAVELENGTHS]),
     ("inner reflections but one, in the middle", &[INNER]),
-    ("four samples of pixels at the limb", &[LIMB]),
-    ("all of these", &[GAMUT, CURVE, DITHER, ENVIRONMENT, FILM, TABLE, WAVELENGTHS, INNER, LIMB]),
+    ("samples of pixels at the limb but one", &[LIMB]),
+    ("lookups along a reflection but one", &[STRIPS]),
+    ("all of these", &[GAMUT, CURVE, DITHER, ENVIRONMENT, FILM, TABLE, WAVELENGTHS, INNER, LIMB, STRIPS]),
 ];
 
 /// Prints the table for pictures of a size: whole frames first, then what is saved without each part. One round shows that it works: it is of the
