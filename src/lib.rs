@@ -42,6 +42,7 @@ mod export;
 pub mod gpu;
 pub mod input;
 pub mod output;
+mod parallel;
 pub mod physics;
 pub mod plan;
 pub mod scene;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::{colour_map::viridis, compare::Pixels};
 use crate::{
+    parallel,
     physics::film::properties::{Drainage, VISCOSITY},
     studio::{FilmInFront, FilmView},
     words::words,
@@ -63,13 +63,11 @@ impl Map {
     #[must_use]
     pub fn new(of: FalseColour, view: &FilmView<'_>, size: [u32; 2]) -> Option<Self> {
         let [width, height] = size.map(|side| side.div_ceil(COARSER));
-        let values: Vec<Option<f64>> = (0..width * height)
-            .into_par_iter()
-            .map(|k| {
-                let at = f64::from(COARSER) * (DVec2::new((k % width).into(), (k / width).into()) + 0.5);
-                view.front(at).and_then(|front| of.value(&front))
-            })
-            .collect();
+        let values = parallel::map((width * height) as usize, |k| {
+            let k = k as u32;
+            let at = f64::from(COARSER) * (DVec2::new((k % width).into(), (k / width).into()) + 0.5);
+            view.front(at).and_then(|front| of.value(&front))
+        });
         let scale = scale(of, values.iter().flatten().copied())?;
         let part = |value: f64| (value - scale[0]) / (scale[1] - scale[0]);
         let rgba = values.iter().flat_map(|value| match value {

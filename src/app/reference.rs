@@ -1,9 +1,9 @@
 //! The reference picture of what is shown: its light path in f64 on the CPU, coarse at first, then finer and finer.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::{
+    parallel,
     plan::TonemapKey,
     verify::reference::{MovedFilms, ReferenceError, radiance_of},
 };
@@ -37,8 +37,7 @@ pub fn paint(
     for stride in STRIDES {
         for pixels in pixels_of(stride, key.draw.size).chunks(BATCH) {
             let radiance = radiance_of(&key.draw, films, pixels)?;
-            let colour = |(pixel, radiance): (&[u32; 2], &DVec3)| display.encode(*radiance, *pixel);
-            let colours: Vec<[u8; 3]> = pixels.par_iter().zip(&radiance).map(colour).collect();
+            let colours = parallel::map(pixels.len(), |k| display.encode(radiance[k], pixels[k]));
             pixels
                 .iter()
                 .zip(colours)

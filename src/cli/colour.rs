@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{AdapterArguments, parse, progress::progress, strip};
 use crate::{
@@ -13,6 +12,7 @@ use crate::{
     gpu::passes::probe_colour::{ColourProbe, ProbePoint},
     input::{load_illuminant, load_liquid, read_table_text},
     output::{Metadata, print, write_text},
+    parallel,
     physics::{
         colour::{BT709, BT2020, FilmOptics, Walls, srgb_encode},
         optics::FilmMaterial,
@@ -126,7 +126,7 @@ fn in_f64(optics: &FilmOptics, films: &[FilmPoint]) -> Vec<DVec3> {
         part.add(1);
         xyz
     };
-    films.par_iter().map(colour).collect()
+    parallel::map(films.len(), |k| colour(&films[k]))
 }
 
 /// One line of sight.

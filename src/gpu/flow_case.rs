@@ -3,7 +3,6 @@
 use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
-use rayon::prelude::*;
 
 use super::{
     device::{Gpu, GpuError},
@@ -12,9 +11,12 @@ use super::{
     readback::Readback,
     timing::Recorder,
 };
-use crate::physics::{
-    flow::{FlowCase, FlowCaseKind, Invariants, Oscillation, fit_oscillation, invariants, relative_l2},
-    sphere::CubedSphere,
+use crate::{
+    parallel,
+    physics::{
+        flow::{FlowCase, FlowCaseKind, Invariants, Oscillation, fit_oscillation, invariants, relative_l2},
+        sphere::CubedSphere,
+    },
 };
 
 /// How a run compares with the exact flow.
@@ -119,7 +121,7 @@ impl FlowRun {
     }
 
     fn sample(&self, grid: CubedSphere, value: impl Fn(glam::DVec3) -> f64 + Sync) -> Vec<f64> {
-        (0..grid.cells()).into_par_iter().map(|cell| value(grid.cell_direction(cell))).collect()
+        parallel::map(grid.cells(), |cell| value(grid.cell_direction(cell)))
     }
 
     fn seed(&self, gpu: &Gpu, solver: &mut FlowSolver) -> Result<(), GpuError> {

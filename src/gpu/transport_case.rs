@@ -1,7 +1,5 @@
 //! A published test of transport, run on the device by the passes that move films.
 
-use rayon::prelude::*;
-
 use super::{
     control::ControlBlock,
     device::{Gpu, GpuError},
@@ -10,9 +8,12 @@ use super::{
     readback::Readback,
     timing::Recorder,
 };
-use crate::physics::{
-    sphere::CubedSphere,
-    transport::{Measured, PERIOD, Quantity, Scheme, Tracer, Wind, WindKind, exact, measure},
+use crate::{
+    parallel,
+    physics::{
+        sphere::CubedSphere,
+        transport::{Measured, PERIOD, Quantity, Scheme, Tracer, Wind, WindKind, exact, measure},
+    },
 };
 
 /// One test.
@@ -89,7 +90,7 @@ impl Case {
     /// The tracer at the start, in the grid's order.
     #[must_use]
     pub fn initial(&self) -> Vec<f64> {
-        (0..self.grid.cells()).into_par_iter().map(|cell| self.tracer.value(self.grid.cell_direction(cell))).collect()
+        parallel::map(self.grid.cells(), |cell| self.tracer.value(self.grid.cell_direction(cell)))
     }
 
     /// A field with the tracer at the start.
@@ -146,7 +147,7 @@ impl Case {
             watcher();
             answer
         };
-        let answers: Vec<f64> = (0..self.grid.cells()).into_par_iter().map(answer).collect();
+        let answers = parallel::map(self.grid.cells(), answer);
         measure(self.grid, values, &answers, &self.initial())
     }
 }

@@ -4,13 +4,12 @@ use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
 use glam::{DMat3, Vec3};
-use rayon::prelude::*;
 
 use super::chromaticities::BT709;
 use super::panic_guard::catch_panic;
 use super::picture::Shape;
 use super::{InputError, exr, file, radiance};
-use crate::physics::environment::Equirect;
+use crate::{parallel, physics::environment::Equirect};
 
 /// Reads an equirectangular panorama from an OpenEXR or Radiance .hdr file, told apart by content, not by name.
 ///
@@ -63,11 +62,14 @@ fn recognise(file: &mut (impl Read + Seek), path: &Path) -> Result<Format, Input
 }
 
 fn convert(mut pixels: Vec<[f32; 3]>, to_bt2020: DMat3) -> Vec<[f32; 3]> {
+    const PIECE: usize = 1024;
     let matrix = to_bt2020.as_mat3();
-    pixels.par_iter_mut().for_each(|pixel| {
-        // Infinities of either sign would meet in the sum and become NaN: this keeps the too bright too bright.
-        let finite = pixel.map(|component| component.clamp(-1e30, 1e30));
-        *pixel = (matrix * Vec3::from(finite)).to_array();
+    parallel::change(&mut pixels, PIECE, |_, piece| {
+        for pixel in piece {
+            // Infinities of either sign would meet in the sum and become NaN: this keeps the too bright too bright.
+            let finite = pixel.map(|component| component.clamp(-1e30, 1e30));
+            *pixel = (matrix * Vec3::from(finite)).to_array();
+        }
     });
     pixels
 }

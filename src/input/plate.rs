@@ -6,7 +6,6 @@ use std::{
 };
 
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, metadata::Orientation};
-use rayon::prelude::*;
 
 use super::{
     InputError,
@@ -16,9 +15,12 @@ use super::{
     picture::{DecodedPicture, Shape, check_size},
     radiance,
 };
-use crate::physics::{
-    colour::{bt2020_to_bt709, srgb_decode},
-    picture::Plate,
+use crate::{
+    parallel,
+    physics::{
+        colour::{bt2020_to_bt709, srgb_decode},
+        picture::Plate,
+    },
 };
 
 /// Reads a photograph from a PNG, JPEG, OpenEXR or Radiance .hdr file, told apart by content, not by name.
@@ -65,10 +67,11 @@ fn encoded(path: &Path, file: impl BufRead + Seek, format: ImageFormat) -> Resul
     let rgb = image.into_rgb16();
     let curve: Vec<f32> = (0..=u16::MAX).map(|value| srgb_decode(f64::from(value) / 65535.0) as f32).collect();
     let size = [rgb.width() as usize, rgb.height() as usize];
-    let pixels = rgb.as_raw().par_chunks_exact(3).map(|pixel| std::array::from_fn(|k| curve[usize::from(pixel[k])]));
+    let (raw, _) = rgb.as_raw().as_chunks::<3>();
+    let pixels = parallel::map(raw.len(), |k| raw[k].map(|value| curve[usize::from(value)]));
     let note = has_alpha
         .then(|| "is transparent in parts; what is behind them is not known, and they are shown whole".to_owned());
-    Ok((size, pixels.collect(), note.into_iter().collect()))
+    Ok((size, pixels, note.into_iter().collect()))
 }
 
 /// Takes a picture of radiance.
@@ -81,7 +84,9 @@ fn linear(picture: DecodedPicture) -> Result<Decoded, InputError> {
     let matrix = stated.or_else(|| BT709.to_bt2020()).map(|to_bt2020| (bt2020_to_bt709() * to_bt2020).as_mat3());
     let matrix = matrix.unwrap_or(glam::Mat3::IDENTITY);
     let mut pixels = picture.pixels;
-    pixels.par_iter_mut().for_each(|pixel| *pixel = (matrix * glam::Vec3::from(pixel.map(usable))).to_array());
+    parallel::change(&mut pixels, picture.width, |_, row| {
+        row.iter_mut().for_each(|pixel| *pixel = (matrix * glam::Vec3::from(pixel.map(usable))).to_array());
+    });
     Ok(([picture.width, picture.height], pixels, notes))
 }
 

@@ -1,9 +1,11 @@
 //! How far two pictures are apart, as people see them.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
-use crate::physics::colour::{BT709, Lab, ciede2000, srgb_decode, xyz_to_lab};
+use crate::{
+    parallel,
+    physics::colour::{BT709, Lab, ciede2000, srgb_decode, xyz_to_lab},
+};
 
 /// The difference of two pictures.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +21,8 @@ pub struct Difference {
 /// CIEDE2000 between two pictures of equal size: rows of RGBA, 8 bits of sRGB. Pixels that only one of them has are left out.
 #[must_use]
 pub fn difference(a: &[u8], b: &[u8]) -> Difference {
-    let delta_e: Vec<f64> = a.par_chunks_exact(4).zip(b.par_chunks_exact(4)).map(|(a, b)| apart(a, b)).collect();
+    let [(a, _), (b, _)] = [a, b].map(<[u8]>::as_chunks::<4>);
+    let delta_e = parallel::map(a.len().min(b.len()), |k| apart(&a[k], &b[k]));
     let mut sorted = delta_e.clone();
     sorted.sort_unstable_by(f64::total_cmp);
     let p999 = sorted.get((0.999 * sorted.len() as f64) as usize).copied().unwrap_or_default();

@@ -1,11 +1,11 @@
 //! The film of a bubble as numbers.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{Error, Studio, moment, shot};
 use crate::{
     input::LoadedScene,
+    parallel,
     physics::sphere::{CubedSphere, HaloTable, PaddedField},
     plan::{BubbleKey, FilmKey, FrameRequest, Story, film_grids, settle_detail},
     scene::{Camera, Scene},
@@ -170,7 +170,7 @@ impl MovedFilm {
     fn at(&self, directions: &[DVec3]) -> Result<Vec<f64>, Error> {
         let thickness_nm = self.thickness_nm()?;
         let to_world = self.key.to_film.transpose();
-        Ok(directions.par_iter().map(|direction| thickness_nm(to_world * *direction)).collect())
+        Ok(parallel::map(directions.len(), |k| thickness_nm(to_world * directions[k])))
     }
 
     fn thickness_nm(&self) -> Result<FilmThickness<'_>, Error> {

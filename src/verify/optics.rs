@@ -1,7 +1,6 @@
 //! Colours of films as the shaders of each quality give them, against the spectral sum over all wavelengths in f64.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{Run, random::Random};
 use crate::{
@@ -9,6 +8,7 @@ use crate::{
         Gpu, GpuError,
         passes::probe_colour::{ColourProbe, ProbePoint},
     },
+    parallel,
     physics::{
         colour::{BT2020, Walls, m2_delta_e},
         optics::{FilmIndex, FilmMaterial},
@@ -130,10 +130,11 @@ impl Case {
         let seen = measure(gpu, &key, self.quality, &points)?;
         let (optics, material) = (key.spectra_to(self.thickest_nm), &key.film);
         let white = optics.weights().white();
-        let error = |((cos, walls), xyz): (&(f64, Walls), &DVec3)| {
-            (*cos, m2_delta_e(optics.xyz(*cos, *walls), *xyz, material, *cos, walls.count(), white))
+        let error = |k: usize| {
+            let (cos, walls) = points[k];
+            (cos, m2_delta_e(optics.xyz(cos, walls), seen[k], material, cos, walls.count(), white))
         };
-        Ok(points.par_iter().zip(&seen).map(error).collect())
+        Ok(parallel::map(points.len(), error))
     }
 }
 

@@ -12,6 +12,7 @@ use super::{
 };
 use crate::{
     gpu::GpuError,
+    parallel,
     physics::{
         film::PrescribedFlow,
         flow::{FlowForces, Mode},
@@ -170,7 +171,6 @@ fn cascade(run: &mut Run<'_>) -> Result<(), GpuError> {
 
 /// Kinetic energy by degree, from 1 on, of a vorticity: ½ ζ_lm² / (l (l + 1)) summed over orders.
 fn spectrum(sphere: CubedSphere, zeta: &[f64]) -> Vec<f64> {
-    use rayon::prelude::*;
     let areas = sphere.areas();
     let energy = |degree: u32| {
         let modes = (0..=degree).filter_map(|order| Mode::new(degree, order, 0).ok());
@@ -184,7 +184,7 @@ fn spectrum(sphere: CubedSphere, zeta: &[f64]) -> Vec<f64> {
         });
         energies.sum::<f64>()
     };
-    (1..=32).into_par_iter().map(energy).collect()
+    parallel::map(32, |k| energy(k as u32 + 1))
 }
 
 /// Slope of a spectrum over degrees, both in logarithms, by least squares.

@@ -1,10 +1,10 @@
 //! Linear pictures that are finished on the CPU: what a file holds of radiance in linear BT.2020.
 
 use glam::{DMat3, DVec3, Vec3};
-use rayon::prelude::*;
 
 use crate::{
     output::Picture,
+    parallel,
     physics::colour::{bt2020_to_bt709, transmittance},
     plan::TonemapKey,
 };
@@ -38,11 +38,11 @@ pub fn display(key: &TonemapKey, size: [u32; 2], radiance: &[Vec3]) -> Picture {
 pub fn display_alone(key: &TonemapKey, size: [u32; 2], light: &[Passage]) -> Picture {
     let (display, width) = (key.display(), size[0] as usize);
     let to_display = key.gamut.from_bt2020() * key.balance;
-    let pixel = |(k, light): (usize, &Passage)| {
+    let pixel = |k: usize| {
         let place = [(k % width) as u32, (k / width) as u32];
-        display.encode_alone(light.added.as_dvec3(), light.transmittance(&to_display), place)
+        display.encode_alone(light[k].added.as_dvec3(), light[k].transmittance(&to_display), place)
     };
-    let rgba: Vec<[u8; 4]> = light.par_iter().enumerate().map(pixel).collect();
+    let rgba = parallel::map(light.len(), pixel);
     Picture::Display { size, gamut: key.gamut, rgba: rgba.into_flattened() }
 }
 
@@ -63,13 +63,13 @@ pub fn linear_alone(size: [u32; 2], light: &[Passage]) -> Picture {
 /// three, by least squares.
 pub fn alpha(light: &[Passage]) -> Vec<f32> {
     let to_bt709 = bt2020_to_bt709();
-    light.par_iter().map(|light| (1.0 - light.transmittance(&to_bt709).element_sum() / 3.0) as f32).collect()
+    parallel::map(light.len(), |k| (1.0 - light[k].transmittance(&to_bt709).element_sum() / 3.0) as f32)
 }
 
 /// Linear BT.709 of linear BT.2020.
 pub fn in_bt709(radiance: &[Vec3]) -> Vec<[f32; 3]> {
     let to_bt709 = bt2020_to_bt709();
-    radiance.par_iter().map(|pixel| (to_bt709 * pixel.as_dvec3()).as_vec3().to_array()).collect()
+    parallel::map(radiance.len(), |k| (to_bt709 * radiance[k].as_dvec3()).as_vec3().to_array())
 }
 
 /// Channels of a layer, `R`, `G` and `B` after its prefix.

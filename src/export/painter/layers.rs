@@ -4,7 +4,6 @@
 
 use anyhow::Context;
 use glam::{DVec3, Vec3};
-use rayon::prelude::*;
 
 use super::{
     Painter,
@@ -15,6 +14,7 @@ use crate::{
     export::Progress,
     gpu::Renderer,
     output::Picture,
+    parallel,
     physics::{
         colour::bt2020_to_bt709,
         picture::{FrontBubble, FrontPixel, FrontScene, FrontWall},
@@ -46,7 +46,7 @@ impl Painter {
     fn colours(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Channels> {
         let light = self.passages(request, progress)?;
         let to_bt709 = bt2020_to_bt709();
-        let transmission: Vec<Vec3> = light.par_iter().map(|light| light.transmittance(&to_bt709).as_vec3()).collect();
+        let transmission = parallel::map(light.len(), |k| light[k].transmittance(&to_bt709).as_vec3());
         let arrays = |colours: &[Vec3]| colours.iter().map(Vec3::to_array).collect::<Vec<_>>();
         let mut channels = colour_channels("transmission.", &arrays(&transmission));
         if self.options.alpha {

@@ -6,11 +6,10 @@
 //! weighted as the eye sees them, and an exchange that moves one wavelength after another for as long as that helps.
 
 use glam::{DMat3, DVec3};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{BT2020, ColourWeights, FilmOptics, Uplift, bt2020_to_bt709};
-use crate::physics::optics::Polarised;
+use crate::{parallel, physics::optics::Polarised};
 
 /// One wavelength of a fitted sum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -115,7 +114,7 @@ fn training(
         let walls_nm = [0.733891856627126, 0.6287067210378087, 0.5385972572236101].map(|step| range_nm * part(step));
         film_rows(optics, task, cos_theta, walls_nm, candidates, responses)
     };
-    (0..FILMS).into_par_iter().flat_map_iter(film).collect()
+    parallel::map(FILMS, film).into_flattened()
 }
 
 fn film_rows(
@@ -176,18 +175,14 @@ struct Fit {
 
 impl Fit {
     fn new(rows: &[Row], size: usize) -> Self {
-        let gram: Vec<f64> = (0..size * size)
-            .into_par_iter()
-            .map(|k| {
-                let (i, j) = (k / size, k % size);
-                if j < i { 0.0 } else { rows.iter().map(|row| row.values[i] * row.values[j]).sum() }
-            })
-            .collect();
+        let gram: Vec<f64> = parallel::map(size * size, |k| {
+            let (i, j) = (k / size, k % size);
+            if j < i { 0.0 } else { rows.iter().map(|row| row.values[i] * row.values[j]).sum() }
+        });
         let gram = (0..size * size).map(|k| gram[(k / size).min(k % size) * size + (k / size).max(k % size)]).collect();
-        let mixed: Vec<[f64; TARGETS]> = (0..size)
-            .into_par_iter()
-            .map(|i| std::array::from_fn(|t| rows.iter().map(|row| row.values[i] * row.targets[t]).sum()))
-            .collect();
+        let mixed: Vec<[f64; TARGETS]> = parallel::map(size, |i| {
+            std::array::from_fn(|t| rows.iter().map(|row| row.values[i] * row.targets[t]).sum())
+        });
         let white = mixed.iter().map(|mixed| [0, 1, 2].map(|c| mixed[c] + mixed[c + 3] + mixed[c + 6])).collect();
         Self { size, gram, mixed, white }
     }

@@ -1,10 +1,9 @@
 //! The lookup table of film colours in f64: its axes, as `shaders/optics/table.wgsl` has them, and its texels.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{BT2020, FilmOptics};
-use crate::physics::optics::cos_refracted;
+use crate::{parallel, physics::optics::cos_refracted};
 
 /// How much of the rows' spacing is even: part v of the longest path is at part t of the rows with v = t (t + EVEN) / (1 + EVEN).
 const EVEN: f64 = 0.5;
@@ -52,7 +51,7 @@ impl FilmTable {
             let [s, p] = optics.xyz_of_polarisations(cos_theta, thickness_nm);
             FilmTexel { s: scale * (BT2020.from_xyz() * s), p: scale * (BT2020.from_xyz() * p) }
         };
-        (0..self.columns * self.rows).into_par_iter().map(texel).collect()
+        parallel::map(self.columns * self.rows, texel)
     }
 
     /// What a table's texels, row by row, give for a film by linear filtering that clamps at the ends.

@@ -2,8 +2,9 @@
 
 use glam::{DVec2, DVec3};
 use half::{f16, slice::HalfFloatSliceExt};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+
+use crate::parallel;
 
 use super::{CubeFace, Equirect, Lamp, Repairs, mip};
 
@@ -152,7 +153,7 @@ impl CubeMap {
     /// The mean of the radiance over all directions, for lamps that are small: what a small diffuse sphere, lit on average, would show.
     pub fn mean_radiance(&self) -> DVec3 {
         let level = &self.mips[0];
-        let rows: Vec<_> = (0..6 * level.size).into_par_iter().map(|row| weighted_row(level, row)).collect();
+        let rows = parallel::map(6 * level.size, |row| weighted_row(level, row));
         // Summed in order, so that equal maps have equal means to the last bit.
         let (radiance, weight) = rows.into_iter().fold((DVec3::ZERO, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
         let lamps: DVec3 = self.lamps.iter().map(|lamp| lamp.area() * lamp.radiance).sum();
@@ -204,11 +205,11 @@ fn fill_face(
     supersampling: usize,
     radiance: &(impl Fn(DVec3) -> DVec3 + Sync),
 ) -> Repairs {
-    let fill_row = |(row, texels): (usize, &mut [[f32; 3]])| -> Repairs {
+    let fill_row = |row: usize, texels: &mut [[f32; 3]]| -> Repairs {
         let columns = texels.iter_mut().enumerate();
         columns.map(|(column, texel)| fill_texel(texel, face, [column, row], size, supersampling, radiance)).sum()
     };
-    texels.par_chunks_exact_mut(size).enumerate().map(fill_row).sum()
+    parallel::change(texels, size, fill_row).into_iter().sum()
 }
 
 fn fill_texel(
@@ -246,7 +247,8 @@ fn store_mips(mips: &mut [CubeLevel], face: CubeFace, mut texels: Vec<[f32; 3]>)
 fn halves(texels: &[[f32; 3]]) -> Vec<[f16; 4]> {
     const PIECE: usize = 1024;
     let mut halves = vec![[f16::ONE; 4]; texels.len()];
-    halves.par_chunks_mut(PIECE).zip(texels.par_chunks(PIECE)).for_each(|(halves, texels)| {
+    parallel::change(&mut halves, PIECE, |piece, halves| {
+        let texels = &texels[piece * PIECE..][..halves.len()];
         let opaque: Vec<[f32; 4]> = texels.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
         halves.as_flattened_mut().convert_from_f32_slice(opaque.as_flattened());
     });

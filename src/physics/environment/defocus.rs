@@ -9,7 +9,8 @@
 //! its integral takes two lookups a row, whatever is in it: sun and sky alike, without noise, with their energy.
 
 use glam::{DVec2, DVec3, DVec4};
-use rayon::prelude::*;
+
+use crate::parallel;
 
 use super::{CubeFace, CubeMap};
 
@@ -102,8 +103,7 @@ impl Sums {
             });
             std::iter::once(DVec4::ZERO).chain(later).collect::<Vec<_>>()
         };
-        let sums: Vec<Vec<DVec4>> = (0..width).into_par_iter().map(row).collect();
-        Self { per_unit, middle, width, sums: sums.concat() }
+        Self { per_unit, middle, width, sums: parallel::map(width, row).concat() }
     }
 
     /// Radiance times solid angle, and solid angle, within a cone about a unit vector (s, t and depth of the face's plane).

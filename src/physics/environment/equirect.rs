@@ -3,8 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 use thiserror::Error;
+
+use crate::parallel;
 
 use super::Repairs;
 
@@ -61,7 +62,9 @@ impl Equirect {
         if pixels.is_empty() || expected != Some(pixels.len()) || !width.is_multiple_of(2) {
             return Err(WrongPixelCount { width, height, pixels: pixels.len() });
         }
-        let repairs = pixels.par_iter_mut().map(Repairs::repair).sum();
+        let repairs =
+            parallel::change(&mut pixels, width, |_, row| row.iter_mut().map(Repairs::repair).sum::<Repairs>());
+        let repairs = repairs.into_iter().sum();
         Ok(Self { width, height, pixels, repairs })
     }
 

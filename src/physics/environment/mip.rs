@@ -1,6 +1,6 @@
 //! Smaller versions of a square picture, each half the size of the last, with the same mean.
 
-use rayon::prelude::*;
+use crate::parallel;
 
 /// The level below a square picture of `size` texels: each texel is the mean of the area it covers, and the mean of all is
 /// kept.
@@ -14,9 +14,9 @@ pub(super) fn halve(texels: &[[f32; 3]], size: usize) -> Vec<[f32; 3]> {
     }
     let coverage: Vec<_> = (0..half).map(|i| Coverage::new(i, size, half)).collect();
     let mut smaller = vec![[0.0; 3]; half * half];
-    smaller.par_chunks_exact_mut(half).zip(&coverage).for_each(|(row, vertical)| {
+    parallel::change(&mut smaller, half, |k, row| {
         for (texel, horizontal) in row.iter_mut().zip(&coverage) {
-            *texel = mean(texels, size, horizontal, vertical);
+            *texel = mean(texels, size, horizontal, &coverage[k]);
         }
     });
     smaller
@@ -25,8 +25,8 @@ pub(super) fn halve(texels: &[[f32; 3]], size: usize) -> Vec<[f32; 3]> {
 /// Means of two by two texels.
 fn halve_even(texels: &[[f32; 3]], size: usize) -> Vec<[f32; 3]> {
     let mut smaller = vec![[0.0; 3]; texels.len() / 4];
-    smaller.par_chunks_exact_mut(size / 2).zip(texels.par_chunks_exact(2 * size)).for_each(|(row, parents)| {
-        let (upper, lower) = parents.split_at(size);
+    parallel::change(&mut smaller, size / 2, |k, row| {
+        let (upper, lower) = texels[2 * size * k..][..2 * size].split_at(size);
         for ((texel, upper), lower) in row.iter_mut().zip(upper.chunks_exact(2)).zip(lower.chunks_exact(2)) {
             let sum =
                 |i: usize| [upper[0][i], upper[1][i], lower[0][i], lower[1][i]].map(f64::from).iter().sum::<f64>();

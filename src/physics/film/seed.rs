@@ -1,10 +1,12 @@
 //! A film as it begins: the values of a function on the grids of its field.
 
 use glam::DVec3;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::physics::sphere::{Cap, CubedSphere};
+use crate::{
+    parallel,
+    physics::sphere::{Cap, CubedSphere},
+};
 
 /// The grids that a function is put on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,8 +66,7 @@ struct Values {
 impl Values {
     fn new(sphere: CubedSphere, cap: Option<Cap>, value: &(impl Fn(DVec3) -> f64 + Sync)) -> Self {
         let folded = |x| cap.map_or(x, |cap| cap.folded(x));
-        let indices = (0..sphere.padded_len()).into_par_iter();
-        let values = indices.map(|index| value(folded(sphere.padded_direction(index)))).collect();
+        let values = parallel::map(sphere.padded_len(), |index| value(folded(sphere.padded_direction(index))));
         let areas = cap.map_or_else(|| sphere.areas(), |cap| cap.areas(sphere));
         let film_area = if cap.is_some() { areas.iter().sum() } else { 4.0 * std::f64::consts::PI };
         let place = |cell: usize| {

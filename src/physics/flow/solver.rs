@@ -15,7 +15,6 @@
 //! (Störmer-Verlet).
 
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use super::{
     force::{FlowForces, HalfStep, VISCOUS_STAGE},
@@ -25,7 +24,10 @@ use super::{
     pinned_region::PinnedRegion,
     trace::advected,
 };
-use crate::physics::sphere::{Cap, CubedSphere, FieldValue, HaloTable, PaddedField};
+use crate::{
+    parallel,
+    physics::sphere::{Cap, CubedSphere, FieldValue, HaloTable, PaddedField},
+};
 
 /// Cycles that find ψ, each of which leaves less than a fifth of the residual.
 pub const POISSON_CYCLES: usize = 2;
@@ -185,7 +187,7 @@ impl FlowSolver {
             let turned = turned_gradient(log_thickness, cell);
             HalfStep::new(forces, dt, at[cell], (thickness[cell], turned), forcing[cell])
         };
-        let half_steps: Vec<HalfStep> = (0..zeta.len()).into_par_iter().map(half_step).collect();
+        let half_steps = parallel::map(zeta.len(), half_step);
         let pushed = self.field(|cell| DVec2::new(half_steps[cell].decay * zeta[cell], half_steps[cell].push));
         let carried = advected(self.halo(), &pushed, &velocity, dt).cells();
         let slowed = self.field(|cell| half_steps[cell].decay * carried[cell].x);

@@ -4,9 +4,11 @@
 //! is halved again and again, and the halves are added up from the smallest on, each with its share. Both filters keep the light's sum.
 
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
-use crate::physics::colour::{hash, uniform};
+use crate::{
+    parallel,
+    physics::colour::{hash, uniform},
+};
 
 /// Widths of glare: bells of an eighth of the picture's height, and so on down to a 256th.
 const WIDTHS: u32 = 6;
@@ -98,10 +100,10 @@ impl Level {
 
     /// Pixels of another picture, from the middle and the column and row of each.
     fn mapped(&self, size: [usize; 2], pixel: impl Fn(DVec2, [i64; 2]) -> DVec3 + Sync) -> Vec<DVec3> {
-        let row = |row: usize| (0..size[0]).map(move |column| [column, row]);
-        let middle = |[column, row]: [usize; 2]| DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-        let rows = (0..size[1]).into_par_iter();
-        rows.flat_map_iter(|y| row(y).map(|place| pixel(middle(place), place.map(|k| k as i64)))).collect()
+        parallel::map(size[0] * size[1], |k| {
+            let place = [k % size[0], k / size[0]];
+            pixel(DVec2::from(place.map(|k| k as f64 + 0.5)), place.map(|k| k as i64))
+        })
     }
 
     /// The picture at half its size: weights 1, 3, 3, 1 along each axis.

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use glam::{DMat3, DVec2, DVec3};
-use rayon::prelude::*;
+
+use crate::parallel;
 
 use super::{
     PictureCamera,
@@ -96,8 +97,7 @@ impl FrontScene<'_> {
             };
             (0..self.size[0]).map(pixel).collect::<Vec<_>>()
         };
-        let rows: Vec<Vec<FrontPixel>> = (0..self.size[1]).into_par_iter().map(row).collect();
-        rows.into_iter().flatten().collect()
+        parallel::map(self.size[1] as usize, |y| row(y as u32)).into_iter().flatten().collect()
     }
 
     fn reach(&self, bubble: usize) -> Reach {

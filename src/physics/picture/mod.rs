@@ -35,7 +35,8 @@ mod walls;
 mod weights;
 
 use glam::{DMat3, DVec2, DVec3};
-use rayon::prelude::*;
+
+use crate::parallel;
 
 use super::colour::{ColourWeights, FilmOptics};
 pub use finish::Finish;
@@ -103,15 +104,14 @@ impl PictureScene<'_> {
             progress();
             row
         };
-        let rows: Vec<Vec<DVec3>> = (0..height).into_par_iter().map(row).collect();
-        rows.concat()
+        parallel::map(height as usize, |y| row(y as u32)).concat()
     }
 
     /// Radiance of some pixels, each a column and a row, as of [`Self::radiance`].
     #[must_use]
     pub fn radiance_of(&self, pixels: &[[u32; 2]]) -> Vec<DVec3> {
         let paths = LightPath::new(self);
-        pixels.par_iter().map(|pixel| self.pixel(&paths, *pixel)).collect()
+        parallel::map(pixels.len(), |k| self.pixel(&paths, pixels[k]))
     }
 
     fn pixel(&self, paths: &LightPath, corner: [u32; 2]) -> DVec3 {

@@ -1,8 +1,8 @@
 //! A photograph that stands behind the bubbles, fixed to the frame of the picture.
 
-use std::ops::Range;
+use crate::parallel;
 
-use rayon::prelude::*;
+use std::ops::Range;
 
 /// A photograph, linear BT.709.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +52,7 @@ impl Plate {
             let mixed: Vec<[f32; 3]> = used.clone().map(line).collect();
             across.iter().map(|taps| taps.mean(|column| mixed[column - used.start])).collect::<Vec<_>>()
         };
-        down.par_iter().map(row).collect::<Vec<_>>().concat()
+        parallel::map(down.len(), |k| row(&down[k])).concat()
     }
 }
 

@@ -3,7 +3,8 @@
 use std::ops::{Add, Mul};
 
 use glam::DVec3;
-use rayon::prelude::*;
+
+use crate::parallel;
 
 use super::{CubedSphere, HaloEntry, HaloTable, cubic_weights, quintic_weights};
 
@@ -22,7 +23,7 @@ pub struct PaddedField<T> {
 impl<T: FieldValue> PaddedField<T> {
     /// The field whose value in each cell, numbered in the order panel, j, i, is `value(cell)`. `halo` is the grid's table.
     pub fn from_cells(grid: CubedSphere, halo: &HaloTable, value: impl Fn(usize) -> T + Sync) -> Self {
-        let inner: Vec<T> = (0..grid.cells()).into_par_iter().map(&value).collect();
+        let inner = parallel::map(grid.cells(), value);
         let mut values = vec![T::default(); grid.padded_len()];
         for (row, cells) in inner.chunks_exact(grid.n()).enumerate() {
             let start = grid.padded_index(row / grid.n(), 0, (row % grid.n()) as isize);
@@ -36,8 +37,7 @@ impl<T: FieldValue> PaddedField<T> {
     /// The field that samples a function of direction at the cell centers, halo included: they are places on the sphere like
     /// any other.
     pub fn sample(grid: CubedSphere, value: impl Fn(DVec3) -> T + Sync) -> Self {
-        let values = (0..grid.padded_len()).into_par_iter().map(|index| value(grid.padded_direction(index))).collect();
-        Self { grid, values }
+        Self { grid, values: parallel::map(grid.padded_len(), |index| value(grid.padded_direction(index))) }
     }
 
     /// The field that samples a function of direction at the cells alone, with its halo interpolated from them: what fields are like that only
@@ -61,7 +61,7 @@ impl<T: FieldValue> PaddedField<T> {
             let stored = inside(place % width) && inside(place / width % width);
             if stored { value(place) } else { T::default() }
         };
-        Self { grid, values: (0..grid.padded_len()).into_par_iter().map(at).collect() }
+        Self { grid, values: parallel::map(grid.padded_len(), at) }
     }
 
     /// The grid.

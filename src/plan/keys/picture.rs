@@ -3,14 +3,16 @@
 use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
-use rayon::prelude::*;
 
 use super::{DefocusKey, EnvironmentKey, FilmKey, OpenHoleKey, Opening, PlateKey, QuadratureKey, TableKey};
-use crate::physics::{
-    colour::{Display, Gamut},
-    environment::CubeFace,
-    film::Cap,
-    picture::Finish,
+use crate::{
+    parallel,
+    physics::{
+        colour::{Display, Gamut},
+        environment::CubeFace,
+        film::Cap,
+        picture::Finish,
+    },
 };
 
 /// One bubble as the picture sees it.
@@ -388,11 +390,11 @@ impl TonemapKey {
     pub fn shown(&self, size: [u32; 2], radiance: Vec<DVec3>) -> Vec<u8> {
         let (display, width) = (self.display(), size[0] as usize);
         let finished = self.finish.applied(size, self.exposure_ev.exp2(), radiance);
-        let pixel = |(k, radiance): (usize, &DVec3)| {
-            let [r, g, b] = display.encode(*radiance, [(k % width) as u32, (k / width) as u32]);
+        let pixel = |k: usize| {
+            let [r, g, b] = display.encode(finished[k], [(k % width) as u32, (k / width) as u32]);
             [r, g, b, u8::MAX]
         };
-        finished.par_iter().enumerate().map(pixel).collect::<Vec<_>>().into_flattened()
+        parallel::map(finished.len(), pixel).into_flattened()
     }
 
     /// Factor that exposes the linear picture, which is exposed by whole stops already.
