@@ -75,11 +75,10 @@ fn side_of(level: Level) -> u32 {
 }
 
 fn fill(base: u32, entry: u32) {
-    var total = 0.0;
-    for (var k = 0u; k < 4u; k++) {
-        total += entries[entry].weights[k] * e[base + entries[entry].sources[k]];
-    }
-    e[base + entries[entry].cell] = total;
+    let halo = entries[entry];
+    let at = base + halo.first;
+    e[base + halo.cell] = halo.weights.x * e[at] + halo.weights.y * e[at + halo.step] +
+        halo.weights.z * e[at + 2u * halo.step] + halo.weights.w * e[at + 3u * halo.step];
 }
 
 // The innermost ring, which is all that is read of it, and the second on the way to its corners: see `HaloTable`.

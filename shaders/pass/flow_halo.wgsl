@@ -18,44 +18,36 @@ fn edges() -> u32 {
 }
 
 fn fill_scalar(first: u32, entry: u32) {
-    var total = 0.0;
-    for (var k = 0u; k < 4u; k++) {
-        total += entries[entry].weights[k] * scalar[first + entries[entry].sources[k]];
-    }
-    scalar[first + entries[entry].cell] = total;
+    let halo = entries[entry];
+    let at = first + halo.first;
+    scalar[first + halo.cell] = halo.weights.x * scalar[at] + halo.weights.y * scalar[at + halo.step] +
+        halo.weights.z * scalar[at + 2u * halo.step] + halo.weights.w * scalar[at + 3u * halo.step];
 }
 
 fn fill_pair(first: u32, entry: u32) {
-    var total = vec2f(0.0);
-    for (var k = 0u; k < 4u; k++) {
-        total += entries[entry].weights[k] * pair[first + entries[entry].sources[k]];
-    }
-    pair[first + entries[entry].cell] = total;
+    let halo = entries[entry];
+    let at = first + halo.first;
+    pair[first + halo.cell] = halo.weights.x * pair[at] + halo.weights.y * pair[at + halo.step] +
+        halo.weights.z * pair[at + 2u * halo.step] + halo.weights.w * pair[at + 3u * halo.step];
 }
 
 // Within the range of what it is interpolated from.
 fn fill_bounded(first: u32, entry: u32) {
-    var total = 0.0;
-    var low = scalar[first + entries[entry].sources[0]];
-    var high = low;
-    for (var k = 0u; k < 4u; k++) {
-        let value = scalar[first + entries[entry].sources[k]];
-        total += entries[entry].weights[k] * value;
-        low = min(low, value);
-        high = max(high, value);
-    }
-    scalar[first + entries[entry].cell] = clamp(total, low, high);
+    let halo = entries[entry];
+    let at = first + halo.first;
+    let four = vec4f(scalar[at], scalar[at + halo.step], scalar[at + 2u * halo.step], scalar[at + 3u * halo.step]);
+    let low = min(min(four.x, four.y), min(four.z, four.w));
+    let high = max(max(four.x, four.y), max(four.z, four.w));
+    scalar[first + halo.cell] = clamp(dot(halo.weights, four), low, high);
 }
 
 fn fill_velocities(first: u32, entry: u32) {
-    var total = vec4f(0.0);
-    var total_ahead = vec4f(0.0);
-    for (var k = 0u; k < 4u; k++) {
-        total += entries[entry].weights[k] * velocity[first + entries[entry].sources[k]];
-        total_ahead += entries[entry].weights[k] * velocity_ahead[first + entries[entry].sources[k]];
-    }
-    velocity[first + entries[entry].cell] = total;
-    velocity_ahead[first + entries[entry].cell] = total_ahead;
+    let halo = entries[entry];
+    let at = first + halo.first;
+    velocity[first + halo.cell] = halo.weights.x * velocity[at] + halo.weights.y * velocity[at + halo.step] +
+        halo.weights.z * velocity[at + 2u * halo.step] + halo.weights.w * velocity[at + 3u * halo.step];
+    velocity_ahead[first + halo.cell] = halo.weights.x * velocity_ahead[at] + halo.weights.y * velocity_ahead[at + halo.step] +
+        halo.weights.z * velocity_ahead[at + 2u * halo.step] + halo.weights.w * velocity_ahead[at + 3u * halo.step];
 }
 
 @compute @workgroup_size(256)

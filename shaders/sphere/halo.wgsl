@@ -2,7 +2,8 @@
 
 // Mirrors `HaloEntry` there.
 struct HaloEntry {
+    weights: vec4f,
     cell: u32,
-    sources: array<u32, 4>,
-    weights: array<f32, 4>,
+    first: u32,
+    step: u32,
 }

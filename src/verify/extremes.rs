@@ -51,11 +51,11 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     }
     for pa_s in [1e-4, 10.0].into_iter().take(run.short_or_full(1, 2)) {
         let scene = blown_with(|motion| motion.viscosity_mm2_s = 1e6 * pa_s / DENSITY_KG_M3);
-        film(run, &format!("a viscosity of {pa_s} Pa s"), &scene, 6.0)?;
+        film(run, &format!("a viscosity of {pa_s} Pa s"), &scene, run.short_or_full(3.0, 6.0))?;
     }
-    film(run, "ticks of 0.1 s", &blown_with(|motion| motion.tick_s = 0.1), 6.0)?;
-    film(run, "steps of 1 to 17 ms in turn", &spikes(), 4.0)?;
-    film(run, "gravity that flips", &flips(), 8.0)?;
+    film(run, "ticks of 0.1 s", &blown_with(|motion| motion.tick_s = 0.1), run.short_or_full(3.0, 6.0))?;
+    film(run, "steps of 1 to 17 ms in turn", &spikes(), run.short_or_full(2.0, 4.0))?;
+    film(run, "gravity that flips", &flips(), run.short_or_full(5.0, 8.0))?;
     black(run)?;
     an_hour(run)
 }
@@ -181,11 +181,12 @@ fn black(run: &mut Run<'_>) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// An hour of a blown film, most of which it rests. In the short form more drag brings it to rest sooner.
+/// An hour of a blown film, most of which it rests. In the short form more drag and a smaller bubble bring it to rest sooner.
 fn an_hour(run: &mut Run<'_>) -> Result<(), GpuError> {
     const HOUR_S: f64 = 3600.0;
-    let slower = run.short_or_full(4.0, 1.0);
-    let scene = blown_with(|motion| motion.drag_1_s *= slower);
+    let (slower, radius_mm) = run.short_or_full((8.0, 5.0), (1.0, 50.0));
+    let mut scene = blown_with(|motion| motion.drag_1_s *= slower);
+    scene.bubbles[0].radius_mm = radius_mm;
     let mut played = Played::new(run.gpu, &scene)?;
     let before = played.thickness()?;
     played.play_to((HOUR_S / scene.motion.tick_s).round() as u64)?;

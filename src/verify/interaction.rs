@@ -23,9 +23,9 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     undriven(run)?;
     sloshing(run)?;
     creeping(run)?;
-    anything(run, "", run.short_or_full(60, 3000), 0.5)?;
+    anything(run, "", run.short_or_full(45, 3000), 0.5)?;
     // Accelerated as no bubble could bear.
-    anything(run, ", dragged by kilometres", run.short_or_full(30, 200), 1000.0)
+    anything(run, ", dragged by kilometres", run.short_or_full(15, 200), 1000.0)
 }
 
 /// A film without weight in air at rest.
@@ -110,6 +110,9 @@ fn undriven(run: &mut Run<'_>) -> Result<(), GpuError> {
 fn sloshing(run: &mut Run<'_>) -> Result<(), GpuError> {
     let drag = |tick, x| Event { tick, change: Change::Drag(Drag { to_m: [x, 0.0, 0.0], ..Drag::default() }) };
     swing(run, "a drag there and back", vec![drag(2, 3e-3), drag(14, 0.0)])?;
+    if run.extent == Extent::Short {
+        return Ok(());
+    }
     let stir = Stir { at: [1.0, 0.0, 0.0], velocity_m_s: [0.0, 0.0, 0.01], radius_deg: 40.0, ..Stir::default() };
     swing(run, "a stir", vec![Event { tick: 2, change: Change::Stir(stir) }])
 }
@@ -143,7 +146,7 @@ fn swing(run: &mut Run<'_>, name: &str, events: Vec<Event>) -> Result<(), GpuErr
 
 /// Interactions as wild as scenes allow, then peace.
 fn anything(run: &mut Run<'_>, name: &str, events: u64, reach_m: f64) -> Result<(), GpuError> {
-    let (drag_1_s, peace_s) = (2.0, run.short_or_full(2.0, 30.0));
+    let (drag_1_s, peace_s) = (2.0, run.short_or_full(0.5, 30.0));
     let mut random = Random::new(7);
     let mut scene = Scene::default();
     scene.bubbles[0].film.cells = 16;
@@ -154,7 +157,8 @@ fn anything(run: &mut Run<'_>, name: &str, events: u64, reach_m: f64) -> Result<
     let mut played = Played::new(run.gpu, &scene)?;
     let before = played.thickness()?;
     let mut fastest: f64 = 0.0;
-    for tick in (100..=events).step_by(100) {
+    let looks = run.short_or_full(15, 100);
+    for tick in (looks..=events).step_by(looks as usize) {
         played.play_to(tick)?;
         fastest = largest([fastest, played.fastest()?].into_iter());
     }
@@ -206,12 +210,11 @@ fn creeping(run: &mut Run<'_>) -> Result<(), GpuError> {
         let slope: DVec3 = weighted.map(|(cell, (area, h))| area * (h - level) * grid.cell_direction(cell)).sum();
         Ok::<f64, GpuError>(tilt - (slope.x / -slope.z).atan())
     };
-    const FROM_S: f64 = 8.0;
-    let to_s = run.short_or_full(12.0, 30.0);
-    let (first, last): (f64, f64) = (angle(FROM_S)?, angle(to_s)?);
+    let [from_s, to_s] = run.short_or_full([7.0, 10.0], [8.0, 30.0]);
+    let (first, last): (f64, f64) = (angle(from_s)?, angle(to_s)?);
     let swing = 0.5 * a * 9.81 / (1e-3 * scene.bubbles[0].radius_mm);
     let expected = 0.5 * drag_1_s - (0.25 * drag_1_s * drag_1_s - swing).sqrt();
-    let found = (first / last).ln() / (to_s - FROM_S);
+    let found = (first / last).ln() / (to_s - from_s);
     run.at_most("a nearly even film creeps to its level: error of the rate", (found / expected - 1.0).abs(), 0.03);
     Ok(())
 }

@@ -60,7 +60,7 @@ fn read(gpu: &Gpu, solver: &FlowSolver, buffer: &wgpu::Buffer) -> Result<Vec<f64
 fn half_a_film(run: &mut Run<'_>) -> Result<(), GpuError> {
     const STEPS: u32 = 60;
     let cap = Cap::HEMISPHERE;
-    for (degree, order) in [(2, 1), (3, 2)] {
+    for (degree, order) in [(2, 1), (3, 2)].into_iter().take(run.short_or_full(1, 2)) {
         let mode = Mode::new(degree, order, 0).ok();
         let case = mode.and_then(|mode| FlowCase::new(FlowCaseKind::Sloshing, DVec3::Z, mode, 1.0, 0.0).ok());
         let Some(case) = case.map(|case| case.with_film(1.0, 0.0)) else { continue };
@@ -112,7 +112,7 @@ fn leak(gpu: &Gpu, film: &FreeFilm<'_>, rim: f64) -> Result<f64, GpuError> {
 /// Nothing flows across a rim, and no film is lost.
 fn tight(run: &mut Run<'_>) -> Result<(), GpuError> {
     let rims = [("a bath", FRAC_PI_2, 2e-3), ("a ring at 126°", 2.2, 2e-2), ("a ring at 69°", 1.2, 2e-2)];
-    let steps = run.short_or_full(15, 30);
+    let steps = run.short_or_full(10, 30);
     for (name, rim, limit) in rims.into_iter().take(run.short_or_full(2, 3)) {
         let cap = if rim == FRAC_PI_2 { Cap::HEMISPHERE } else { Cap::above(rim) };
         let mut film = fresh(run.gpu, Some(cap), None)?;
@@ -130,7 +130,7 @@ fn tight(run: &mut Run<'_>) -> Result<(), GpuError> {
 /// Each remap samples beyond the rim what is within, and each step makes the vorticity there its image.
 fn image(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut film = fresh(run.gpu, Some(Cap::HEMISPHERE), None)?;
-    let steps = run.short_or_full(40, 120);
+    let steps = run.short_or_full(30, 120);
     film.run(steps, STEP_S)?;
     let solver = film.motion.flow();
     let (grid, zeta) = (solver.sphere(), read(run.gpu, solver, solver.zeta())?);
@@ -157,7 +157,7 @@ fn drop(run: &mut Run<'_>) -> Result<(), GpuError> {
     for (drop_rad, found) in [None, Some(radius)].into_iter().zip(&mut leaks) {
         let mut film = fresh(run.gpu, None, drop_rad)?;
         let (before, _) = film.liquid()?;
-        film.run(60, STEP_S)?;
+        film.run(run.short_or_full(45, 60), STEP_S)?;
         let name = if drop_rad.is_some() { "a film with a drop" } else { "a film without a drop" };
         run.at_most(format!("{name}: film gained or lost, part of it"), (film.liquid()?.0 / before - 1.0).abs(), LOSS);
         *found = leak(run.gpu, &film, PI - 0.5 * radius)?;
@@ -258,7 +258,7 @@ fn regeneration(run: &mut Run<'_>) -> Result<(), GpuError> {
     /// Steps for which a film hears of a patch, so that no remap misses it.
     const HEARD: f64 = 8.0;
     const NM: f64 = 700.0;
-    let steps = run.short_or_full(60, 90);
+    let steps = run.short_or_full(30, 90);
     let cap = Cap::above(RIM);
     let even = field(run.gpu, 64, Rules { cap: Some(cap), ..RULES }, |_| NM)?;
     let mut film = FreeFilm::new(run.gpu, even, FlowForces::default(), PrescribedFlow::default())?;
@@ -272,7 +272,7 @@ fn regeneration(run: &mut Run<'_>) -> Result<(), GpuError> {
         let law = DrainLaw { patch_radius: RADIUS, patches, black_nm: BLACK_NM, ..DrainLaw::default() };
         film.field.drain(Some((law, 6)));
         film.run(1, STEP_S)?;
-        if step % 30 == 0 {
+        if step % 15 == 0 {
             let (mean, drained) = film.liquid()?;
             returned = returned.max(reservoir - drained);
             reservoir = drained;

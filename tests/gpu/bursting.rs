@@ -90,7 +90,7 @@ fn black_film_grows_as_the_film_evaporates_and_then_evaporates_no_more() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = thin(150.0);
     loaded.scene.bubbles[0].film.cells = short_or_long(32, CELLS);
-    let rate_nm_s = short_or_long(80.0, 40.0);
+    let rate_nm_s = short_or_long(160.0, 40.0);
     loaded.scene.motion.evaporation_nm_s = rate_nm_s;
     let mut black = vec![0.0];
     for evaporated_nm in [40.0, 80.0, 120.0, 160.0, 360.0] {

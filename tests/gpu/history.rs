@@ -10,7 +10,7 @@ use soapfilm::{
 use crate::support::{Random, load, radiance, renderer, short_or_long, still};
 
 const SIZE: [u32; 2] = [64, 36];
-const CELLS: u32 = 32;
+const CELLS: u32 = 16;
 
 /// The default bubble with a film of few cells.
 fn small() -> LoadedScene {

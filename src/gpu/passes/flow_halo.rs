@@ -10,7 +10,7 @@ use crate::{
     physics::sphere::HaloEntry,
 };
 
-shader_view! { HaloEntry { cell, sources, weights } }
+shader_view! { HaloEntry { weights, cell, first, step, padding } }
 
 kernels! {
     pass flow_halo;

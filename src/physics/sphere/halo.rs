@@ -8,16 +8,27 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{CubedSphere, HALO, PanelPoint, cubic_weights};
 
-/// One halo cell: `value[cell] = Σ weights[k] · value[sources[k]]`, all in padded indices.
+/// One halo cell: `value[cell] = Σ weights[k] · value[first + k · step]`, all in padded indices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct HaloEntry {
-    /// The halo cell.
-    pub cell: u32,
-    /// Four cells in a row on the neighbour panel.
-    pub sources: [u32; 4],
     /// Lagrange weights. Their sum is exactly 1, so that constants stay constant in any precision.
     pub weights: [f32; 4],
+    /// The halo cell.
+    pub cell: u32,
+    /// The first of four cells in a row on the neighbour panel.
+    pub first: u32,
+    /// From each of them to the next.
+    pub step: u32,
+    /// Nothing.
+    pub padding: u32,
+}
+
+impl HaloEntry {
+    /// The four cells that the halo cell is interpolated from.
+    pub fn sources(&self) -> [u32; 4] {
+        [0, 1, 2, 3].map(|k| self.first + k * self.step)
+    }
 }
 
 /// The halo cells of a grid in two passes: all of `edges`, then all of `corners`, each from the innermost ring outwards. Within a pass any
@@ -63,14 +74,13 @@ fn entry(grid: CubedSphere, panel: usize, i: isize, j: isize, reach: isize) -> H
     let (along, across) = if along_x { (place.x, place.y) } else { (place.y, place.x) };
     let row = across.round() as isize;
     let first = (along.floor() as isize - 1).clamp(-reach, grid.n() as isize + reach - 4);
-    let sources = [0, 1, 2, 3].map(|step| {
-        let (i, j) = if along_x { (first + step, row) } else { (row, first + step) };
-        grid.padded_index(place.panel, i, j) as u32
-    });
+    let (first_i, first_j) = if along_x { (first, row) } else { (row, first) };
     HaloEntry {
-        cell: grid.padded_index(panel, i, j) as u32,
-        sources,
         weights: unit_sum(cubic_weights(along - (first + 1) as f64)),
+        cell: grid.padded_index(panel, i, j) as u32,
+        first: grid.padded_index(place.panel, first_i, first_j) as u32,
+        step: if along_x { 1 } else { grid.padded_width() as u32 },
+        padding: 0,
     }
 }
 
@@ -103,7 +113,7 @@ mod tests {
             let table = HaloTable::new(CubedSphere::new(n).unwrap());
             let outer: HashSet<u32> = table.edges[48 * n..].iter().map(|entry| entry.cell).collect();
             let corners = &table.corners[..24];
-            assert!(corners.iter().all(|entry| entry.sources.iter().all(|source| !outer.contains(source))));
+            assert!(corners.iter().all(|entry| entry.sources().iter().all(|source| !outer.contains(source))));
             let width = n + 2 * HALO;
             let inner = |k: usize| k == HALO - 1 || k == HALO + n;
             assert!(corners.iter().all(|entry| {
@@ -135,7 +145,7 @@ mod tests {
             let mut ready: HashSet<u32> =
                 cells.map(|(panel, i, j)| grid.padded_index(panel, i as isize, j as isize) as u32).collect();
             for pass in [&table.edges, &table.corners] {
-                prop_assert!(pass.iter().all(|entry| entry.sources.iter().all(|source| ready.contains(source))));
+                prop_assert!(pass.iter().all(|entry| entry.sources().iter().all(|source| ready.contains(source))));
                 ready.extend(pass.iter().map(|entry| entry.cell));
             }
             prop_assert_eq!(ready.len(), grid.padded_len());
@@ -150,8 +160,8 @@ mod tests {
             for entry in table.edges.iter().chain(&table.corners) {
                 prop_assert_eq!(entry.weights.iter().map(|&w| f64::from(w)).sum::<f64>(), 1.0);
                 let at = |cell: u32| grid.padded_direction(cell as usize);
-                let terms = entry.sources.iter().zip(entry.weights);
-                let found: glam::DVec3 = terms.map(|(source, weight)| f64::from(weight) * at(*source)).sum();
+                let terms = entry.sources().into_iter().zip(entry.weights);
+                let found: glam::DVec3 = terms.map(|(source, weight)| f64::from(weight) * at(source)).sum();
                 prop_assert!(found.distance(at(entry.cell)) < limit, "{}", found.distance(at(entry.cell)));
             }
         }
