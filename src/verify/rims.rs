@@ -157,7 +157,7 @@ fn drop(run: &mut Run<'_>) -> Result<(), GpuError> {
     for (drop_rad, found) in [None, Some(radius)].into_iter().zip(&mut leaks) {
         let mut film = fresh(run.gpu, None, drop_rad)?;
         let (before, _) = film.liquid()?;
-        film.run(run.short_or_full(45, 60), STEP_S)?;
+        film.run(60, STEP_S)?;
         let name = if drop_rad.is_some() { "a film with a drop" } else { "a film without a drop" };
         run.at_most(format!("{name}: film gained or lost, part of it"), (film.liquid()?.0 / before - 1.0).abs(), LOSS);
         *found = leak(run.gpu, &film, PI - 0.5 * radius)?;
