@@ -10,7 +10,7 @@ use std::{
 
 use rayon::prelude::*;
 
-/// Parts of a loop for each core: so many that no core waits long for the last of them.
+/// Parts of a loop for each core. With many small parts, no core stays idle for long while another one finishes.
 const PARTS_PER_CORE: usize = 16;
 
 /// The values of a function at `0..count`, in order.

@@ -110,6 +110,7 @@ fn undriven(run: &mut Run<'_>) -> Result<(), GpuError> {
 fn sloshing(run: &mut Run<'_>) -> Result<(), GpuError> {
     let drag = |tick, x| Event { tick, change: Change::Drag(Drag { to_m: [x, 0.0, 0.0], ..Drag::default() }) };
     swing(run, "a drag there and back", vec![drag(2, 3e-3), drag(14, 0.0)])?;
+    // In the short form one of the two must do.
     if run.extent == Extent::Short {
         return Ok(());
     }
@@ -157,8 +158,8 @@ fn anything(run: &mut Run<'_>, name: &str, events: u64, reach_m: f64) -> Result<
     let mut played = Played::new(run.gpu, &scene)?;
     let before = played.thickness()?;
     let mut fastest: f64 = 0.0;
-    let looks = run.short_or_full(15, 100);
-    for tick in (looks..=events).step_by(looks as usize) {
+    let ticks_apart = run.short_or_full(15, 100);
+    for tick in (ticks_apart..=events).step_by(ticks_apart as usize) {
         played.play_to(tick)?;
         fastest = largest([fastest, played.fastest()?].into_iter());
     }

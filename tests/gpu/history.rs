@@ -10,12 +10,15 @@ use soapfilm::{
 use crate::support::{Random, load, radiance, renderer, short_or_long, still};
 
 const SIZE: [u32; 2] = [64, 36];
-const CELLS: u32 = 16;
+/// Cells along a panel's edge.
+fn cells() -> u32 {
+    short_or_long(16, 32)
+}
 
 /// The default bubble with a film of few cells.
 fn small() -> LoadedScene {
     let mut loaded = load("tent");
-    loaded.scene.bubbles[0].film.cells = CELLS;
+    loaded.scene.bubbles[0].film.cells = cells();
     loaded
 }
 
@@ -141,7 +144,7 @@ fn calm() -> LoadedScene {
 #[test]
 fn a_free_film_that_has_come_to_rest_does_nothing_until_it_is_disturbed() {
     let loaded = calm();
-    let steps = |counts: Counts| counts.cells_stepped / (6 * u64::from(CELLS * CELLS));
+    let steps = |counts: Counts| counts.cells_stepped / (6 * u64::from(cells() * cells()));
     let Some([first, second]) = cost(&loaded, 250.0, 299.5) else { return };
     assert_eq!(steps(first), 120, "two ticks a step until the answer at tick 240: {first:?}");
     assert_eq!(
@@ -208,7 +211,7 @@ fn a_film_that_hardly_moves_is_hardly_stepped() {
     (loaded.scene.motion.flow, loaded.scene.motion.strength) = (Flow::Stirred, 1e-7);
     let Some([first, second]) = cost(&loaded, 20.0, 36_000.0) else { return };
     assert_eq!(first.cells_stepped, 0, "a third of a second moves nothing by a thousandth of a cell");
-    let steps = second.cells_stepped / (6 * u64::from(CELLS * CELLS));
+    let steps = second.cells_stepped / (6 * u64::from(cells() * cells()));
     assert!((1..200).contains(&steps), "{steps} steps for 10 minutes");
     let Some([_, second]) = cost(&loaded, 20.0, 30.5) else { return };
     assert_eq!(second.submissions, 0, "nor is it shown or drawn anew: {second:?}");

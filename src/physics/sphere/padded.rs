@@ -114,7 +114,7 @@ impl<T: FieldValue> PaddedField<T> {
     /// Gives each halo cell its value, made of an entry of the table and the four values that it reads.
     fn fill(&mut self, halo: &HaloTable, value: impl Fn(&HaloEntry, [T; 4]) -> T) {
         for entry in halo.edges.iter().chain(&halo.corners) {
-            let source = entry.sources().map(|index| self.values[index as usize]);
+            let source = std::array::from_fn(|k| self.values[entry.source(k as u32) as usize]);
             self.values[entry.cell as usize] = value(entry, source);
         }
     }
