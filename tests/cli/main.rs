@@ -11,6 +11,8 @@ mod lut;
 mod mistakes;
 #[cfg(feature = "gui")]
 mod probe;
+#[cfg(target_os = "linux")]
+mod screen;
 mod sequence;
 #[cfg(unix)]
 mod streams;
