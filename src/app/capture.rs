@@ -1,49 +1,31 @@
-//! Saving the picture: drawn once more in full, read back without waiting, and written by a worker.
+//! Saving the picture: drawn once more in full, beside the window, read back without waiting, and written by a worker.
 
 use std::path::PathBuf;
 
 use super::{files::Files, model::Model};
 use crate::{
-    gpu::{Gpu, GpuError, Renderer, readback::Readback},
+    gpu::{Gpu, GpuError, readback::Readback},
     output::{Metadata, Picture},
     physics::colour::Gamut,
-    plan::{Pace, Shot, Story},
+    plan::{FrameRequest, Pace, Shot, Story},
     scene::{Quality, Scene},
 };
 
 /// A picture on its way from the device to a file.
 pub struct Capture {
-    readback: Readback,
-    size: [u32; 2],
-    radiance: bool,
-    path: PathBuf,
-    metadata: Metadata,
+    /// The picture.
+    pub readback: Readback,
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// Whether it is radiance; if not, it is what people see.
+    pub radiance: bool,
+    /// The file.
+    pub path: PathBuf,
+    /// What the file says of itself.
+    pub metadata: Metadata,
 }
 
 impl Capture {
-    /// Draws the model's moment in full, and starts to read it back: radiance, or what people see.
-    pub fn begin(
-        renderer: &mut Renderer,
-        model: &Model,
-        size: [u32; 2],
-        radiance: bool,
-        path: PathBuf,
-    ) -> Result<Self, String> {
-        let moment = model.clock.moment(&model.scene.motion);
-        let shot =
-            Shot { size, moment, full_precision: radiance, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-        let request = model.scene.request(&model.resources, &shot).map_err(|error| error.to_string())?;
-        renderer.render(&request).map_err(|error| error.to_string())?;
-        let readback = if radiance { renderer.read_radiance() } else { renderer.read_picture() };
-        let readback = readback.ok_or("there is no picture to save yet")?;
-        Ok(Self { readback, size, radiance, path, metadata: metadata(model) })
-    }
-
-    /// A figure that is on its way.
-    pub fn of_figure((readback, size): (Readback, [u32; 2]), model: &Model, path: PathBuf) -> Self {
-        Self { readback, size, radiance: false, path, metadata: metadata(model) }
-    }
-
     /// Hands the picture to a worker once it has arrived; returns whether it is still pending.
     pub fn poll(&self, gpu: &Gpu, files: &Files) -> Result<bool, GpuError> {
         gpu.device.poll(wgpu::PollType::Poll).map_err(|error| GpuError::Lost(error.to_string()))?;
@@ -60,17 +42,24 @@ impl Capture {
     }
 }
 
-/// Draws the model's moment in full in a quality, and starts to read back what people see.
-pub fn draw_in(renderer: &mut Renderer, model: &Model, size: [u32; 2], quality: Quality) -> Result<Readback, String> {
-    let mut scene = Scene::clone(&model.scene);
-    scene.view.quality = quality;
-    let moment = model.clock.moment(&model.scene.motion);
-    let shot = Shot { size, moment, full_precision: false, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-    let request = Story::new(scene).request(&model.resources, &shot).map_err(|error| error.to_string())?;
-    renderer.render(&request).map_err(|error| error.to_string())?;
-    renderer.read_picture().ok_or_else(|| "there is no picture yet".to_owned())
+/// The model's moment in full, to be saved as radiance, or as what people see.
+pub fn request(model: &Model, size: [u32; 2], radiance: bool) -> Result<FrameRequest, String> {
+    model.scene.request(&model.resources, &shot(model, size, radiance)).map_err(|error| error.to_string())
 }
 
-fn metadata(model: &Model) -> Metadata {
+/// The model's moment in full in a quality, as people see it.
+pub fn request_in(model: &Model, size: [u32; 2], quality: Quality) -> Result<FrameRequest, String> {
+    let mut scene = Scene::clone(&model.scene);
+    scene.view.quality = quality;
+    Story::new(scene).request(&model.resources, &shot(model, size, false)).map_err(|error| error.to_string())
+}
+
+fn shot(model: &Model, size: [u32; 2], full_precision: bool) -> Shot {
+    let moment = model.clock.moment(&model.scene.motion);
+    Shot { size, moment, full_precision, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole }
+}
+
+/// What a picture of the model says of itself.
+pub fn metadata(model: &Model) -> Metadata {
     Metadata::of_scene(&model.name, model.clock.time_s(&model.scene.motion))
 }

@@ -1,6 +1,7 @@
 //! One redraw: time, panels, picture, window, and when the next one is due.
 
 mod overlays;
+mod pictures;
 mod readbacks;
 
 use std::{sync::Arc, time::Duration};
@@ -9,6 +10,7 @@ use egui::{Rect, ViewportInfo};
 use web_time::Instant;
 use winit::{event_loop::ActiveEventLoop, window::Window};
 
+use self::pictures::Pictures;
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 use super::reload::ShaderWatch;
 use super::{
@@ -24,11 +26,7 @@ use super::{
     request::Request,
     stage::Stage,
 };
-use crate::{
-    gpu::readback::Readback,
-    physics::colour::Gamut,
-    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot, TonemapKey, plan},
-};
+use crate::{gpu::readback::Readback, plan::TonemapKey};
 
 /// Time between two looks at the clock while nothing but its reading changes.
 const READING: Duration = Duration::from_millis(400);
@@ -36,13 +34,6 @@ const READING: Duration = Duration::from_millis(400);
 const TURN: Duration = Duration::from_millis(16);
 /// Time until a surface that had no frame is asked again.
 const ASK_AGAIN: Duration = Duration::from_millis(50);
-/// Redraws of the panels alone that come before the first picture, which may take long: a window must not stay black. Panels know their sizes from
-/// the second one on.
-const PANELS_FIRST: u32 = 2;
-/// What is loaded meanwhile, for people.
-const FIRST_PICTURE: &str = "the first picture";
-/// Time that a picture rests after it failed: nothing is gained by failing at every frame.
-const REST: Duration = Duration::from_secs(1);
 
 /// How far the window is with the picture that its model asks for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,13 +61,9 @@ pub struct View {
     /// Size of the picture, pixels.
     pub picture_size: [u32; 2],
     title: String,
-    /// Redraws so far, as far as the first picture.
-    redraws: u32,
     info: ViewportInfo,
     captures: Vec<Capture>,
-    producer: Producer,
-    /// The frame that waits for what the producer computes.
-    waiting: Option<FrameRequest>,
+    pictures: Pictures,
     reader: FilmReader,
     /// What is laid over the picture was made of this.
     overlaid: Option<overlays::Overlaid>,
@@ -85,7 +72,6 @@ pub struct View {
     /// What the picture shows.
     shown: Option<TonemapKey>,
     last_redraw: Instant,
-    rests_until: Option<Instant>,
     #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
     watch: Option<ShaderWatch>,
 }
@@ -118,17 +104,14 @@ impl View {
             progress: Progress::Under,
             picture_size: [1, 1],
             title: String::new(),
-            redraws: 0,
             info: ViewportInfo::default(),
             captures: Vec::new(),
-            producer,
-            waiting: None,
+            pictures: Pictures::new(producer),
             reader: FilmReader::default(),
             overlaid: None,
             compared: None,
             shown: None,
             last_redraw: Instant::now(),
-            rests_until: None,
             #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
             watch: ShaderWatch::of_source(),
         }
@@ -148,7 +131,7 @@ impl View {
         let first_tick = self.pass_time(model, due.now);
         let moves = self.draw_picture(model, first_tick, &mut due);
         self.read_back(model, files, &mut due);
-        self.stage.painter.update_textures(&self.stage.renderer.gpu, &mut output.full.textures_delta);
+        self.stage.painter.update_textures(&self.stage.gpu, &mut output.full.textures_delta);
         let painted = self.paint(&mut output, size, moves);
         self.schedule(model, painted, moves, &mut due);
         due.at
@@ -198,107 +181,21 @@ impl View {
             due.after(root.repaint_delay);
         }
         let (rect, size) =
-            pixel_rect(rect, full.pixels_per_point, self.stage.renderer.gpu.device.limits().max_texture_dimension_2d);
+            pixel_rect(rect, full.pixels_per_point, self.stage.gpu.device.limits().max_texture_dimension_2d);
         self.picture_size = size;
         Output { full, rect }
     }
 
-    /// Renders towards the requested picture; returns whether its pixels changed.
-    fn draw_picture(&mut self, model: &mut Model, first_tick: u64, due: &mut Due) -> bool {
-        if self.rests_until.is_some_and(|until| due.now < until) {
-            due.at_latest(self.rests_until);
-            return false;
-        }
-        self.rests_until = None;
-        if self.redraws < PANELS_FIRST {
-            self.redraws += 1;
-            model.loading.get_or_insert_with(|| FIRST_PICTURE.to_owned());
-            due.after(Duration::ZERO);
-            return false;
-        }
-        match self.bring(model) {
-            Ok(None) => {
-                self.progress = Progress::Under;
-                // Time stands until its picture is there.
-                model.clock.hold(0, first_tick);
-                false
-            }
-            Ok(Some((request, plan))) => {
-                if model.loading.take_if(|loading| loading == FIRST_PICTURE).is_some() {
-                    due.after(Duration::ZERO);
-                }
-                hold_clock(model, &request, self.stage.renderer.state(), first_tick);
-                self.account(model, &plan, due);
-                let is_done = is_done(&request, &plan, model.clock.running) && model.behind_ticks == 0;
-                self.progress = if is_done { Progress::Done } else { Progress::Under };
-                self.shown = Some(request.picture);
-                !plan.is_empty()
-            }
-            Err(text) => {
-                model.messages.problem(&text);
-                self.progress = Progress::Failed(text);
-                self.rests_until = Some(due.now + REST);
-                // The message itself is to be shown at once.
-                due.after(Duration::ZERO);
-                false
-            }
-        }
-    }
-
-    /// Renders towards the picture that the model asks for, or towards the one that has waited for the producer. Of a history that is edited while
-    /// the producer works some pictures are thus shown, and the last one.
-    /// Returns the passes that drew it, or nothing while it waits for the producer, which will wake the window.
-    fn bring(&mut self, model: &Model) -> Result<Option<(FrameRequest, Plan)>, String> {
-        let request = match self.waiting.take() {
-            Some(waiting) => waiting,
-            None => self.request(model)?,
-        };
-        let renderer = &mut self.stage.renderer;
-        let plan = plan(&request, renderer.state());
-        if !self.producer.prepare(&plan, &mut renderer.prepared) {
-            self.waiting = Some(request);
-            return Ok(None);
-        }
-        renderer.execute(&plan).map_err(|error| error.to_string())?;
-        Ok(Some((request, plan)))
-    }
-
-    /// What the picture of the model needs now.
-    fn request(&self, model: &Model) -> Result<FrameRequest, String> {
-        let shot = Shot {
-            size: self.picture_size,
-            moment: model.clock.moment(&model.scene.motion),
-            full_precision: false,
-            gamut: Gamut::Srgb,
-            yardstick: false,
-            pace: Pace::Frame,
-        };
-        model.scene.request(&model.resources, &shot).map_err(|error| error.to_string())
-    }
-
-    fn account(&mut self, model: &mut Model, plan: &Plan, due: &mut Due) {
-        if !plan.complete {
-            due.after(Duration::ZERO);
-        }
-        let renderer = &self.stage.renderer;
-        // Times arrive when the device is polled; one that is lost is found out at the next redraw.
-        let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
-        model.costs.add_passes(renderer.times.take());
-        if !plan.is_empty() {
-            model.costs.add(due.now.elapsed().as_secs_f64() * 1e3, renderer.counts);
-        }
-    }
-
     fn paint(&mut self, output: &mut Output, size: [u32; 2], moves: bool) -> Painted {
-        let Stage { renderer, surface, painter } = &mut self.stage;
+        let Stage { gpu, drawing, surface, painter } = &mut self.stage;
         let contents = Contents {
             shapes: std::mem::take(&mut output.full.shapes),
-            picture: renderer.picture().map(|view| (view, output.rect)),
+            picture: drawing.picture().map(|view| (view, output.rect)),
             is_new: std::mem::take(&mut self.exposed) || moves,
             size,
             pixels_per_point: output.full.pixels_per_point,
         };
-        painter.paint(&renderer.gpu, surface, self.egui.egui_ctx(), contents)
+        painter.paint(gpu, surface, self.egui.egui_ctx(), contents)
     }
 
     fn schedule(&mut self, model: &Model, painted: Painted, moves: bool, due: &mut Due) {
@@ -321,14 +218,12 @@ impl View {
 
     /// Whether the device is lost, and everything on it with it.
     pub fn is_lost(&self) -> bool {
-        // A loss is told by a callback, which comes when the device is polled.
-        let _ = self.stage.renderer.gpu.device.poll(wgpu::PollType::Poll);
-        self.stage.renderer.gpu.is_lost()
+        self.stage.drawing.is_lost()
     }
 
     /// Reports what the device has refused; reloads changed shaders.
     fn check(&mut self, model: &mut Model) {
-        if let Err(error) = self.stage.renderer.gpu.check() {
+        if let Err(error) = self.stage.drawing.check() {
             self.progress = Progress::Failed(error.to_string());
             model.messages.problem(error.to_string());
         }
@@ -340,10 +235,10 @@ impl View {
     fn reload_shaders(&mut self, model: &mut Model) {
         let Some(folder) = self.watch.as_mut().and_then(|watch| watch.changed(Instant::now())) else { return };
         let library = crate::gpu::shaders::Library::Directory(folder.to_owned());
-        let renderer = &mut self.stage.renderer;
-        match renderer.gpu.pipelines.reload(&renderer.gpu.device, library) {
+        let gpu = &self.stage.drawing.gpu;
+        match gpu.pipelines.reload(&gpu.device, library) {
             Ok(()) => {
-                renderer.forget_picture();
+                self.pictures.forget();
                 model.messages.withdraw("shader ");
                 model.messages.note("Shaders reloaded");
             }
@@ -351,10 +246,11 @@ impl View {
         }
     }
 
-    /// Loses the device on purpose, to try out the recovery.
+    /// Loses the devices on purpose, to try out the recovery.
     #[cfg(debug_assertions)]
     pub fn lose_device(&self) {
-        self.stage.renderer.gpu.device.destroy();
+        self.stage.gpu.device.destroy();
+        self.stage.drawing.gpu.device.destroy();
     }
 }
 
@@ -371,36 +267,6 @@ fn pixel_rect(rect: Rect, pixels_per_point: f32, max: u32) -> (Rect, [u32; 2]) {
     let size = [pixels(rect.max.x) - min[0], pixels(rect.max.y) - min[1]].map(|size| size.max(1.0));
     let points = |pixels: [f32; 2]| egui::vec2(pixels[0], pixels[1]) / pixels_per_point;
     (Rect::from_min_size(points(min).to_pos2(), points(size)), size.map(|size| size as u32))
-}
-
-/// Whether a picture is the requested one after a plan. Films that cannot keep up with a running clock make it no other picture: it stands still
-/// until they have come.
-fn is_done(request: &FrameRequest, plan: &Plan, runs: bool) -> bool {
-    let made = plan.after.picture.as_ref();
-    plan.complete || runs && made.is_some_and(|made| made.draw.lights().eq(request.picture.draw.lights()))
-}
-
-/// Takes back the ticks of this frame that the films did not reach, and notes how far they are behind an edited history.
-fn hold_clock(model: &mut Model, request: &FrameRequest, state: &GpuState, first_tick: u64) {
-    let mut reached = 0;
-    let mut missing = 0;
-    for (index, film) in request.picture.draw.films() {
-        if let (FilmKey::Field(film), Some(Some(field))) = (film, state.fields.get(index)) {
-            // A film at rest has reached the requested tick, though its picture is of when it came to rest.
-            if field.rest.is_some() {
-                continue;
-            }
-            let shown = field.shown.unwrap_or(field.key.moment).tick;
-            reached = reached.max(shown);
-            missing = missing.max(film.moment.tick.saturating_sub(shown));
-        }
-    }
-    if missing > 0 {
-        let requested = model.clock.tick;
-        model.clock.hold(reached, first_tick);
-        missing = missing.saturating_sub(requested - model.clock.tick);
-    }
-    model.behind_ticks = missing;
 }
 
 #[cfg(test)]

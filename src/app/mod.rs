@@ -16,7 +16,7 @@
 //! | [`overlay`], [`colour_map`] | false colour over the picture, and the profile of a film along a line |
 //! | `figure` | a plot as a picture for a file |
 //! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
-//! | `producer` | what a frame needs of the CPU, computed beside the window |
+//! | `producer`, `render_thread` | what a frame needs of the CPU, computed beside the window; pictures, drawn beside it |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
 pub mod clock;
@@ -54,6 +54,7 @@ mod paint;
 mod producer;
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 mod reload;
+mod render_thread;
 mod stage;
 mod style;
 mod surface;

@@ -76,6 +76,13 @@ pub struct Handler {
     pub failure: Option<AppError>,
 }
 
+/// Wakes the loop, from any thread: something has arrived.
+fn waker(proxy: &EventLoopProxy<Outside>) -> impl Fn() + Send + Sync + 'static {
+    let proxy = proxy.clone();
+    // A loop that has ended needs no waking.
+    move || drop(proxy.send_event(Outside::Arrival))
+}
+
 /// A window without a device, and what its user does.
 struct Bare {
     window: Arc<Window>,
@@ -91,9 +98,7 @@ impl Handler {
         proxy: EventLoopProxy<Outside>,
         attributes: WindowAttributes,
     ) -> Self {
-        let waker = proxy.clone();
-        // A loop that has ended needs no waking.
-        let files = Files::new(move || drop(waker.send_event(Outside::Arrival)));
+        let files = Files::new(waker(&proxy));
         let keeper = Keeper::new(storage, &mut model);
         Self {
             model,
@@ -131,7 +136,8 @@ impl Handler {
 
     /// Opens a device for a window. A browser has none at once, and what is done in the window meanwhile is kept.
     fn open_device(&mut self, instance: wgpu::Instance, bare: Bare) {
-        let opening = Stage::open(instance, self.choice.clone(), bare.window.clone(), bare.egui.egui_ctx().clone());
+        let ctx = bare.egui.egui_ctx().clone();
+        let opening = Stage::open(instance, self.choice.clone(), bare.window.clone(), ctx, waker(&self.proxy));
         let (arriving, proxy) = (self.arriving.clone(), self.proxy.clone());
         system::finish(async move {
             *arriving.borrow_mut() = Some(opening.await);
@@ -145,15 +151,13 @@ impl Handler {
     fn take_device(&mut self) -> Result<(), AppError> {
         let Some(stage) = self.arriving.borrow_mut().take() else { return Ok(()) };
         let (stage, Some(Bare { window, mut egui })) = (stage?, self.bare.take()) else { return Ok(()) };
-        let (gpu, proxy) = (&stage.renderer.gpu, self.proxy.clone());
-        // A loop that has ended needs no waking.
-        gpu.when_lost(move || drop(proxy.send_event(Outside::Arrival)));
+        let gpu = &stage.gpu;
+        [gpu, &stage.drawing.gpu].into_iter().for_each(|gpu| gpu.when_lost(waker(&self.proxy)));
         self.model.costs.adapter = format!("{}, {}", gpu.adapter_name(), gpu.driver());
         tell(format_args!("adapter: {}", self.model.costs.adapter));
         egui.set_max_texture_side(gpu.device.limits().max_texture_dimension_2d as usize);
         window.set_visible(true);
-        let waker = self.proxy.clone();
-        let producer = Producer::new(move || drop(waker.send_event(Outside::Arrival)));
+        let producer = Producer::new(waker(&self.proxy));
         self.view = Some(View::new(window, egui, stage, producer));
         Ok(())
     }
@@ -162,7 +166,7 @@ impl Handler {
     fn recover(&mut self) {
         let Some(view) = self.view.take_if(|view| view.is_lost()) else { return };
         log::warn!("recreating everything on the graphics device");
-        let instance = view.stage.renderer.gpu.instance.clone();
+        let instance = view.stage.gpu.instance.clone();
         panels::gallery::forget(view.egui.egui_ctx());
         panels::textures::forget(view.egui.egui_ctx());
         self.open_device(instance, Bare { window: view.window, egui: view.egui });
@@ -190,7 +194,7 @@ impl Handler {
     /// The device, once it is open.
     #[cfg(target_arch = "wasm32")]
     pub fn gpu(&self) -> Option<&Gpu> {
-        self.view.as_ref().map(|view| &view.stage.renderer.gpu)
+        self.view.as_ref().map(|view| &view.stage.gpu)
     }
 
     /// Requests another frame.
@@ -220,7 +224,7 @@ impl Handler {
     /// Begins the next export, if none is being done, on a device of its own: what fails there leaves the window alone.
     #[cfg(not(target_arch = "wasm32"))]
     fn export(&mut self) {
-        let Some(gpu) = self.view.as_ref().map(|view| &view.stage.renderer.gpu) else { return };
+        let Some(gpu) = self.view.as_ref().map(|view| &view.stage.gpu) else { return };
         let Some((id, job, scene, watch)) = self.model.exports.begin_next() else { return };
         let gpu = gpu.clone();
         let open = Box::new(move || pollster::block_on(gpu.another()));

@@ -32,7 +32,7 @@ pub mod shaders;
 pub mod shown_film;
 #[cfg(not(target_arch = "wasm32"))]
 mod specialise;
-mod target;
+pub mod target;
 pub mod timing;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod transport_case;

@@ -38,4 +38,14 @@ impl Target {
         };
         old.filter(fits).unwrap_or_else(|| Self::new(gpu, label, size, format))
     }
+
+    /// Sends all of its texels, row by row.
+    pub fn upload(&self, gpu: &Gpu, texels: &[u8]) {
+        let size = self.texture.size();
+        // Colour formats in use here all have a fixed size in bytes.
+        let texel = self.texture.format().block_copy_size(None).unwrap_or(4);
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(texel * size.width), rows_per_image: None };
+        gpu.upload_texture(self.texture.as_image_copy(), texels, layout, size);
+    }
 }

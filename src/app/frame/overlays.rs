@@ -26,7 +26,8 @@ impl View {
             (model.overlay.map, self.overlaid) = (None, None);
             return;
         };
-        if !self.reader.read_all(&self.stage.renderer, draw, due.now) {
+        let Some(renderer) = self.stage.drawing.renderer() else { return };
+        if !self.reader.read_all(renderer, draw, due.now) {
             return due.after(FETCH);
         }
         let line = model.overlay.profile.as_ref().map(|profile| profile.ends);

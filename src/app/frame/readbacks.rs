@@ -4,7 +4,7 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use glam::DVec2;
 
-use super::{Due, View};
+use super::{Due, View, pictures::Purpose};
 use crate::{
     app::{
         capture::{self, Capture},
@@ -25,9 +25,12 @@ pub(super) const FETCH: Duration = Duration::from_millis(8);
 impl View {
     /// Reads what is asked of the device, and takes what has arrived.
     pub(super) fn read_back(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
-        self.probe(model, due);
-        self.record(model, due);
-        self.overlay(model, due);
+        // What is drawn meanwhile is read once it is there, which wakes the window.
+        if self.stage.drawing.renderer().is_some() {
+            self.probe(model, due);
+            self.record(model, due);
+            self.overlay(model, due);
+        }
         self.compare(model, files, due);
         self.fetch(model, files, due);
     }
@@ -35,11 +38,12 @@ impl View {
     /// Reads the film under the pointer, if the pointer asks.
     fn probe(&mut self, model: &mut Model, due: &mut Due) {
         let (Some(place), Some(TonemapKey { draw, .. })) = (model.probe.asked(), &self.shown) else { return };
+        let Some(renderer) = self.stage.drawing.renderer() else { return };
         let [width, height] = draw.size.map(f64::from);
         let position = 0.5 * DVec2::new(width, height) + height * DVec2::new(place.x, -place.y);
         let walls = walls_in_sight(draw, self.reader.films(), position);
         let is_read = walls.first().is_none_or(|wall| {
-            self.reader.read(&self.stage.renderer, wall.film, due.now).unwrap_or_else(|error| {
+            self.reader.read(renderer, wall.film, due.now).unwrap_or_else(|error| {
                 model.messages.problem(format!("the film cannot be read: {error}"));
                 true
             })
@@ -66,10 +70,9 @@ impl View {
         {
             model.messages.problem(text);
         }
-        let renderer = &self.stage.renderer;
         let Some((want, size, readback)) = &self.compared else { return };
         // A loss is told elsewhere.
-        let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
+        let _ = self.stage.drawing.gpu.device.poll(wgpu::PollType::Poll);
         let (want, size) = (*want, *size);
         let Some(bytes) = readback.try_take() else { return due.after(FETCH) };
         self.compared = None;
@@ -88,12 +91,17 @@ impl View {
     /// Begins to make a picture that is asked for.
     fn begin_compare(&mut self, model: &mut Model, files: &Files, want: Want, due: &mut Due) -> Result<(), String> {
         let Some(shown) = &self.shown else { return Ok(()) };
+        let Some(renderer) = self.stage.drawing.renderer() else {
+            // Asked again once it is back, which wakes the window.
+            model.compare.wants = Some(want);
+            return Ok(());
+        };
         let size = shown.draw.size;
         match want {
             Want::Reference(side) => {
                 // The film must stand until it is read.
                 model.clock.running = false;
-                if model.behind_ticks > 0 || !self.reader.read_all(&self.stage.renderer, &shown.draw, due.now) {
+                if model.behind_ticks > 0 || !self.reader.read_all(renderer, &shown.draw, due.now) {
                     model.compare.wants = Some(want);
                     due.after(FETCH);
                     return Ok(());
@@ -102,8 +110,8 @@ impl View {
                 files.compute_reference(model, side, shown.clone(), films);
             }
             Want::Draw(_, quality) => {
-                let readback = capture::draw_in(&mut self.stage.renderer, model, size, quality)?;
-                self.compared = Some((want, size, readback));
+                let request = capture::request_in(model, size, quality)?;
+                self.ask_for_picture(request, Purpose::Compare(want));
                 due.after(Duration::ZERO);
             }
             Want::Map if model.compare.other.is_some() => {
@@ -111,7 +119,7 @@ impl View {
                 other.into_iter().for_each(|(pixels, _)| files.compare(model, want, pixels));
             }
             Want::Keep | Want::Map | Want::Copy => {
-                self.compared = self.stage.renderer.read_picture().map(|readback| (want, size, readback));
+                self.compared = renderer.read_picture().map(|readback| (want, size, readback));
             }
         }
         Ok(())
@@ -121,25 +129,18 @@ impl View {
     fn record(&mut self, model: &mut Model, due: &mut Due) {
         let moment = model.clock.moment(&model.scene.motion);
         let (Some(pin), Some(TonemapKey { draw, .. })) = (&mut model.probe.pinned, &self.shown) else { return };
+        let Some(renderer) = self.stage.drawing.renderer() else { return };
         let (film, places) = &pin.places;
         // A failure is told by the probe itself.
-        let is_read = self.reader.read(&self.stage.renderer, *film, due.now).unwrap_or(true);
+        let is_read = self.reader.read(renderer, *film, due.now).unwrap_or(true);
         if !is_read {
             return due.after(FETCH);
         }
         let Some(thickness_nm) = thickness_at(draw, self.reader.films(), *film, places) else { return };
-        let time_s = self.reader.time(&self.stage.renderer, *film, moment).ticks() * model.scene.motion.tick_s;
+        let time_s = self.reader.time(renderer, *film, moment).ticks() * model.scene.motion.tick_s;
         let wall = |index: usize| thickness_nm.get(index).copied();
         if pin.record(Sample { time_s, thickness_nm: [wall(0), wall(1)] }) {
             due.after(Duration::ZERO);
-        }
-    }
-
-    /// Starts to save the picture.
-    pub fn capture(&mut self, model: &mut Model, radiance: bool, path: PathBuf) {
-        match Capture::begin(&mut self.stage.renderer, model, self.picture_size, radiance, path) {
-            Ok(capture) => self.captures.push(capture),
-            Err(text) => model.messages.problem(text),
         }
     }
 
@@ -147,14 +148,15 @@ impl View {
     pub fn capture_plot(&mut self, model: &mut Model, plot: Plot, path: PathBuf) {
         let Some(pin) = &model.probe.pinned else { return };
         let is_uniform = model.probe.is_uniform;
-        let figure = figure::draw(&self.stage.renderer.gpu, |ui| {
+        let figure = figure::draw(&self.stage.drawing.gpu, |ui| {
             panels::pin_plots::show(ui, pin, plot, is_uniform, ui.available_size());
         });
-        self.captures.push(Capture::of_figure(figure, model, path));
+        let ((readback, size), metadata) = (figure, capture::metadata(model));
+        self.captures.push(Capture { readback, size, radiance: false, path, metadata });
     }
 
     fn fetch(&mut self, model: &mut Model, files: &Files, due: &mut Due) {
-        let gpu = &self.stage.renderer.gpu;
+        let gpu = &self.stage.drawing.gpu;
         self.captures.retain(|capture| {
             capture.poll(gpu, files).unwrap_or_else(|error| {
                 model.messages.problem(format!("the picture is not saved: {error}"));

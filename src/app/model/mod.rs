@@ -95,6 +95,8 @@ pub struct Model {
     pub shows_help: bool,
     /// What is being loaded.
     pub loading: Option<String>,
+    /// Whether the picture takes so long to draw that people are told.
+    pub drawing: bool,
     /// Ticks that the films are behind the clock.
     pub behind_ticks: u64,
     /// Messages to show.
@@ -151,6 +153,7 @@ impl Model {
             shows_gallery: false,
             shows_help: false,
             loading: None,
+            drawing: false,
             behind_ticks: 0,
             messages,
             costs: Costs::default(),

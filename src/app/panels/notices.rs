@@ -1,4 +1,4 @@
-//! What lies over the picture's lower left corner: messages, and what is being loaded.
+//! What lies over the picture's lower left corner: messages, and what is being loaded or drawn.
 
 use egui::{Align2, Area, Color32, Context, Frame, Id, Rect, RichText, Stroke, Ui, vec2};
 
@@ -16,7 +16,9 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
     if let Some(wait_s) = model.messages.next_change_s(now_s) {
         ctx.request_repaint_after_secs(wait_s.max(0.0) as f32);
     }
-    if messages.is_empty() && model.loading.is_none() {
+    let busy = model.loading.as_ref().map(|what| format!("Loading {what}"));
+    let busy = busy.or(model.drawing.then(|| "Drawing the picture".to_owned()));
+    if messages.is_empty() && busy.is_none() {
         return;
     }
     let corner = picture.left_bottom() + vec2(12.0, -12.0);
@@ -28,11 +30,11 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
                 dismissed = Some(index);
             }
         }
-        if let Some(what) = &model.loading {
+        if let Some(busy) = busy {
             Frame::popup(ui.style()).show(ui, |ui| {
                 ui.horizontal(|ui| {
                     ui.spinner();
-                    ui.label(format!("Loading {what}"));
+                    ui.label(busy);
                 });
             });
         }
