@@ -32,7 +32,10 @@ impl Capture {
         let moment = model.clock.moment(&model.scene.motion);
         let shot =
             Shot { size, moment, full_precision: radiance, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-        let request = model.scene.request(&model.resources, &shot).map_err(|error| error.to_string())?;
+        let request = model
+            .scene
+            .request_from(&model.scene.camera, &model.resources, &shot)
+            .map_err(|error| error.to_string())?;
         renderer.render(&request).map_err(|error| error.to_string())?;
         let readback = if radiance { renderer.read_radiance() } else { renderer.read_picture() };
         let readback = readback.ok_or("there is no picture to save yet")?;
@@ -66,7 +69,8 @@ pub fn draw_in(renderer: &mut Renderer, model: &Model, size: [u32; 2], quality: 
     scene.view.quality = quality;
     let moment = model.clock.moment(&model.scene.motion);
     let shot = Shot { size, moment, full_precision: false, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
-    let request = Story::new(scene).request(&model.resources, &shot).map_err(|error| error.to_string())?;
+    let request = Story::new(scene).request_from(&model.scene.camera, &model.resources, &shot);
+    let request = request.map_err(|error| error.to_string())?;
     renderer.render(&request).map_err(|error| error.to_string())?;
     renderer.read_picture().ok_or_else(|| "there is no picture yet".to_owned())
 }

@@ -273,7 +273,7 @@ impl View {
             yardstick: false,
             pace: Pace::Frame,
         };
-        model.scene.request(&model.resources, &shot).map_err(|error| error.to_string())
+        model.scene.request_from(&model.scene.camera, &model.resources, &shot).map_err(|error| error.to_string())
     }
 
     fn account(&mut self, model: &mut Model, plan: &Plan, due: &mut Due) {
@@ -302,7 +302,7 @@ impl View {
     }
 
     fn schedule(&mut self, model: &Model, painted: Painted, moves: bool, due: &mut Due) {
-        if model.turntable_deg_s != 0.0 {
+        if model.turntable_deg_s != 0.0 && model.scene.camera.keyframes.is_empty() {
             due.after(TURN);
         }
         if let Some(wait_s) = model.clock.until_next_s(&model.scene.motion) {

@@ -13,6 +13,7 @@ mod document;
 mod error;
 mod event;
 mod generator;
+mod keyframe;
 mod lens;
 pub mod lesson;
 mod light;
@@ -28,6 +29,7 @@ mod tests;
 mod words;
 
 pub use crate::physics::{
+    curve::Ease,
     film::{Boundary, Flow},
     transport::Scheme,
 };
@@ -37,6 +39,7 @@ pub use check::Fault;
 pub use error::{Problem, SceneError};
 pub use event::{Blow, BlowKeys, Change, Drag, DragKeys, Event, Prick, PrickKeys, Stir, StirKeys};
 pub use generator::{Generator, GeneratorKeys, Layout};
+pub use keyframe::{Keyframe, KeyframeKeys, MAX_KEYFRAMES};
 pub use lens::{Lens, LensKeys};
 pub use light::{
     Backdrop, Environment, LampShape, Light, LightKeys, LightLamp, LightLampKeys, LightPatch, LightPatchKeys,
@@ -70,7 +73,7 @@ pub struct Scene {
     /// Bubbles that share films, many at once.
     #[serde(rename = "generator", skip_serializing_if = "Vec::is_empty")]
     pub generators: Vec<Generator>,
-    /// From where it is seen.
+    /// From where it is seen, and how the camera moves.
     pub camera: Camera,
     /// Through which lens.
     pub lens: Lens,
@@ -193,7 +196,7 @@ impl Scene {
         check::each("bubble", &self.bubbles, Bubble::check)?;
         self.check_memory()?;
         check::each("generator", &self.generators, Generator::check)?;
-        self.camera.check_ranges().map_err(|fault| fault.inside("camera"))?;
+        self.camera.check().map_err(|fault| fault.inside("camera"))?;
         self.lens.check_ranges().map_err(|fault| fault.inside("lens"))?;
         self.light.check().map_err(|fault| fault.inside("light"))?;
         self.view.check_ranges().map_err(|fault| fault.inside("view"))?;

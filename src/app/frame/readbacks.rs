@@ -102,6 +102,7 @@ impl View {
                 files.compute_reference(model, side, shown.clone(), films);
             }
             Want::Draw(_, quality) => {
+                model.follow_keyframes();
                 let readback = capture::draw_in(&mut self.stage.renderer, model, size, quality)?;
                 self.compared = Some((want, size, readback));
                 due.after(Duration::ZERO);
@@ -137,6 +138,7 @@ impl View {
 
     /// Starts to save the picture.
     pub fn capture(&mut self, model: &mut Model, radiance: bool, path: PathBuf) {
+        model.follow_keyframes();
         match Capture::begin(&mut self.stage.renderer, model, self.picture_size, radiance, path) {
             Ok(capture) => self.captures.push(capture),
             Err(text) => model.messages.problem(text),
