@@ -307,7 +307,7 @@ impl View {
         }
         if let Some(wait_s) = model.clock.until_next_s(&model.scene.motion) {
             let wait = Duration::from_secs_f64(wait_s);
-            due.after(if moves { wait } else { wait.max(READING) });
+            due.after(if moves || model.will_move() { wait } else { wait.max(READING) });
         }
         #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
         due.at_latest(self.watch.as_ref().map(ShaderWatch::next));

@@ -13,7 +13,6 @@ mod document;
 mod error;
 mod event;
 mod generator;
-mod keyframe;
 mod lens;
 pub mod lesson;
 mod light;
@@ -34,12 +33,11 @@ pub use crate::physics::{
     transport::Scheme,
 };
 pub use bubble::{Bubble, BubbleKeys, Detail, Film, FilmIndexName, FilmKeys, FilmStateName};
-pub use camera::{Camera, CameraKeys};
+pub use camera::{Camera, CameraKeys, Keyframe, KeyframeKeys, MAX_KEYFRAMES};
 pub use check::Fault;
 pub use error::{Problem, SceneError};
 pub use event::{Blow, BlowKeys, Change, Drag, DragKeys, Event, Prick, PrickKeys, Stir, StirKeys};
 pub use generator::{Generator, GeneratorKeys, Layout};
-pub use keyframe::{Keyframe, KeyframeKeys, MAX_KEYFRAMES};
 pub use lens::{Lens, LensKeys};
 pub use light::{
     Backdrop, Environment, LampShape, Light, LightKeys, LightLamp, LightLampKeys, LightPatch, LightPatchKeys,

@@ -48,6 +48,12 @@ impl Model {
         turned_deg > SAME_DEG || rest != kept
     }
 
+    /// Whether the keyframes go on moving the camera as time passes.
+    #[must_use]
+    pub fn will_move(&self) -> bool {
+        self.scene.camera.keyframes.last().is_some_and(|last| self.moment_s() < last.time_s)
+    }
+
     /// Looks from another camera. If that leaves the keyframes, the clock stands, for the next moment would take the view back.
     pub fn look_from(&mut self, camera: Camera) {
         if self.edit(Edit::Camera(camera)) && self.is_off_keyframes() {

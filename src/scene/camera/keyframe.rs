@@ -1,11 +1,13 @@
 //! How the camera moves: its keyframes, and where it is between them.
 
-use super::{
-    Camera,
-    check::{self, Checked, Fault},
-    section::section,
+use super::Camera;
+use crate::{
+    physics::curve::{Ease, Knot, value_at, value_by},
+    scene::{
+        check::{self, Checked, Fault},
+        section::section,
+    },
 };
-use crate::physics::curve::{Ease, Knot, value_at, value_by};
 
 section! {
     /// What some numbers of the camera are at a time: one `[[camera.keyframe]]`. Each number is interpolated between the keyframes that give it:
@@ -15,9 +17,9 @@ section! {
     target_m: Option<[f64; 3]> = None, [-1000.0 ..= 1000.0], "Target", " m", "`target_m` at that time, m";
     azimuth_deg: Option<f64> = None, [-1000000.0 ..= 1000000.0], "Azimuth", "°", "`azimuth_deg` at that time; it is not wrapped: from 0 to 360 is one turn";
     elevation_deg: Option<f64> = None, [-90.0 ..= 90.0], "Elevation", "°", "`elevation_deg` at that time";
-    distance_m: Option<f64> = None, [0.0 ..= 1000.0], "Distance", " m", "`distance_m` at that time, m; it changes by equal factors in equal times";
+    distance_m: Option<f64> = None, [0.0 ..= 1000.0], "Distance", " m", "`distance_m` at that time, m; its logarithm is interpolated";
     fov_y_deg: Option<f64> = None, [1.0 ..= 170.0], "Field of view", "°", "`fov_y_deg` at that time; only where nothing gives a `focal_mm`";
-    focal_mm: Option<f64> = None, [1.0 ..= 5000.0], "Focal length", " mm", "`focal_mm` at that time, mm; it changes by equal factors in equal times";
+    focal_mm: Option<f64> = None, [1.0 ..= 5000.0], "Focal length", " mm", "`focal_mm` at that time, mm; its logarithm is interpolated";
     ease: Ease = Ease::Smooth, [word], "Ease", "", "how the camera goes on from there to the next keyframe";
 }
 
@@ -80,7 +82,7 @@ impl Camera {
         self.keyframes.iter().filter_map(knot).collect()
     }
 
-    pub(super) fn check(&self) -> Checked {
+    pub(in crate::scene) fn check(&self) -> Checked {
         self.check_ranges()?;
         check::at_most("keyframe", self.keyframes.len(), MAX_KEYFRAMES)?;
         check::each("keyframe", &self.keyframes, Keyframe::check_ranges)?;
