@@ -165,6 +165,14 @@ mod tests {
     }
 
     #[test]
+    fn a_smooth_piece_after_a_steep_linear_one_arrives_at_its_end_alone() {
+        let mut knots = knots(Ease::Smooth, &[(0.0, 0.0), (1.0, 10.0), (2.0, 10.5)]);
+        knots[0].ease = Ease::Linear;
+        let values: Vec<f64> = (0..=100).map(|k| value_at(&knots, 1.0 + 0.01 * f64::from(k)).unwrap()).collect();
+        assert!(values.windows(2).all(|pair| pair[0] < pair[1]), "{values:?}");
+    }
+
+    #[test]
     fn a_logarithm_changes_by_equal_factors_in_equal_times() {
         let knots = knots(Ease::Linear, &[(0.0, 0.3), (3.0, 300.0)]);
         let values = [0.0, 1.0, 2.0, 3.0].map(|time_s| value_by(&knots, time_s, f64::ln, f64::exp).unwrap());
