@@ -44,14 +44,16 @@ impl Capture {
 
 /// The model's moment in full, to be saved as radiance, or as what people see.
 pub fn request(model: &Model, size: [u32; 2], radiance: bool) -> Result<FrameRequest, String> {
-    model.scene.request(&model.resources, &shot(model, size, radiance)).map_err(|error| error.to_string())
+    let shot = shot(model, size, radiance);
+    model.scene.request_from(&model.scene.camera, &model.resources, &shot).map_err(|error| error.to_string())
 }
 
 /// The model's moment in full in a quality, as people see it.
 pub fn request_in(model: &Model, size: [u32; 2], quality: Quality) -> Result<FrameRequest, String> {
     let mut scene = Scene::clone(&model.scene);
     scene.view.quality = quality;
-    Story::new(scene).request(&model.resources, &shot(model, size, false)).map_err(|error| error.to_string())
+    let request = Story::new(scene).request_from(&model.scene.camera, &model.resources, &shot(model, size, false));
+    request.map_err(|error| error.to_string())
 }
 
 fn shot(model: &Model, size: [u32; 2], full_precision: bool) -> Shot {

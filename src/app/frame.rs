@@ -199,12 +199,12 @@ impl View {
     }
 
     fn schedule(&mut self, model: &Model, painted: Painted, moves: bool, due: &mut Due) {
-        if model.turntable_deg_s != 0.0 {
+        if model.turntable_deg_s != 0.0 && model.scene.camera.keyframes.is_empty() {
             due.after(TURN);
         }
         if let Some(wait_s) = model.clock.until_next_s(&model.scene.motion) {
             let wait = Duration::from_secs_f64(wait_s);
-            due.after(if moves { wait } else { wait.max(READING) });
+            due.after(if moves || model.will_move() { wait } else { wait.max(READING) });
         }
         #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
         due.at_latest(self.watch.as_ref().map(ShaderWatch::next));

@@ -54,8 +54,8 @@ pub enum Action {
     TiltBack,
     /// Plays the length of the time line again and again, or once.
     Loop,
-    /// Removes the event that is selected on the time line.
-    RemoveEvent,
+    /// Removes the event or keyframe that is selected on the time line.
+    RemoveMark,
     /// Shows the picture alone on the whole screen, or no longer.
     Present,
     /// Takes messages and help away.
@@ -120,7 +120,7 @@ pub const BINDINGS: &[Binding] = &[
     bare(Key::Num7, Action::Take(Tool::Profile), "The pointer draws a line to measure along"),
     bare(Key::K, Action::Keep, "Keep this picture, to compare others with it"),
     bare(Key::L, Action::Loop, "Play in a loop"),
-    bare(Key::Delete, Action::RemoveEvent, "Remove the event that is selected on the time line"),
+    bare(Key::Delete, Action::RemoveMark, "Remove the event or keyframe that is selected on the time line"),
     bare(Key::F11, Action::Present, "The picture alone, on the whole screen"),
     bare(Key::ArrowRight, Action::TiltRight, "Tilt gravity to the right"),
     bare(Key::ArrowLeft, Action::TiltLeft, "Tilt gravity to the left"),

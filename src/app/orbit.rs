@@ -146,7 +146,8 @@ fn half_fov(camera: &Camera) -> f64 {
 }
 
 /// An angle within (-180, 180] degrees.
-fn wrapped(deg: f64) -> f64 {
+#[must_use]
+pub fn wrapped(deg: f64) -> f64 {
     180.0 - (180.0 - deg).rem_euclid(360.0)
 }
 

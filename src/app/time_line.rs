@@ -1,7 +1,16 @@
-//! How the time line is used: its length, whether it is played in a loop, and the event that is selected on it.
+//! How the time line is used: its length, whether it is played in a loop, and the mark that is selected on it.
 
 /// Length at first, s.
 const LENGTH_S: f64 = 10.0;
+
+/// What a mark on the time line stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// An event, by its index.
+    Event(usize),
+    /// A keyframe of the camera, by its index.
+    Keyframe(usize),
+}
 
 /// What is set of the time line.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,10 +19,10 @@ pub struct TimeLine {
     pub length_s: f64,
     /// Whether it is played again and again.
     pub loops: bool,
-    /// Index of the event that is selected.
-    pub selected: Option<usize>,
-    /// Where an event is being dragged to: its index and its tick.
-    pub dragged: Option<(usize, u64)>,
+    /// The mark that is selected.
+    pub selected: Option<Mark>,
+    /// The mark that is being dragged, and the tick where it would be put.
+    pub dragged: Option<(Mark, u64)>,
     /// Ticks that the films were behind when the clock was moved ahead: the whole of the progress that is shown.
     pub jump_ticks: u64,
 }

@@ -6,6 +6,7 @@
 pub mod bubble;
 pub(crate) mod bulk;
 pub mod colour;
+pub mod curve;
 pub mod environment;
 pub mod film;
 pub mod flow;

@@ -1,11 +1,12 @@
 //! How fine a film is, and its flow: by how large the bubble is in the picture.
 //!
 //! A film's history must not depend on where it is looked at from, or on the size of the picture: its grids follow from the scene alone, from the
-//! camera that it begins with and for a picture of a certain height. Where that camera moves, in a window, they are settled before.
+//! camera that it begins with, or all keyframes of that camera, and for a picture of a certain height. Where it is moved in a window, they are settled
+//! before.
 
 use glam::DVec3;
 
-use crate::scene::{Boundary, Bubble, Change, Detail, Film, Scene};
+use crate::scene::{Boundary, Bubble, Camera, Change, Detail, Film, Scene};
 
 /// Rows of the picture that bubbles are measured in.
 const ROWS: f64 = 1080.0;
@@ -61,12 +62,17 @@ fn settled(scene: &Scene, index: usize, bubble: &Bubble) -> Detail {
 /// The most rows that a bubble is ever across, there and everywhere that it is dragged to; more than all where the eye is inside.
 fn largest_diameter(scene: &Scene, index: usize, bubble: &Bubble) -> f64 {
     let radius_m = 1e-3 * bubble.radius_mm;
-    let eye_m = scene.camera.eye();
     let dragged = scene.events.iter().filter_map(|event| match &event.change {
         Change::Drag(drag) if drag.bubble == index => Some(DVec3::from(drag.to_m)),
         _ => None,
     });
-    let places = std::iter::once(DVec3::from(bubble.center_m)).chain(dragged);
-    let nearest_m = places.map(|place_m| place_m.distance(eye_m)).fold(f64::INFINITY, f64::min);
-    ROWS * radius_m / nearest_m / (0.5 * scene.camera.fov_y_rad()).tan()
+    let places: Vec<DVec3> = std::iter::once(DVec3::from(bubble.center_m)).chain(dragged).collect();
+    let rows = |camera: &Camera| {
+        let eye_m = camera.eye();
+        let nearest_m = places.iter().map(|place_m| place_m.distance(eye_m)).fold(f64::INFINITY, f64::min);
+        ROWS * radius_m / nearest_m / (0.5 * camera.fov_y_rad()).tan()
+    };
+    let camera = &scene.camera;
+    let moved = camera.keyframes.iter().map(|keyframe| rows(&camera.at(keyframe.time_s)));
+    moved.reduce(f64::max).unwrap_or_else(|| rows(camera))
 }

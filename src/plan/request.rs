@@ -24,7 +24,7 @@ use crate::{
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
         picture::{Finish, Plate},
     },
-    scene::{Backdrop, Boundary, Bubble, Fault, FilmIndexName, Lens, Quality, Scene},
+    scene::{Backdrop, Boundary, Bubble, Camera, Fault, FilmIndexName, Lens, Quality, Scene},
 };
 
 /// What a scene names and somebody has loaded.
@@ -67,13 +67,22 @@ impl Story {
     ///
     /// The key of a scene that cannot be drawn: a camera below the bath, an index that no film has.
     pub fn request(&self, resources: &Resources, shot: &Shot) -> Result<FrameRequest, Fault> {
+        let time_s = shot.moment.ticks() * self.motion.tick_s;
+        self.request_from(&self.camera.at(time_s), resources, shot)
+    }
+
+    /// The frame request for a shot of the scene from a camera that stands, in place of the scene's own.
+    ///
+    /// # Errors
+    ///
+    /// As [`Story::request`].
+    pub fn request_from(&self, seen_from: &Camera, resources: &Resources, shot: &Shot) -> Result<FrameRequest, Fault> {
         let scene: &Scene = self;
-        let camera = camera(scene, shot.size);
+        let camera = camera(seen_from, shot.size);
         let bath_m =
             scene.bubbles.iter().find(|bubble| bubble.boundary == Boundary::Bath).map(|bubble| bubble.center_m[2]);
         if bath_m.is_some_and(|height_m| camera.eye_m.z <= height_m) {
-            let reason = "looks from below the bath that the bubbles stand on; raise it, or `target_m`";
-            return Err(Fault::new("elevation_deg", reason).inside("camera"));
+            return Err(below_bath(scene, shot));
         }
         let mut bubbles: Vec<BubbleKey> = scene
             .bubbles
@@ -94,7 +103,7 @@ impl Story {
         let own =
             SpectralLight { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
         let lighting = |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &films, are_many);
-        let light = light(scene, resources, &camera);
+        let light = light(scene, resources, seen_from, &camera);
         let draw = DrawKey {
             size: shot.size,
             full_precision: shot.full_precision,
@@ -130,8 +139,19 @@ fn finish(scene: &Scene, shot: &Shot) -> Finish {
     Finish { glare, vignetting_ev, grain, grain_seed }
 }
 
-fn camera(scene: &Scene, [_, height]: [u32; 2]) -> CameraKey {
-    let camera = &scene.camera;
+/// What is wrong with a camera below the bath.
+fn below_bath(scene: &Scene, shot: &Shot) -> Fault {
+    let reason = "looks from below the bath that the bubbles stand on";
+    let reason = if scene.camera.keyframes.is_empty() {
+        format!("{reason}; raise it, or `target_m`")
+    } else {
+        let time_s = shot.moment.ticks() * scene.motion.tick_s;
+        format!("{reason}, at {time_s:.2} s; raise it, or `target_m`, in the keyframes")
+    };
+    Fault::new("elevation_deg", reason).inside("camera")
+}
+
+fn camera(camera: &Camera, [_, height]: [u32; 2]) -> CameraKey {
     CameraKey {
         eye_m: camera.eye(),
         forward: camera.forward(),
@@ -147,7 +167,7 @@ fn plate(scene: &Scene, resources: &Resources, size: [u32; 2]) -> Option<PlateKe
     Some(PlateKey { plate, whole: size, corner: [0; 2], size })
 }
 
-fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
+fn light(scene: &Scene, resources: &Resources, seen_from: &Camera, camera: &CameraKey) -> LightKey {
     // A constant environment is a white cube times this factor: exact, where half floats in the cube would round.
     let constant = scene.light.constant.filter(|_| scene.light.lamps.is_empty());
     let constant = constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
@@ -168,7 +188,7 @@ fn light(scene: &Scene, resources: &Resources, camera: &CameraKey) -> LightKey {
         polariser,
         rotation_rad: scene.light.rotation_deg.to_radians(),
         backdrop,
-        defocus_rad: scene.lens.defocus_rad(&scene.camera),
+        defocus_rad: scene.lens.defocus_rad(seen_from),
     }
 }
 

@@ -1,11 +1,18 @@
-//! The camera: an orbit around a target.
+//! The camera: an orbit around a target, and the keyframes that move it.
+
+mod keyframe;
+
+pub use keyframe::{Keyframe, KeyframeKeys, MAX_KEYFRAMES};
 
 use super::section::section;
 use glam::DVec3;
 
 section! {
-    /// A camera on an orbit around its target, +z up: `[camera]`.
-    pub struct Camera, CameraKeys:
+    /// A camera on an orbit around its target, +z up: `[camera]`. [`Camera::at`] is where its keyframes move it.
+    pub struct Camera, CameraKeys: [
+        #[serde(rename = "keyframe", skip_serializing_if = "Vec::is_empty")]
+        keyframes: Vec<Keyframe> = Vec::new(), "How it moves, in the order of the times, at most [`MAX_KEYFRAMES`]";
+    ]
     target_m: [f64; 3] = [0.0; 3], [-1000.0 ..= 1000.0], "Target", " m", "the point in the middle of the picture, m";
     azimuth_deg: f64 = 20.0, [finite], "Azimuth", "°", "azimuth of the eye, from +x towards +y";
     elevation_deg: f64 = 8.0, [-90.0 ..= 90.0], "Elevation", "°", "elevation of the eye above the horizon";

@@ -28,11 +28,12 @@ mod tests;
 mod words;
 
 pub use crate::physics::{
+    curve::Ease,
     film::{Boundary, Flow},
     transport::Scheme,
 };
 pub use bubble::{Bubble, BubbleKeys, Detail, Film, FilmIndexName, FilmKeys, FilmStateName};
-pub use camera::{Camera, CameraKeys};
+pub use camera::{Camera, CameraKeys, Keyframe, KeyframeKeys, MAX_KEYFRAMES};
 pub use check::Fault;
 pub use error::{Problem, SceneError};
 pub use event::{Blow, BlowKeys, Change, Drag, DragKeys, Event, Prick, PrickKeys, Stir, StirKeys};
@@ -70,7 +71,7 @@ pub struct Scene {
     /// Bubbles that share films, many at once.
     #[serde(rename = "generator", skip_serializing_if = "Vec::is_empty")]
     pub generators: Vec<Generator>,
-    /// From where it is seen.
+    /// From where it is seen, and how the camera moves.
     pub camera: Camera,
     /// Through which lens.
     pub lens: Lens,
@@ -193,7 +194,7 @@ impl Scene {
         check::each("bubble", &self.bubbles, Bubble::check)?;
         self.check_memory()?;
         check::each("generator", &self.generators, Generator::check)?;
-        self.camera.check_ranges().map_err(|fault| fault.inside("camera"))?;
+        self.camera.check().map_err(|fault| fault.inside("camera"))?;
         self.lens.check_ranges().map_err(|fault| fault.inside("lens"))?;
         self.light.check().map_err(|fault| fault.inside("light"))?;
         self.view.check_ranges().map_err(|fault| fault.inside("view"))?;

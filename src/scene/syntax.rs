@@ -3,7 +3,7 @@
 use super::check::BACKSLASHES;
 use super::error::{Located, Problem};
 use super::words::shorten;
-use super::{Bubble, Camera, Change, Event, Generator, Lens, Light, LightLamp, LightPatch, Scene, View};
+use super::{Bubble, Camera, Change, Event, Generator, Keyframe, Lens, Light, LightLamp, LightPatch, Scene, View};
 use toml::Table;
 use toml::de::Error;
 
@@ -12,6 +12,7 @@ const LONGEST_QUOTE: usize = 60;
 
 /// Every key a scene can have, as the TOML of a scene where nothing is absent. A key forgotten here fails the round trip of random scenes.
 pub(super) fn every_key() -> Table {
+    let every_number = Camera { focal_mm: Some(50.0), ..Camera::default() };
     let scene = Scene {
         bubbles: vec![Bubble::default()],
         generators: vec![Generator::default()],
@@ -22,7 +23,10 @@ pub(super) fn every_key() -> Table {
             ..Light::default()
         },
         lens: Lens { focus_m: Some(1.0), ..Lens::default() },
-        camera: Camera { focal_mm: Some(50.0), ..Camera::default() },
+        camera: Camera {
+            keyframes: vec![Keyframe { fov_y_deg: Some(30.0), ..every_number.keyframe(0.0) }],
+            ..every_number
+        },
         view: View { polariser_deg: Some(0.0), plate: Some(String::new()), ..View::default() },
         events: Change::every_key().map(|change| Event { tick: 0, change }).into(),
         ..Scene::default()

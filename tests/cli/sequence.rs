@@ -108,3 +108,28 @@ fn a_sequence_cut_over_machines_is_that_of_one() {
         assert!(bytes("one") == bytes("farm"), "frame {frame}");
     }
 }
+
+/// A picture of a moment is that of a camera that stands where the keyframes have it then; pictures of a sequence are too.
+#[test]
+fn keyframes_move_the_camera_of_every_picture() {
+    let desk = Desk::new();
+    desk.write("turntable.toml", include_str!("../data/turntable.toml"));
+    // Even light, so that no surroundings are computed, and a bubble beside another, so that each azimuth looks different.
+    let scene = "--size 64x36 --set light.constant=[1,1,1] --set view.quality=fast \
+                 --set bubble=[{film={state='uniform'}},{center_m=[0.06,0,0],radius_mm=9,film={state='uniform'}}]";
+    let moments =
+        [(4, "azimuth_deg=180,elevation_deg=30,distance_m=0.2"), (7, "azimuth_deg=315,elevation_deg=0,distance_m=0.4")];
+    let bytes = |path: &str| std::fs::read(desk.path(path)).unwrap();
+    let mut seen = Vec::new();
+    for (time_s, camera) in moments {
+        let Some(_) = desk.done(&format!("render turntable.toml -o moved.png --time {time_s} {scene}")) else { return };
+        let stands = format!("--set camera={{{camera}}}");
+        desk.done(&format!("render turntable.toml -o stands.png --time {time_s} {scene} {stands}"));
+        assert!(bytes("moved.png") == bytes("stands.png"), "at {time_s} s");
+        seen.push(bytes("moved.png"));
+    }
+    assert!(seen[0] != seen[1], "the camera moves");
+    desk.done(&format!("sequence turntable.toml -o run --frames 7..7 --fps 1 {scene}"));
+    let [frame, moved] = ["run/frame_000007.png", "moved.png"].map(|path| read_png(&desk.path(path)).unwrap().rgba);
+    assert!(frame == moved);
+}

@@ -245,6 +245,7 @@ impl View {
 
     /// Starts to save the picture.
     pub fn capture(&mut self, model: &mut Model, radiance: bool, path: PathBuf) {
+        model.follow_keyframes();
         match capture::request(model, self.picture_size, radiance) {
             Ok(request) => {
                 self.ask_for_picture(request, Purpose::Save { radiance, path, metadata: capture::metadata(model) });
@@ -264,7 +265,7 @@ fn request(model: &Model, size: [u32; 2]) -> Result<FrameRequest, String> {
         yardstick: false,
         pace: Pace::Frame,
     };
-    model.scene.request(&model.resources, &shot).map_err(|error| error.to_string())
+    model.scene.request_from(&model.scene.camera, &model.resources, &shot).map_err(|error| error.to_string())
 }
 
 /// Whether a picture is the requested one after a plan. Films that cannot keep up with a running clock make it no other picture: it stands still

@@ -110,6 +110,7 @@ impl View {
                 files.compute_reference(model, side, shown.clone(), films);
             }
             Want::Draw(_, quality) => {
+                model.follow_keyframes();
                 let request = capture::request_in(model, size, quality)?;
                 self.ask_for_picture(request, Purpose::Compare(want));
                 due.after(Duration::ZERO);

@@ -25,6 +25,15 @@ impl Model {
         }
     }
 
+    /// The scene as it is now, seen from where the window shows it at all times: for a picture of the shown moment.
+    #[must_use]
+    pub fn view_snapshot(&mut self) -> LoadedScene {
+        self.follow_keyframes();
+        let mut snapshot = self.snapshot();
+        snapshot.scene.camera.keyframes.clear();
+        snapshot
+    }
+
     /// Opens the dialog for exports. `size` is that of the picture that the window shows, in pixels.
     pub fn open_export(&mut self, size: [u32; 2]) {
         let stem = Path::new(&self.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");

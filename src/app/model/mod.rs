@@ -1,6 +1,7 @@
 //! What the window shows and what its user has changed: everything that needs neither a window nor a GPU.
 
 mod bubbles;
+mod camera;
 #[cfg(not(target_arch = "wasm32"))]
 mod exports;
 mod lesson;
@@ -32,7 +33,7 @@ use super::{
 };
 use crate::{
     input::LoadedScene,
-    plan::{Resources, Story, settle_detail},
+    plan::{Moment, Resources, Story, settle_detail},
     scene::{Light, Motion, MotionChange, preset_toml},
 };
 
@@ -69,6 +70,10 @@ pub struct Model {
     pub overlay: Overlay,
     /// How fast the eye goes around its target by itself, degrees per second.
     pub turntable_deg_s: f64,
+    /// The moment at which the keyframes last moved the camera, and the state of the scene then; none without keyframes.
+    pub followed: Option<(Moment, u64)>,
+    /// The moment at which a step was taken back last.
+    pub undone_at: Option<Moment>,
     /// Index of the bubble that the film panel edits.
     pub selected: usize,
     /// Whether it is outlined in the picture, because it was clicked there.
@@ -140,6 +145,8 @@ impl Model {
             probe: Probe::default(),
             overlay: Overlay::default(),
             turntable_deg_s: 0.0,
+            followed: None,
+            undone_at: None,
             selected: 0,
             outlines: false,
             selected_generator: 0,
@@ -182,6 +189,7 @@ impl Model {
         (self.time_line.selected, self.time_line.dragged) = (None, None);
         self.probe = Probe::default();
         self.overlay.profile = None;
+        self.followed = None;
         (self.selected, self.outlines, self.selected_generator) = (0, false, 0);
         self.motion_draft = None;
         // What the hand held is gone.
@@ -226,11 +234,13 @@ impl Model {
         self.scene.motion_in_force(self.clock.tick).clone()
     }
 
-    /// The end of the time line: the last tick that was shown or at which something happens.
+    /// The end of the time line: the last tick that was shown, at which something happens, or that the camera moves until.
     #[must_use]
     pub fn last_tick(&self) -> u64 {
         let last_event = self.scene.events.last().map_or(0, |event| event.tick);
-        self.furthest_tick.max(self.clock.tick).max(last_event)
+        let last_keyframe = self.scene.camera.keyframes.last().map_or(0.0, |keyframe| keyframe.time_s);
+        let last_keyframe = (last_keyframe / self.scene.motion.tick_s).ceil() as u64;
+        self.furthest_tick.max(self.clock.tick).max(last_event).max(last_keyframe)
     }
 
     /// Asks for something, and first what shall become of work that is not saved, if it would be lost.
@@ -292,10 +302,10 @@ impl Model {
     pub fn move_camera(&mut self, gesture: &orbit::Gesture, aspect: f64) {
         if gesture.frame {
             let spheres = self.scene.spheres(self.clock.time_s(&self.scene.motion));
-            self.edit(Edit::Camera(orbit::framed(&self.scene.camera, &spheres, aspect)));
+            self.look_from(orbit::framed(&self.scene.camera, &spheres, aspect));
         } else if gesture.moves() {
-            self.edit(Edit::Camera(orbit::moved(&self.scene.camera, &self.scene.bubbles, gesture)));
-        } else if gesture.follow != DVec2::ZERO {
+            self.look_from(orbit::moved(&self.scene.camera, &self.scene.bubbles, gesture));
+        } else if gesture.follow != DVec2::ZERO && self.scene.camera.keyframes.is_empty() {
             let gesture = orbit::Gesture { turn: gesture.follow, ..orbit::Gesture::default() };
             let camera = orbit::moved(&self.scene.camera, &self.scene.bubbles, &gesture);
             // Looking around is no work that could be lost.
@@ -311,7 +321,7 @@ impl Model {
             Action::Reset => self.clock.reset(),
             Action::NewSeed => self.new_seeds(),
             Action::Loop => self.time_line.loops = !self.time_line.loops,
-            Action::RemoveEvent => self.remove_event(),
+            Action::RemoveMark => self.remove_selected(),
             Action::Present => self.presents = !self.presents,
             Action::Panels => self.shows_panels = !self.shows_panels,
             Action::Help => self.shows_help = !self.shows_help,

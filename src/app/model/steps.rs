@@ -4,6 +4,7 @@ use super::Model;
 use crate::{
     app::{
         edit::{Edit, begins_anew, new_seed},
+        time_line::Mark,
         tools::Hand,
         undo::Step,
     },
@@ -13,7 +14,7 @@ use crate::{
 
 impl Model {
     /// Makes a change of the scene that can be taken back, or reports why it is not valid; returns whether it was made. The only way to change
-    /// a scene, but for a camera that follows the pointer.
+    /// a scene, but for a camera that follows the pointer or its keyframes.
     pub fn edit(&mut self, edit: Edit) -> bool {
         let back = self.apply(edit);
         let is_made = back.is_some();
@@ -39,9 +40,14 @@ impl Model {
         Some(back)
     }
 
-    /// An event is selected by its index, which another list of events gives to another one.
+    /// Events and keyframes are selected by their index, which another list gives to another one.
     fn forget_selection(&mut self, back: &Edit) {
-        if matches!(back, Edit::History(..) | Edit::Forget(_)) {
+        let is_other = match back {
+            Edit::History(..) | Edit::Forget(_) => true,
+            Edit::Camera(before) => before.keyframes != self.scene.camera.keyframes,
+            _ => false,
+        };
+        if is_other {
             self.time_line.selected = None;
         }
     }
@@ -50,6 +56,7 @@ impl Model {
     pub fn undo(&mut self) {
         let Some(step) = self.undo.last_done() else { return };
         let step = self.reverse(step);
+        self.undone_at = Some(self.clock.moment(&self.scene.motion));
         self.messages.note(format!("Undone: {}", step.name));
         self.undo.undone(step);
     }
@@ -58,6 +65,8 @@ impl Model {
     pub fn redo(&mut self) {
         let Some(step) = self.undo.last_undone() else { return };
         let step = self.reverse(step);
+        // A view is of its moment: at another one the keyframes say where the camera is.
+        self.followed = self.followed.filter(|(moment, _)| self.undone_at == Some(*moment));
         self.messages.note(format!("Redone: {}", step.name));
         self.undo.redone(step);
     }
@@ -77,10 +86,12 @@ impl Model {
         step
     }
 
-    /// Removes the event that is selected on the time line.
-    pub fn remove_event(&mut self) {
-        if let Some(index) = self.time_line.selected.take().filter(|index| *index < self.scene.events.len()) {
-            self.edit(Edit::Forget(index));
+    /// Removes the event or keyframe that is selected on the time line.
+    pub fn remove_selected(&mut self) {
+        match self.time_line.selected.take() {
+            Some(Mark::Event(index)) if index < self.scene.events.len() => drop(self.edit(Edit::Forget(index))),
+            Some(Mark::Keyframe(index)) => self.delete_keyframe(index),
+            _ => {}
         }
     }
 

@@ -1,7 +1,7 @@
 //! Time: how it passes, and events that are moved in it.
 
 use super::Model;
-use crate::app::edit::Edit;
+use crate::app::{edit::Edit, time_line::Mark};
 
 /// The time that one frame of a turntable lasts at most, s.
 const LONGEST_TURN_S: f64 = 0.1;
@@ -23,19 +23,32 @@ impl Model {
         } else {
             self.rate.note(wall_s, time_s);
         }
+        self.follow_keyframes();
     }
 
-    /// Turns the camera about the vertical. Looking around is no work that could be lost.
+    /// Turns a camera without keyframes about the vertical. Looking around is no work that could be lost.
     fn turn_table(&mut self, wall_s: f64) {
         // A frame that took long turns no further than one can follow.
         let turn_deg = self.turntable_deg_s * wall_s.min(LONGEST_TURN_S);
-        if turn_deg != 0.0 {
+        if turn_deg != 0.0 && self.scene.camera.keyframes.is_empty() {
             self.scene.change(|scene| scene.camera.azimuth_deg = (scene.camera.azimuth_deg + turn_deg) % 360.0);
         }
     }
 
+    /// Moves what a mark of the time line stands for to another tick.
+    pub fn move_mark(&mut self, mark: Mark, tick: u64) {
+        match mark {
+            Mark::Event(index) => self.move_event(index, tick),
+            Mark::Keyframe(index) => {
+                if let Some(index) = self.move_keyframe(index, tick) {
+                    self.time_line.selected = Some(Mark::Keyframe(index));
+                }
+            }
+        }
+    }
+
     /// Moves an event to another tick.
-    pub fn move_event(&mut self, index: usize, tick: u64) {
+    fn move_event(&mut self, index: usize, tick: u64) {
         let mut events = self.scene.events.clone();
         let Some(event) = events.get_mut(index).filter(|event| event.tick != tick) else { return };
         event.tick = tick;
@@ -44,7 +57,7 @@ impl Model {
         events.sort_by_key(|event| event.tick);
         let place = events.iter().position(|event| *event == moved);
         if self.edit(Edit::History(self.scene.motion.clone().into(), events)) {
-            self.time_line.selected = place;
+            self.time_line.selected = place.map(Mark::Event);
         }
     }
 }

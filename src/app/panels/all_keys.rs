@@ -30,7 +30,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     }
     let mut camera = model.scene.camera.clone();
     if section(ui, "Camera", &mut camera, Camera::ALL_KEYS) {
-        model.edit(Edit::Camera(camera));
+        model.look_from(camera);
     }
     let mut view = model.scene.view.clone();
     if section(ui, "View", &mut view, View::ALL_KEYS) {

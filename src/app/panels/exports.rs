@@ -113,7 +113,7 @@ fn begin(model: &mut Model, form: &mut Form, time_s: f64) {
     form.refused = checked.as_ref().err().cloned();
     form.is_open = checked.is_err();
     if let Ok(job) = checked {
-        let scene = model.snapshot();
+        let scene = if form.kind == Kind::Picture { model.view_snapshot() } else { model.snapshot() };
         model.exports.add(job, scene);
     }
 }

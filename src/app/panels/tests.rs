@@ -11,6 +11,7 @@ use crate::{
         model::{Model, tests::model},
         probe::Plot,
         request::{Fate, Question, Request, Target},
+        time_line::Mark,
         tools::Tool,
     },
     scene::{
@@ -19,6 +20,7 @@ use crate::{
 };
 
 mod exports;
+mod keyframes;
 mod lesson;
 mod measure;
 mod picture;

@@ -1,14 +1,13 @@
-//! The time line along the bottom: the clock, the film's whole history with its events, and what lies ahead. Going back moves the film again from a
+//! The time line along the bottom: the clock, the film's whole history with its events, the camera's keyframes, and what lies ahead. Going back moves the film again from a
 //! checkpoint: the same history gives the same film.
 
 use egui::{
-    Color32, DragValue, Event, Panel, ProgressBar, Rect, Response, Sense, Slider, SliderClamping, Stroke, Ui, pos2,
-    vec2,
+    DragValue, Event, Panel, Pos2, ProgressBar, Rect, Response, Sense, Slider, SliderClamping, Stroke, Ui, pos2, vec2,
 };
 
-use crate::app::{history, model::Model};
+use crate::app::{history, model::Model, time_line::Mark};
 
-/// Height of the strip with the marks of events, points.
+/// Height of a strip with marks, points.
 const STRIP: f32 = 12.0;
 /// How far from a mark a click still means it, points.
 const REACH: f32 = 6.0;
@@ -24,7 +23,14 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         });
         let end_tick = end_tick(model);
         let rail = time(ui, model, end_tick);
-        events(ui, model, rail, end_tick);
+        let scale = Scale { rail, end_tick };
+        let events: Vec<f64> = model.scene.events.iter().map(|event| event.tick as f64).collect();
+        strip(ui, model, &scale, "Events", Mark::Event, &events);
+        let (tick_s, keyframes) = (model.scene.motion.tick_s, &model.scene.camera.keyframes);
+        let keyframes: Vec<f64> = keyframes.iter().map(|keyframe| keyframe.time_s / tick_s).collect();
+        if !keyframes.is_empty() {
+            strip(ui, model, &scale, "Camera keyframes", Mark::Keyframe, &keyframes);
+        }
     });
 }
 
@@ -68,13 +74,10 @@ fn told(ui: &mut Ui, model: &mut Model) {
         }
         return;
     }
-    let tick_s = model.scene.motion.tick_s;
-    let selected = model.time_line.selected.and_then(|index| model.scene.events.get(index));
-    if let Some(event) = selected {
-        let text = history::describe(event, tick_s);
+    if let Some(text) = model.time_line.selected.and_then(|mark| described(model, mark)) {
         ui.add(egui::Label::new(egui::RichText::new(text).strong()).truncate());
-        if ui.button("Remove").on_hover_text("Remove this event (Delete)").clicked() {
-            model.remove_event();
+        if ui.button("Remove").on_hover_text("Remove this event or keyframe (Delete)").clicked() {
+            model.remove_selected();
         }
         return;
     }
@@ -101,45 +104,83 @@ fn time(ui: &mut Ui, model: &mut Model, end_tick: u64) -> Rect {
     slider.rect.shrink2(vec2(handle, 0.0))
 }
 
-/// The events as marks under the slider: a click selects one, a drag moves it.
-fn events(ui: &mut Ui, model: &mut Model, rail: Rect, end_tick: u64) {
-    let (strip, response) = ui.allocate_exact_size(vec2(ui.available_width(), STRIP), Sense::click_and_drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ListBox, true, "Events"));
-    let x_of = |tick: u64| rail.left() + rail.width() * (tick as f64 / end_tick as f64) as f32;
-    let tick_of =
-        |x: f32| ((f64::from((x - rail.left()) / rail.width())).clamp(0.0, 1.0) * end_tick as f64).round() as u64;
-    point(ui, model, &response, &x_of, &tick_of);
-    for (index, event) in model.scene.events.iter().enumerate() {
-        let is_selected = model.time_line.selected == Some(index);
-        let tick =
-            model.time_line.dragged.filter(|(dragged, _)| *dragged == index).map_or(event.tick, |(_, tick)| tick);
-        let colour = if is_selected { ui.visuals().strong_text_color() } else { ui.visuals().weak_text_color() };
-        mark(ui, pos2(x_of(tick), strip.top()), colour, is_selected);
+/// What a mark stands for, in a line for people; `None` if there is no such thing.
+fn described(model: &Model, mark: Mark) -> Option<String> {
+    match mark {
+        Mark::Event(index) => {
+            let event = model.scene.events.get(index)?;
+            Some(history::describe(event, model.scene.motion.tick_s))
+        }
+        Mark::Keyframe(index) => {
+            let keyframe = model.scene.camera.keyframes.get(index)?;
+            Some(format!("{:.2} s: camera keyframe, {}", keyframe.time_s, keyframe.ease.name()))
+        }
     }
 }
 
-fn mark(ui: &Ui, top: egui::Pos2, colour: Color32, is_selected: bool) {
+/// Where ticks are on the time line.
+struct Scale {
+    rail: Rect,
+    end_tick: u64,
+}
+
+impl Scale {
+    fn x_of(&self, ticks: f64) -> f32 {
+        self.rail.left() + self.rail.width() * (ticks / self.end_tick as f64) as f32
+    }
+
+    fn tick_of(&self, x: f32) -> u64 {
+        let part = f64::from((x - self.rail.left()) / self.rail.width()).clamp(0.0, 1.0);
+        (part * self.end_tick as f64).round() as u64
+    }
+}
+
+/// Marks under the slider, at times in ticks: a click selects one, a drag moves it.
+fn strip(ui: &mut Ui, model: &mut Model, scale: &Scale, name: &str, mark_of: fn(usize) -> Mark, ticks: &[f64]) {
+    let (strip, response) = ui.allocate_exact_size(vec2(ui.available_width(), STRIP), Sense::click_and_drag());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ListBox, true, name));
+    point(ui, model, &response, scale, mark_of, ticks);
+    for (index, ticks) in ticks.iter().enumerate() {
+        let mark = mark_of(index);
+        let is_selected = model.time_line.selected == Some(mark);
+        let dragged = model.time_line.dragged.filter(|(dragged, _)| *dragged == mark);
+        let ticks = dragged.map_or(*ticks, |(_, tick)| tick as f64);
+        draw(ui, pos2(scale.x_of(ticks), strip.top()), mark, is_selected);
+    }
+}
+
+/// Draws a mark: a triangle for an event, a diamond for a keyframe.
+fn draw(ui: &Ui, top: Pos2, mark: Mark, is_selected: bool) {
+    let visuals = ui.visuals();
+    let colour = if is_selected { visuals.strong_text_color() } else { visuals.weak_text_color() };
     let half = if is_selected { 4.0 } else { 3.0 };
-    let corners = vec![top, top + vec2(half, 8.0), top + vec2(-half, 8.0)];
+    let corners = match mark {
+        Mark::Event(_) => vec![top, top + vec2(half, 8.0), top + vec2(-half, 8.0)],
+        Mark::Keyframe(_) => {
+            let middle = top + vec2(0.0, 5.0);
+            [vec2(0.0, -1.0), vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(-1.0, 0.0)].map(|to| middle + half * 1.2 * to).into()
+        }
+    };
     ui.painter().add(egui::Shape::convex_polygon(corners, colour, Stroke::NONE));
 }
 
-fn point(ui: &Ui, model: &mut Model, response: &Response, x_of: &impl Fn(u64) -> f32, tick_of: &impl Fn(f32) -> u64) {
+/// Lets the pointer select the nearest mark of a strip, and move it.
+fn point(ui: &Ui, model: &mut Model, response: &Response, scale: &Scale, mark_of: fn(usize) -> Mark, ticks: &[f64]) {
     let at = response.interact_pointer_pos();
     let is_pressed =
         ui.input(|input| input.events.iter().any(|event| matches!(event, Event::PointerButton { pressed: true, .. })));
     if let Some(at) = at.filter(|_| is_pressed) {
-        let distance = |tick: u64| (x_of(tick) - at.x).abs();
-        let nearest = model.scene.events.iter().enumerate().map(|(index, event)| (distance(event.tick), index));
-        model.time_line.selected =
-            nearest.filter(|(far, _)| *far <= REACH).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, index)| index);
+        let nearest = ticks.iter().enumerate().map(|(index, ticks)| ((scale.x_of(*ticks) - at.x).abs(), index));
+        let nearest = nearest.filter(|(far, _)| *far <= REACH).min_by(|a, b| a.0.total_cmp(&b.0));
+        model.time_line.selected = nearest.map(|(_, index)| mark_of(index));
     }
-    let Some(index) = model.time_line.selected else { return };
+    let is_own = |mark: Mark| (0..ticks.len()).any(|index| mark_of(index) == mark);
+    let Some(mark) = model.time_line.selected.filter(|mark| is_own(*mark)) else { return };
     if let Some(at) = at.filter(|_| response.dragged()) {
-        model.time_line.dragged = Some((index, tick_of(at.x)));
+        model.time_line.dragged = Some((mark, scale.tick_of(at.x)));
     }
-    if let Some((index, tick)) = model.time_line.dragged.filter(|_| response.drag_stopped()) {
+    if let Some((mark, tick)) = model.time_line.dragged.filter(|_| response.drag_stopped()) {
         model.time_line.dragged = None;
-        model.move_event(index, tick);
+        model.move_mark(mark, tick);
     }
 }

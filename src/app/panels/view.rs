@@ -38,7 +38,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     })
     .on_hover_text("F frames the bubbles.");
     if camera != model.scene.camera {
-        model.edit(Edit::Camera(camera));
+        model.look_from(camera);
     }
 }
 

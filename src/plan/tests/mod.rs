@@ -1,5 +1,6 @@
 //! What is skipped and what is not, and that skipping never changes what is there in the end.
 
+mod camera;
 mod checkpoints;
 mod crowd;
 mod events;

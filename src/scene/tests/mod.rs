@@ -41,6 +41,7 @@ fn setting(section: &str, key: &str, value: &str) -> String {
         "bubble" => with_version(&format!("[[bubble]]\n{key} = {value}\n")),
         "generator" => with_version(&format!("[[generator]]\n{key} = {value}\n")),
         "bubble.film" => with_version(&format!("[[bubble]]\n[bubble.film]\n{key} = {value}\n")),
+        "camera.keyframe" => with_version(&format!("[[camera.keyframe]]\n{key} = {value}\n")),
         "light.lamp" => with_version(&format!("[[light.lamp]]\n{key} = {value}\n")),
         "light.patch" => with_version(&format!("[[light.patch]]\n{key} = {value}\n")),
         "event" => with_version(&format!("[[event]]\nkind = \"motion\"\nseed = 2\n{key} = {value}\n")),
@@ -66,6 +67,7 @@ fn tables() -> Vec<(&'static str, Vec<Key>)> {
         ("bubble.film", Film::ALL_KEYS.to_vec()),
         ("generator", Generator::ALL_KEYS.to_vec()),
         ("camera", Camera::ALL_KEYS.to_vec()),
+        ("camera.keyframe", Keyframe::ALL_KEYS.to_vec()),
         ("lens", Lens::ALL_KEYS.to_vec()),
         ("light", Light::ALL_KEYS.to_vec()),
         ("light.patch", LightPatch::ALL_KEYS.to_vec()),
@@ -112,6 +114,7 @@ fn defaults() -> toml::Table {
     ];
     let scene = Scene {
         generators: vec![Generator::default()],
+        camera: Camera { keyframes: vec![Keyframe::default()], ..Camera::default() },
         light: Light { lamps: vec![LightLamp::default()], patches: vec![LightPatch::default()], ..Light::default() },
         events: changes.map(|change| Event { tick: 0, change }).into(),
         ..Scene::default()
@@ -199,7 +202,9 @@ fn written(key: &str, default: &str, value: f64) -> String {
         "cells" | "count" | "films" | "remap_ticks" | "ticks" | "version" => {
             format!("{}", value.round()).to_lowercase()
         }
-        _ if default.starts_with('[') || ["constant", "radiance", "spin_deg_s", "gravity_m_s2"].contains(&key) => {
+        _ if default.starts_with('[')
+            || ["constant", "radiance", "spin_deg_s", "gravity_m_s2", "target_m"].contains(&key) =>
+        {
             format!("[0, {number}, 0]")
         }
         _ => number,

@@ -37,9 +37,17 @@ fn bubble() -> impl Strategy<Value = Bubble> {
 }
 
 fn camera() -> impl Strategy<Value = Camera> {
-    let lens = (prop::option::of(1.0..5000.0), 1.0..500.0);
+    let lens = (prop::option::of(1.0..5000.0), 1.0..500.0, keyframes());
     (prop::array::uniform3(-1e3..1e3), -1e9..1e9, -90.0..90.0, 0.0..1e3, 1.0..170.0, 0.0..180.0, lens).prop_map(
-        |(target_m, azimuth_deg, elevation_deg, distance_m, fov_y_deg, follow_deg, (focal_mm, sensor_mm))| Camera {
+        |(
+            target_m,
+            azimuth_deg,
+            elevation_deg,
+            distance_m,
+            fov_y_deg,
+            follow_deg,
+            (focal_mm, sensor_mm, keyframes),
+        )| Camera {
             focal_mm,
             sensor_mm,
             follow_deg,
@@ -48,8 +56,23 @@ fn camera() -> impl Strategy<Value = Camera> {
             elevation_deg,
             distance_m,
             fov_y_deg,
+            keyframes,
         },
     )
+}
+
+/// Some keyframes a second apart, each with some of the numbers.
+fn keyframes() -> impl Strategy<Value = Vec<Keyframe>> {
+    let numbers = (prop::option::of(-1e6..1e6), prop::option::of(-90.0..90.0), prop::option::of(0.0..1e3));
+    let lens = prop::option::of(1.0..5000.0);
+    let keyframe = (0.0..0.9, prop::option::of(prop::array::uniform3(-1e3..1e3)), numbers, lens, any_of());
+    let keyframe = keyframe.prop_map(|(time_s, target_m, (azimuth_deg, elevation_deg, distance_m), focal_mm, ease)| {
+        Keyframe { time_s, target_m, azimuth_deg, elevation_deg, distance_m, focal_mm, fov_y_deg: None, ease }
+    });
+    prop::collection::vec(keyframe, 0..4).prop_map(|mut keyframes| {
+        keyframes.iter_mut().zip(0..).for_each(|(keyframe, second)| keyframe.time_s += f64::from(second));
+        keyframes
+    })
 }
 
 fn lens() -> impl Strategy<Value = Lens> {

@@ -13,7 +13,7 @@ fn numbers() -> impl Iterator<Item = (&'static str, &'static str, &'static str)>
     let rows = documented().into_iter().filter(move |row| holds_numbers(row.default) && row.key != "version");
     // Radiances are absent unless given, and hold three numbers like all lists.
     rows.map(|row| match row.key {
-        "constant" | "radiance" => (row.section, row.key, "[]"),
+        "constant" | "radiance" | "target_m" => (row.section, row.key, "[]"),
         _ => (row.section, row.key, row.default),
     })
 }
@@ -262,6 +262,44 @@ fn events_change_something_in_order() {
             "7: `tick` in [[event]] number 2 is 8 after an event at tick 9; sort the events by tick",
         ),
     ]);
+}
+
+#[test]
+fn keyframes_have_times_in_order_and_the_ranges_of_the_camera() {
+    assert_refused(&[
+        (
+            "[[camera.keyframe]]\ntime_s = 2\n[[camera.keyframe]]\ntime_s = 1",
+            "5: `time_s` in [[camera.keyframe]] number 2 is 1 after a keyframe at 2 s; sort the keyframes, and give each a time of its own",
+        ),
+        (
+            "[[camera.keyframe]]\n[[camera.keyframe]]\nazimuth_deg = 3",
+            "3: `time_s` in [[camera.keyframe]] number 2 is 0 after a keyframe at 0 s; sort the keyframes, and give each a time of its own",
+        ),
+        (
+            "[[camera.keyframe]]\nelevation_deg = 91",
+            "3: `elevation_deg` in [[camera.keyframe]] is 91; it must be within -90 ..= 90",
+        ),
+        (
+            "[[camera.keyframe]]\nazimuth = 91",
+            "3: unknown key `azimuth` in [[camera.keyframe]]; did you mean `azimuth_deg`?",
+        ),
+        (
+            "[[camera.keyframe]]\nease = \"fast\"",
+            "3: `ease` in [[camera.keyframe]] is wrong: unknown word `fast`, expected one of `smooth`, `linear`, `hold`",
+        ),
+        ("[camera.keyframe]\ntime_s = 3", "2: `keyframe` in [camera] has the wrong kind of table; write [[keyframe]]"),
+        (
+            "[camera]\nfocal_mm = 50\n[[camera.keyframe]]\nfov_y_deg = 30",
+            "5: `fov_y_deg` in [[camera.keyframe]] has no effect, because `focal_mm` takes its place; give `focal_mm` in each of them",
+        ),
+    ]);
+    let many = |count| {
+        let keyframes = (0..count).map(|time_s| format!("[[camera.keyframe]]\ntime_s = {time_s}\n"));
+        with_version(&keyframes.collect::<String>())
+    };
+    assert!(Scene::from_toml(&many(1000), "s").is_ok());
+    let message = "s.toml:2: `keyframe` in [camera] is a list of 1001; at most 1000 are allowed";
+    assert_eq!(refusal(&many(1001)), message);
 }
 
 /// In TOML a path of Windows between double quotes is broken, or worse, means something else.

@@ -23,6 +23,8 @@ fn they_reach_every_kind_of_key() {
         "view.dither=false",
         "camera={azimuth_deg = 3, fov_y_deg = 20}",
         "event=[{kind='prick', tick=4}]",
+        "camera.keyframe=[{time_s = 1, azimuth_deg = 90}, {time_s = 2}]",
+        "camera.keyframe.1.azimuth_deg=450",
     ];
     let scene = read(text, &settings).unwrap();
     assert_eq!((scene.view.exposure_ev, scene.view.dither), (2.0, false));
@@ -33,6 +35,8 @@ fn they_reach_every_kind_of_key() {
     assert_eq!((scene.light.illuminant.as_str(), scene.light.patches[0].illuminant.as_str()), ("A", "3000 K"));
     assert_eq!((scene.motion.flow, scene.camera.azimuth_deg, scene.camera.fov_y_deg), (Flow::Rest, 3.0, 20.0));
     assert_eq!((scene.events.len(), scene.events[0].tick), (1, 4));
+    let keyframes = scene.camera.keyframes.iter().map(|keyframe| (keyframe.time_s, keyframe.azimuth_deg));
+    assert_eq!(keyframes.collect::<Vec<_>>(), [(1.0, Some(90.0)), (2.0, Some(450.0))]);
 }
 
 #[test]

@@ -42,7 +42,7 @@ fn events_are_selected_dragged_and_removed_on_the_time_line() {
     let at = |tick: f32| egui::pos2(strip.left() + 10.0 + (strip.width() - 20.0) * tick / 600.0, strip.top() + 5.0);
     window.drag_at(at(120.0));
     window.step();
-    assert_eq!(window.state().model.time_line.selected, Some(0));
+    assert_eq!(window.state().model.time_line.selected, Some(Mark::Event(0)));
     window.hover_at(at(400.0));
     window.step();
     window.hover_at(at(540.0));
@@ -53,7 +53,7 @@ fn events_are_selected_dragged_and_removed_on_the_time_line() {
         window.state().model.scene.events.iter().map(|event| event.tick).collect::<Vec<_>>()
     };
     assert!(matches!(ticks(&window)[..], [480, moved] if (530..=550).contains(&moved)), "{:?}", ticks(&window));
-    assert_eq!(window.state().model.time_line.selected, Some(1), "the event stays selected");
+    assert_eq!(window.state().model.time_line.selected, Some(Mark::Event(1)), "the event stays selected");
     window.get_by_label_contains("flow stirred");
     press(&mut window, Modifiers::NONE, Key::Delete);
     assert_eq!(ticks(&window), [480]);

@@ -1,0 +1,92 @@
+//! A camera that keyframes move.
+
+use super::*;
+use crate::scene::{Camera, Ease, Keyframe, Lens};
+
+/// A stirred film, and a camera that goes around and away.
+fn moved_scene() -> Scene {
+    let key = |time_s: f64, azimuth_deg: f64, distance_m: f64| Keyframe {
+        time_s,
+        azimuth_deg: Some(azimuth_deg),
+        distance_m: Some(distance_m),
+        ..Keyframe::default()
+    };
+    let mut scene = stirred_scene();
+    scene.camera.keyframes = vec![key(0.05, 10.0, 0.3), key(0.2, 370.0, 0.6)];
+    scene
+}
+
+/// The scene with a camera that stands where keyframes have it at a time.
+fn standing(scene: &Scene, time_s: f64) -> Scene {
+    Scene { camera: scene.camera.at(time_s), ..scene.clone() }
+}
+
+#[test]
+fn a_picture_is_that_of_the_camera_at_its_moment() {
+    let mut scene = moved_scene();
+    scene.lens = Lens { aperture_mm: 5.0, ..Lens::default() };
+    settle_detail(&mut scene);
+    let story = Story::new(scene.clone());
+    for (tick, fraction) in [(0, 0.0), (3, 0.0), (5, 0.0), (5, 0.5), (12, 0.0), (99, 0.0)] {
+        let shot = Shot { moment: Moment { tick, fraction }, ..shot(0, Pace::Whole) };
+        let time_s = shot.moment.ticks() * scene.motion.tick_s;
+        let seen = story.request(&resources(), &shot).unwrap().picture;
+        let stood = request(&standing(&scene, time_s), &resources(), &shot).unwrap().picture;
+        assert!(seen == stood, "tick {tick} + {fraction}");
+        assert_eq!(seen.draw.camera.eye_m, scene.camera.at(time_s).eye());
+        let from = story.request_from(&Camera::default(), &resources(), &shot).unwrap().picture;
+        assert_eq!(from.draw.camera.eye_m, Camera::default().eye());
+    }
+}
+
+#[test]
+fn a_camera_that_moves_by_keyframes_draws_a_film_at_rest_anew_and_nothing_else() {
+    let mut scene = moved_scene();
+    scene.motion.flow = Flow::Rest;
+    assert_eq!(between((&scene, 5), (&scene, 6)), ["draw", "tonemap"]);
+    assert_eq!(between((&scene, 500), (&scene, 600)), [] as [&str; 0], "it stands after the last keyframe");
+}
+
+#[test]
+fn what_the_camera_passes_is_in_sight_when_it_does() {
+    let mut scene = moved_scene();
+    // On the left of a camera at +x that looks along the horizon, and in the middle after a quarter turn.
+    scene.bubbles.push(Bubble { center_m: [0.0, -2.0, 0.0], ..Bubble::default() });
+    scene.camera = Camera { elevation_deg: 0.0, ..scene.camera };
+    let key = |time_s, azimuth_deg| Keyframe {
+        time_s,
+        azimuth_deg: Some(azimuth_deg),
+        ease: Ease::Hold,
+        ..Keyframe::default()
+    };
+    scene.camera.keyframes = vec![key(0.0, 0.0), key(0.1, 90.0)];
+    let seen = |tick| {
+        let bubbles = frame_request(&scene, tick, Pace::Whole).picture.draw.bubbles;
+        bubbles.iter().map(|bubble| bubble.index).collect::<Vec<_>>()
+    };
+    assert_eq!([0, 5, 6, 600].map(seen), [vec![0], vec![0], vec![1, 0], vec![1, 0]]);
+}
+
+#[test]
+fn a_film_is_as_fine_as_the_nearest_keyframe_asks_for() {
+    let mut scene = preset("tent").unwrap();
+    let grids = |scene: &Scene| film_grids(scene, 0);
+    scene.camera.distance_m = 20.0;
+    assert_eq!(grids(&scene), [128, 32]);
+    let key = |time_s, distance_m| Keyframe { time_s, distance_m: Some(distance_m), ..Keyframe::default() };
+    scene.camera.keyframes = vec![key(0.0, 30.0), key(4.0, 0.24), key(5.0, 30.0)];
+    assert_eq!(grids(&scene), [256, 64]);
+    scene.camera.distance_m = 0.24;
+    scene.camera.keyframes.remove(1);
+    assert_eq!(grids(&scene), [128, 32], "the camera is never where `[camera]` has it");
+}
+
+#[test]
+fn a_camera_that_goes_below_a_bath_is_refused_with_the_time() {
+    let mut scene = preset("bath").unwrap();
+    let key = |time_s, elevation_deg| Keyframe { time_s, elevation_deg: Some(elevation_deg), ..Keyframe::default() };
+    scene.camera.keyframes = vec![key(0.0, 30.0), key(1.0, -30.0)];
+    assert!(request(&scene, &resources(), &shot(0, Pace::Whole)).is_ok());
+    let error = request(&scene, &resources(), &shot(60, Pace::Whole)).unwrap_err().to_string();
+    assert!(error.contains("at 1.00 s; raise it, or `target_m`, in the keyframes"), "{error}");
+}
