@@ -48,12 +48,17 @@ mod capture;
 mod figure;
 mod film_reader;
 pub(crate) mod frame;
+mod gizmo;
+mod group;
 mod input;
 mod keeper;
+mod lamps;
 mod paint;
 mod producer;
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 mod reload;
+mod sight;
+mod spectrum;
 mod stage;
 mod style;
 mod surface;
