@@ -19,6 +19,9 @@ const REACH: f32 = 20.0;
 const COLOURS: [Color32; 3] =
     [Color32::from_rgb(235, 80, 80), Color32::from_rgb(90, 200, 90), Color32::from_rgb(90, 140, 250)];
 const RING_COLOUR: Color32 = Color32::from_gray(230);
+/// Edge around them, which tells them from films of all colours.
+const EDGE: Color32 = Color32::from_black_alpha(170);
+const EDGE_WIDTH: f32 = 1.5;
 
 /// Shows the gizmo of the bubble that was clicked, and lets the pointer move all selected ones. Tells whether the bubbles shall be framed, as a double
 /// click asks wherever it is.
@@ -78,16 +81,16 @@ fn pull(model: &mut Model, rect: Rect, handle: Handle, boundary: crate::scene::B
 
 fn paint(ui: &Ui, picture: Rect, handle: Handle, [center, at]: [Pos2; 2], is_strong: bool) {
     let painter = ui.painter().with_clip_rect(picture);
-    let width = if is_strong { 3.0 } else { 1.8 };
-    match handle {
-        Handle::Axis(axis) => {
-            let stroke = Stroke::new(width, COLOURS[axis]);
+    let width = if is_strong { 4.0 } else { 2.5 };
+    let draw = |stroke: Stroke| match handle {
+        Handle::Axis(_) => {
             // The ring stays free.
             let start = center + RING * (at - center).normalized();
             painter.arrow(start, at - start, stroke);
         }
-        Handle::Plane => {
-            painter.circle_stroke(center, RING, Stroke::new(width, RING_COLOUR));
-        }
-    }
+        Handle::Plane => _ = painter.circle_stroke(center, RING, stroke),
+    };
+    let colour = if let Handle::Axis(axis) = handle { COLOURS[axis] } else { RING_COLOUR };
+    draw(Stroke::new(width + 2.0 * EDGE_WIDTH, EDGE));
+    draw(Stroke::new(width, colour));
 }

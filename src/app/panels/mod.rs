@@ -90,8 +90,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
         picture.gesture.turn = DVec2::ZERO;
     }
     if let Some(place) = picture.hovered.filter(|_| picture.clicked && model.tool == Tool::Orbit) {
-        let adds = ui.input(|input| input.modifiers.shift || input.modifiers.command);
-        model.select(place, adds);
+        model.select(place, ui.input(clicked_with_a_key));
     }
     draw_line(model, &mut picture);
     let probes = model.tool == Tool::Probe;
@@ -100,6 +99,14 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
         over_picture(ui.ctx(), picture.rect, model);
     }
     picture
+}
+
+/// Whether Shift or Ctrl was held at a click. By the time of a slow frame it may be let go.
+fn clicked_with_a_key(input: &egui::InputState) -> bool {
+    input.events.iter().any(|event| {
+        let egui::Event::PointerButton { pressed: false, modifiers, .. } = event else { return false };
+        modifiers.shift || modifiers.command
+    })
 }
 
 /// Whether the dialog for exports is open.

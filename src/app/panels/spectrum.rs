@@ -252,9 +252,9 @@ fn plot(
     let axes = Axes { rect, top };
     let step = points.as_deref_mut().map_or(Step::None, |points| touch(ui, points, &axes, &response, held));
     paint(ui, &axes, light, points.as_deref(), held.map(|(index, _)| index));
-    let help = "Drag points; double click adds one, right click removes it";
-    if points.is_some() && held.is_none() {
-        response.on_hover_text_at_pointer(help);
+    if points.is_some() {
+        // A tooltip would hide the points.
+        ui.small("Drag points; double click adds one, right click removes it");
     }
     step
 }
