@@ -2,7 +2,7 @@
 
 use egui::{Color32, CursorIcon, Id, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2};
 
-use super::picture;
+use super::places;
 use crate::app::{
     gizmo::{self, AXES, Grip, Handle},
     model::Model,
@@ -37,8 +37,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &mut Model) -> bool {
         model.gizmo = None;
         return false;
     };
-    let center = picture::at(rect, shape.center);
-    let tips = shape.arrows.iter().map(|(axis, tip)| (Handle::Axis(*axis), picture::at(rect, *tip)));
+    let center = places::at(rect, shape.center);
+    let tips = shape.arrows.iter().map(|(axis, tip)| (Handle::Axis(*axis), places::at(rect, *tip)));
     let handles: Vec<(Handle, Pos2)> = [(Handle::Plane, center)].into_iter().chain(tips).collect();
     let mut frames = false;
     for (handle, at) in handles {
@@ -65,7 +65,7 @@ fn touched(ui: &Ui, picture: Rect, handle: Handle, at: Pos2) -> Response {
 
 /// Moves the bubbles with the pointer that holds a handle.
 fn pull(model: &mut Model, rect: Rect, handle: Handle, boundary: crate::scene::Boundary, response: &Response) {
-    let place = response.interact_pointer_pos().map(|at| picture::place(rect, at));
+    let place = response.interact_pointer_pos().map(|at| places::place(rect, at));
     let Some(at) = place.filter(|_| response.is_pointer_button_down_on()) else {
         model.gizmo = model.gizmo.filter(|grip| grip.handle != handle);
         return;

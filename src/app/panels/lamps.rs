@@ -3,7 +3,7 @@
 use egui::{Align2, CollapsingHeader, Color32, Context, FontId, LayerId, Rect, Stroke, Ui, vec2};
 
 use super::{
-    picture,
+    places,
     widgets::{choice, group, number, number_within, slider},
 };
 use crate::{
@@ -94,7 +94,7 @@ pub fn held(ctx: &Context, rect: Rect, model: &Model) {
     let Some(grip) = model.lamps.grip else { return };
     let Some(lamp) = grip.moved(&model.scene, model.clock.tick) else { return };
     let painter = ctx.layer_painter(LayerId::background()).with_clip_rect(rect);
-    let at = picture::at(rect, grip.at);
+    let at = places::at(rect, grip.at);
     painter.circle_stroke(at, 8.0, Stroke::new(2.0, Color32::WHITE));
     let told = format!("lamp {}: azimuth {}°, elevation {}°", grip.lamp + 1, lamp.azimuth_deg, lamp.elevation_deg);
     let text = painter.layout_no_wrap(told, FontId::proportional(13.0), Color32::WHITE);

@@ -21,6 +21,7 @@ mod notices;
 mod overlay;
 mod picture;
 pub mod pin_plots;
+mod places;
 mod plots;
 mod probe;
 mod question;

@@ -1,12 +1,14 @@
 //! The picture's place in the window, and what the pointer does there.
 
 use egui::{
-    CentralPanel, Color32, Context, Frame, InputState, LayerId, PointerButton, Pos2, Rect, Response, Sense, Stroke, Ui,
-    Vec2, vec2,
+    CentralPanel, Color32, Context, Frame, InputState, LayerId, PointerButton, Rect, Response, Sense, Stroke, Ui, Vec2,
 };
 use glam::DVec2;
 
-use super::{Picture, gizmo};
+use super::{
+    Picture, gizmo,
+    places::{at, place},
+};
 use crate::app::{
     model::Model,
     orbit::{Gesture, TURN_DEG},
@@ -84,17 +86,6 @@ fn pressed(ui: &Ui, picture: Rect) -> Option<Press> {
     let at = at.filter(|_| is_down)?;
     let place = |at| place(picture, at);
     Some(Press { from: place(from.unwrap_or(at)), at: place(at) })
-}
-
-/// A place in the picture, right and up from its middle in heights of it.
-pub(super) fn place(picture: Rect, at: Pos2) -> DVec2 {
-    let from_middle = (at - picture.center()) / picture.height().max(1.0);
-    DVec2::new(from_middle.x.into(), (-from_middle.y).into())
-}
-
-/// Where a place in the picture is in the window.
-pub(super) fn at(picture: Rect, place: DVec2) -> Pos2 {
-    picture.center() + picture.height() * vec2(place.x as f32, -place.y as f32)
 }
 
 /// Outlines the selected bubbles, if one was clicked.
