@@ -20,12 +20,12 @@ pub enum Edit {
     View(View),
     /// Another light.
     Light(Light),
-    /// Another bubble in the place of one.
-    Bubble(usize, Box<Bubble>),
     /// Another generator in the place of one.
     Generator(usize, Box<Generator>),
     /// New lists of bubbles and of generators.
     Films(Vec<Bubble>, Vec<Generator>),
+    /// New lists of bubbles and of events: bubbles that are put elsewhere, or are gone with what happens to them.
+    Bubbles(Vec<Bubble>, Vec<Event>),
     /// Every film blown again, with a new seed for film and flow.
     Reseed,
     /// Another motion; the keys that can change do so from now on.
@@ -46,7 +46,6 @@ impl Edit {
             Self::Lens(lens) => Self::Lens(std::mem::replace(&mut scene.lens, lens)),
             Self::View(view) => Self::View(std::mem::replace(&mut scene.view, view)),
             Self::Light(light) => Self::Light(std::mem::replace(&mut scene.light, light)),
-            Self::Bubble(index, bubble) => change_films(scene, |scene| put(&mut scene.bubbles, index, *bubble)),
             Self::Generator(index, generator) => {
                 change_films(scene, |scene| put(&mut scene.generators, index, *generator))
             }
@@ -54,6 +53,10 @@ impl Edit {
             Self::Films(bubbles, generators) => Self::Films(
                 std::mem::replace(&mut scene.bubbles, bubbles),
                 std::mem::replace(&mut scene.generators, generators),
+            ),
+            Self::Bubbles(bubbles, events) => Self::Bubbles(
+                std::mem::replace(&mut scene.bubbles, bubbles),
+                std::mem::replace(&mut scene.events, events),
             ),
             Self::History(motion, events) => {
                 let motion = std::mem::replace(&mut scene.motion, *motion);
@@ -142,8 +145,8 @@ mod tests {
             Edit::Lens(Lens { aperture_mm: 20.0, ..Lens::default() }),
             Edit::View(View { quality: Quality::Fast, ..View::default() }),
             Edit::Light(Light { intensity: 3.0, ..Light::default() }),
-            Edit::Bubble(0, Bubble { radius_mm: 10.0, ..Bubble::default() }.into()),
             Edit::Films(Vec::new(), vec![Generator::default()]),
+            Edit::Bubbles(vec![Bubble::default(); 2], Vec::new()),
             Edit::Generator(0, Generator { count: 7, ..Generator::default() }.into()),
             Edit::Reseed,
             Edit::Motion(Motion { drainage: 7.0, speed: 2.0, ..Motion::default() }.into()),

@@ -19,7 +19,7 @@ use super::{
     system,
 };
 use crate::{
-    input::{LoadError, LoadedScene, Opened, light_of_scene, load_environment, load_illuminant, load_step, open},
+    input::{LoadError, LoadedScene, Opened, light_of_scene, load_environment, load_illuminant_of, load_step, open},
     output::{Metadata, Picture, write_text},
     plan::{Resources, TonemapKey},
     scene::{Light, Scene, SceneSource, lesson::Lesson},
@@ -119,7 +119,8 @@ impl Files {
         let folder = model.folder.clone();
         let known = &model.scene.light;
         // The colours of lamps of a temperature are relative to the illuminant.
-        let whites = known.illuminant == light.illuminant || light.lamps.iter().all(|lamp| lamp.kelvin.is_none());
+        let whites = (&known.illuminant, &known.spectrum) == (&light.illuminant, &light.spectrum)
+            || light.lamps.iter().all(|lamp| lamp.kelvin.is_none());
         let same = whites
             && (&known.environment, known.constant, &known.patches, &known.lamps)
                 == (&light.environment, light.constant, &light.patches, &light.lamps);
@@ -361,7 +362,7 @@ fn load_light(
     resources: Resources,
 ) -> Result<(Resources, Vec<String>), LoadError> {
     let mut notes = Vec::new();
-    let illuminant = Arc::new(load_illuminant(&light.illuminant, folder, &mut notes)?);
+    let illuminant = Arc::new(load_illuminant_of(light, folder, &mut notes)?);
     if known {
         return Ok((Resources { illuminant, ..resources }, notes));
     }

@@ -37,6 +37,13 @@ pub fn without_bubble(events: &[Event], lost: usize) -> Vec<Event> {
     events.iter().filter_map(kept).collect()
 }
 
+/// The last of the events until a tick that takes a bubble elsewhere, by its index.
+#[must_use]
+pub fn last_drag(events: &[Event], bubble: usize, tick: u64) -> Option<usize> {
+    let drags = |event: &Event| matches!(&event.change, Change::Drag(drag) if drag.bubble == bubble);
+    events.iter().rposition(|event| event.tick <= tick && drags(event))
+}
+
 /// The bubble that a change happens to, if it is one.
 fn bubble_of(change: &mut Change) -> Option<&mut usize> {
     match change {

@@ -25,8 +25,10 @@ pub enum Action {
     Undo,
     /// Makes it again.
     Redo,
-    /// Adds a bubble like the selected one.
+    /// Adds bubbles like the selected ones.
     Duplicate,
+    /// Selects all bubbles.
+    SelectAll,
     /// Keeps the picture, to compare others with it.
     Keep,
     /// Opens a scene.
@@ -99,7 +101,8 @@ pub const BINDINGS: &[Binding] = &[
     Binding { shortcut: KeyboardShortcut::new(COMMAND_SHIFT, Key::Z), action: Action::Redo, help: "Redo" },
     command(Key::Z, Action::Undo, "Undo"),
     command(Key::Y, Action::Redo, "Redo"),
-    command(Key::D, Action::Duplicate, "Add a bubble like the selected one"),
+    command(Key::D, Action::Duplicate, "Add bubbles like the selected ones"),
+    command(Key::A, Action::SelectAll, "Select all bubbles"),
     command(Key::P, Action::SavePng, "Save the picture as PNG"),
     #[cfg(not(target_arch = "wasm32"))]
     command(Key::E, Action::Export, "Export a picture of any size, a video or a map of the film"),
@@ -118,6 +121,7 @@ pub const BINDINGS: &[Binding] = &[
     bare(Key::Num5, Action::Take(Tool::Prick), "The pointer bursts a bubble"),
     bare(Key::Num6, Action::Take(Tool::Probe), "The pointer measures a film"),
     bare(Key::Num7, Action::Take(Tool::Profile), "The pointer draws a line to measure along"),
+    bare(Key::Num8, Action::Take(Tool::Lamp), "The pointer moves a lamp by its highlight"),
     bare(Key::K, Action::Keep, "Keep this picture, to compare others with it"),
     bare(Key::L, Action::Loop, "Play in a loop"),
     bare(Key::Delete, Action::RemoveMark, "Remove the event or keyframe that is selected on the time line"),
@@ -133,9 +137,10 @@ pub const BINDINGS: &[Binding] = &[
 ];
 
 /// What the pointer does, for the help.
-pub const POINTER: [(&str, &str); 6] = [
+pub const POINTER: [(&str, &str); 7] = [
     ("Drag", "Turn around the bubble"),
-    ("Click", "Select a bubble"),
+    ("Click", "Select a bubble; with Shift or Ctrl, also others"),
+    ("Arrows, ring", "Move the selected bubbles along an axis, or across the view"),
     ("Drag with a tool", "Stir, blow at or move a bubble; beside it, turn the view"),
     ("Right, Shift or two-finger drag", "Shift the view"),
     ("Wheel, pinch", "Zoom, also into the bubble"),
@@ -146,7 +151,8 @@ pub const POINTER: [(&str, &str); 6] = [
 #[must_use]
 pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
     let taken = ctx.egui_wants_keyboard_input();
-    let free = |binding: &&Binding| !taken || binding.shortcut.modifiers.command;
+    // Ctrl+A also selects a text that is typed.
+    let free = |binding: &&Binding| !taken || binding.shortcut.modifiers.command && binding.action != Action::SelectAll;
     ctx.input_mut(|input| {
         let hit = |binding: &&Binding| input.consume_shortcut(&binding.shortcut);
         BINDINGS.iter().filter(free).filter(hit).map(|binding| binding.action).collect()

@@ -48,13 +48,18 @@ mod capture;
 mod figure;
 mod film_reader;
 pub(crate) mod frame;
+mod gizmo;
+mod group;
 mod input;
 mod keeper;
+mod lamps;
 mod paint;
 mod producer;
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 mod reload;
 mod render_thread;
+mod sight;
+mod spectrum;
 mod stage;
 mod style;
 mod surface;

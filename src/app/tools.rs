@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
+use super::sight;
 use crate::{
     plan::Story,
     scene::{Blow, Boundary, Bubble, Change, Drag, Prick, Scene, Stir},
@@ -25,19 +26,21 @@ pub enum Tool {
     Probe,
     /// It draws a line along which the film is measured.
     Profile,
+    /// It moves lamps by their highlights.
+    Lamp,
 }
 
 impl Tool {
     /// Whether it acts on films.
     #[must_use]
     pub fn acts(self) -> bool {
-        !matches!(self, Self::Orbit | Self::Probe | Self::Profile)
+        !matches!(self, Self::Orbit | Self::Probe | Self::Profile | Self::Lamp)
     }
 }
 
 impl Tool {
-    /// All tools, each with its name and what it does, in the order of the keys 1 to 7.
-    pub const ALL: [(Self, &str, &str); 7] = [
+    /// All tools, each with its name and what it does, in the order of the keys 1 to 8.
+    pub const ALL: [(Self, &str, &str); 8] = [
         (Self::Orbit, "Orbit", "Drag to turn around the bubble (1)"),
         (Self::Stir, "Stir", "Drag over a film to stir it (2)"),
         (
@@ -49,6 +52,7 @@ impl Tool {
         (Self::Prick, "Prick", "Click to burst a bubble there (5)"),
         (Self::Probe, "Probe", "Point at a film to measure it; click to keep the numbers and see plots (6)"),
         (Self::Profile, "Profile", "Draw a line over a film to plot thickness against height along it (7)"),
+        (Self::Lamp, "Lamp", "Drag a lamp by its highlight on a bubble, or by itself (8)"),
     ];
 }
 
@@ -178,7 +182,7 @@ impl Grip {
         }
         self.tick = tick;
         if self.tool == Tool::Drag {
-            let held_m = story.camera.eye() + self.depth_m * ray(story, self.place);
+            let held_m = story.camera.eye() + self.depth_m * sight::ray(&story.camera, self.place);
             return Some(drag(story, self.bubble, held_m + self.to_center_m));
         }
         let aim = aim(story, tick, self.place).filter(|aim| aim.bubble == self.bubble && tick > since)?;
@@ -188,7 +192,7 @@ impl Grip {
         match self.tool {
             Tool::Stir => stroke(self.bubble, before, self.at, radius_m / (ticks as f64 * tick_s), ticks),
             Tool::Blow => Some(jet(&aim, ticks)),
-            Tool::Orbit | Tool::Drag | Tool::Prick | Tool::Probe | Tool::Profile => None,
+            Tool::Orbit | Tool::Drag | Tool::Prick | Tool::Probe | Tool::Profile | Tool::Lamp => None,
         }
     }
 }
@@ -228,16 +232,16 @@ fn rounded(vector: DVec3) -> [f64; 3] {
     vector.to_array().map(|number| (number * 1e4).round() / 1e4)
 }
 
-/// The direction of the line of sight through a place in the picture.
-fn ray(scene: &Scene, place: DVec2) -> DVec3 {
-    let camera = &scene.camera;
-    let height = 2.0 * (0.5 * camera.fov_y_rad()).tan();
-    (camera.forward() + height * (place.x * camera.right() + place.y * camera.up())).normalize()
-}
-
 /// The bubble that is met first in the line of sight through a place in the picture.
 pub fn bubble_at(story: &Story, tick: u64, place: DVec2) -> Option<usize> {
     aim(story, tick, place).map(|aim| aim.bubble)
+}
+
+/// The direction that the line of sight through a place in the picture leads to: mirrored at the bubble that is met first, straight on beside all.
+pub fn mirrored(story: &Story, tick: u64, place: DVec2) -> DVec3 {
+    let normal = |aim: Aim| (aim.ray, (aim.place_m - aim.center_m).normalize());
+    let met = aim(story, tick, place).map(normal);
+    met.map_or_else(|| sight::ray(&story.camera, place), |(ray, normal)| ray - 2.0 * ray.dot(normal) * normal)
 }
 
 /// The outline of a bubble in the picture, right and up from its middle in heights of it: the middle and the radius of a circle. `None` for one
@@ -245,19 +249,15 @@ pub fn bubble_at(story: &Story, tick: u64, place: DVec2) -> Option<usize> {
 pub fn outline(story: &Story, tick: u64, bubble: usize) -> Option<(DVec2, f64)> {
     let (camera, radius_m) = (&story.camera, 1e-3 * story.bubbles.get(bubble)?.radius_mm);
     let to_center = story.center_m(bubble, tick as f64 * story.motion.tick_s) - camera.eye();
-    let (depth, distance) = (to_center.dot(camera.forward()), to_center.length());
-    if depth <= 0.0 || distance <= radius_m {
-        return None;
-    }
-    let height = 2.0 * (0.5 * camera.fov_y_rad()).tan();
-    let middle = DVec2::new(to_center.dot(camera.right()), to_center.dot(camera.up())) / (depth * height);
+    let distance = to_center.length();
+    let middle = sight::place(camera, camera.eye() + to_center).filter(|_| distance > radius_m)?;
     // As of a sphere straight ahead: off the axis its outline is an ellipse, a little longer.
-    Some((middle, radius_m / (distance * distance - radius_m * radius_m).sqrt() / height))
+    Some((middle, radius_m / (distance * distance - radius_m * radius_m).sqrt() / sight::height(camera)))
 }
 
 /// The film that is met first in the line of sight through a place in the picture; from inside a bubble that is its wall.
 fn aim(story: &Story, tick: u64, place: DVec2) -> Option<Aim> {
-    let (eye, ray) = (story.camera.eye(), ray(story, place));
+    let (eye, ray) = (story.camera.eye(), sight::ray(&story.camera, place));
     let met = story.bubbles.iter().enumerate().filter_map(|(bubble, sphere)| {
         let center_m = story.center_m(bubble, tick as f64 * story.motion.tick_s);
         let along = hit(eye - center_m, ray, sphere.radius_mm * 1e-3)?;

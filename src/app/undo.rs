@@ -154,6 +154,8 @@ fn name(back: &Edit, scene: &Scene) -> String {
         Edit::Lens(before) => one_of(before, &scene.lens, Lens::ALL_KEYS, "Lens"),
         Edit::Light(before) => one_of(before, &scene.light, Light::ALL_KEYS, "Light"),
         Edit::Films(bubbles, generators) => films(bubbles, generators, scene),
+        Edit::Bubbles(bubbles, _) if bubbles.len() > scene.bubbles.len() => "Delete bubble".to_owned(),
+        Edit::Bubbles(..) => "Move bubble".to_owned(),
         Edit::History(motion, events) => history(motion, events, scene),
         Edit::Forget(index) => scene.events.get(*index).map_or("History".to_owned(), |event| happening(&event.change)),
         _ => "Change".to_owned(),

@@ -91,8 +91,7 @@ fn with_lamps(
     if light.lamps.is_empty() {
         return Ok(map);
     }
-    let illuminant = load_illuminant(&light.illuminant, folder, notes)
-        .map_err(|error| Fault::unusable("illuminant", error).inside("light"))?;
+    let illuminant = load_illuminant_of(light, folder, notes)?;
     let lamps = light.lamps.iter().map(|lamp| lamp_of(lamp, &illuminant)).collect::<Result<Vec<_>, _>>()?;
     Ok(Arc::new(CubeMap::clone(&map).with_lamps(lamps)))
 }
@@ -181,9 +180,26 @@ pub fn load_illuminant(name: &str, folder: &Path, notes: &mut Vec<String>) -> Re
     Ok(Illuminant::from_csv(name, &read_table_text(&folder.join(name))?, notes)?)
 }
 
+/// The illuminant of a light: of the spectrum that stands in the scene, or else the one that is named. What a user should know of how it was read is added
+/// to `notes`.
+pub fn load_illuminant_of(light: &Light, folder: &Path, notes: &mut Vec<String>) -> Result<Illuminant, LoadError> {
+    let fault = match &light.spectrum {
+        Some(spectrum) => match spectrum.illuminant() {
+            Ok(illuminant) => return Ok(illuminant),
+            Err(error) => Fault::unusable("spectrum", error),
+        },
+        None => match load_illuminant(&light.illuminant, folder, notes) {
+            Ok(illuminant) => return Ok(illuminant),
+            Err(error) => Fault::unusable("illuminant", error),
+        },
+    };
+    Err(fault.inside("light").into())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::LightSpectrum;
 
     fn lit(patches: Vec<LightPatch>) -> (Arc<CubeMap>, Vec<SpectralLight>) {
         let light = Light { constant: Some([0.5, 0.4, 0.3]), patches, ..Light::default() };
@@ -233,5 +249,23 @@ mod tests {
         let level = |index: usize, direction: DVec3| spectral_lights[index].environment.sample(direction).y;
         assert!((level(0, DVec3::X) - 2.0).abs() < 1e-3 && (level(0, DVec3::NEG_X) - 2.0).abs() < 1e-3);
         assert!((level(1, DVec3::Y) - 2.0).abs() < 1e-3 && level(1, DVec3::X) == 0.0);
+    }
+
+    /// Whatever the band, lamps of a temperature have light that can be drawn.
+    #[test]
+    fn a_spectrum_of_the_scene_takes_the_place_of_the_name() {
+        for center_nm in [400.0, 480.0, 550.0, 700.0] {
+            let wavelengths_nm = vec![center_nm - 3.0, center_nm, center_nm + 3.0];
+            let spectrum = LightSpectrum { wavelengths_nm, power: vec![0.0, 1.0, 0.0] };
+            let lamps = vec![LightLamp { kelvin: Some(3000.0), ..LightLamp::default() }];
+            let illuminant = "none of this name".to_owned();
+            let light =
+                Light { constant: Some([0.5; 3]), lamps, illuminant, spectrum: Some(spectrum), ..Light::default() };
+            let loaded = load_illuminant_of(&light, Path::new(""), &mut Vec::new()).expect("seen");
+            let peak = (loaded.spectrum().at_nm(center_nm), loaded.spectrum().at_nm(center_nm + 4.0));
+            assert_eq!((peak, loaded.name()), ((1.0, 0.0), "the spectrum of the scene"));
+            let (map, _) = load_environment(&light, Path::new(""), &mut Vec::new()).expect("all is built in");
+            assert!(map.lamps().iter().all(|lamp| lamp.radiance.is_finite() && lamp.radiance.max_element() > 0.0));
+        }
     }
 }

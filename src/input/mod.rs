@@ -23,7 +23,7 @@ pub use error::{InputError, LoadError, MAX_ENVIRONMENT_HEIGHT, MAX_ENVIRONMENT_W
 #[cfg(target_arch = "wasm32")]
 pub use file::keep_file;
 pub use lesson::{Opened, load_step, open};
-pub use light::{load_environment, load_illuminant};
+pub use light::{load_environment, load_illuminant, load_illuminant_of};
 #[cfg(target_arch = "wasm32")]
 pub use made_elsewhere::{LightNamed, MadeEnvironment, keep_environment};
 pub use plate::read_plate;

@@ -6,7 +6,7 @@ use std::{
     sync::Arc,
 };
 
-use super::{LoadError, load_environment, load_illuminant, read_plate, read_table_text, read_text};
+use super::{LoadError, load_environment, load_illuminant_of, read_plate, read_table_text, read_text};
 use crate::{
     physics::{optics::FilmIndex, picture::Plate},
     plan::{FrameRequest, Resources, Shot, request},
@@ -119,8 +119,7 @@ fn no_such_scene(name: String) -> LoadError {
 /// Loads all that a scene names; file paths start from a folder.
 fn load_resources(scene: &Scene, folder: &Path, notes: &mut Vec<String>) -> Result<Resources, LoadError> {
     let (environment, spectral_lights) = load_environment(&scene.light, folder, notes)?;
-    let illuminant = load_illuminant(&scene.light.illuminant, folder, notes);
-    let illuminant = illuminant.map_err(|error| Fault::unusable("illuminant", error).inside("light"))?;
+    let illuminant = load_illuminant_of(&scene.light, folder, notes)?;
     Ok(Resources {
         environment,
         illuminant: illuminant.into(),

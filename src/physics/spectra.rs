@@ -73,6 +73,13 @@ impl Spectrum {
         Self::from_fn(|nm| interpolate(points, nm))
     }
 
+    /// As [`Spectrum::from_points`], but zero before the first point and after the last.
+    pub fn within_points(points: &[(f64, f64)]) -> Self {
+        let ends = points.first().zip(points.last());
+        let is_within = |nm: f64| ends.is_some_and(|(first, last)| (first.0..=last.0).contains(&nm));
+        Self::from_fn(|nm| if is_within(nm) { interpolate(points, nm) } else { 0.0 })
+    }
+
     /// Reads a [table](super::table) of two columns, wavelength and value, in nm. Wavelengths in µm, Å or m are understood where they
     /// alone cover what is needed.
     ///
@@ -183,6 +190,14 @@ mod tests {
         let spectrum = Spectrum::from_points(&[(400.0, 2.0), (500.0, 4.0)]);
         assert_eq!((spectrum.at(0), spectrum.at(SAMPLES - 1)), (2.0, 4.0));
         assert_eq!(Spectrum::from_points(&[]), Spectrum::constant(0.0));
+    }
+
+    #[test]
+    fn a_spectrum_can_end_at_its_points() {
+        let spectrum = Spectrum::within_points(&[(400.0, 2.0), (500.0, 4.0)]);
+        let values = [399.0, 400.0, 450.0, 500.0, 501.0].map(|nm| spectrum.at_nm(nm));
+        assert_eq!(values, [0.0, 2.0, 3.0, 4.0, 0.0]);
+        assert_eq!(Spectrum::within_points(&[]), Spectrum::constant(0.0));
     }
 
     #[test]

@@ -53,9 +53,9 @@ pub(super) fn in_range<T: PartialOrd + Display>(key: &str, value: T, range: Rang
     Err(Fault::new(key, format!("is {value}; it must be within {} ..= {}", range.start(), range.end())))
 }
 
-pub(super) fn all_in_range(key: &str, values: [f64; 3], range: RangeInclusive<f64>) -> Checked {
-    values.into_iter().try_for_each(|value| {
-        in_range(key, value, range.clone())
+pub(super) fn all_in_range(key: &str, values: &[f64], range: RangeInclusive<f64>) -> Checked {
+    values.iter().try_for_each(|value| {
+        in_range(key, *value, range.clone())
             .map_err(|fault| Fault { reason: format!("holds a number that {}", fault.reason), ..fault })
     })
 }

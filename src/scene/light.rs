@@ -6,12 +6,20 @@ use super::{
     section::{Value, section},
     shorten,
 };
-use crate::words::words;
+use crate::{
+    physics::{
+        colour::Illuminant,
+        spectra::{FIRST_NM, LAST_NM, Spectrum, SpectrumError},
+    },
+    words::words,
+};
 use serde::{Deserialize, Serialize};
 
 section! {
     /// The light around the bubbles: `[light]`.
     pub struct Light, LightKeys: [
+        #[serde(skip_serializing_if = "Option::is_none")]
+        spectrum: Option<LightSpectrum> = None, "A spectrum that stands in the scene and takes the place of the illuminant";
         #[serde(rename = "patch", skip_serializing_if = "Vec::is_empty")]
         patches: Vec<LightPatch> = Vec::new(), "Parts of the environment with another illuminant, at most [`MAX_PATCHES`]; where two overlap the later one counts";
         #[serde(rename = "lamp", skip_serializing_if = "Vec::is_empty")]
@@ -22,6 +30,60 @@ section! {
     constant: Option<[f64; 3]> = None, [0.0 ..= 65504.0], "Radiance", "", "`[r, g, b]`: the same radiance from everywhere instead of the environment, linear BT.709";
     rotation_deg: f64 = 0.0, [finite], "Rotation", "°", "rotation of the environment about the vertical, counter-clockwise seen from above";
     intensity: f64 = 1.0, [0.0 ..= 10000.0], "Intensity", "x", "factor on the radiance of the light";
+}
+
+section! {
+    /// A spectrum by points, linear between them and zero outside: `[light.spectrum]`.
+    pub struct LightSpectrum, LightSpectrumKeys:
+    wavelengths_nm: Vec<f64> = vec![FIRST_NM, LAST_NM], ["2 to 1000 numbers"], "Wavelengths", " nm", "wavelengths of the points in rising order, 360 to 780 nm";
+    power: Vec<f64> = vec![1.0, 1.0], ["2 to 1000 numbers"], "Power", "", "spectral power at each of them, 0 or more, in any unit";
+}
+
+/// The largest number of points in one spectrum.
+pub const MAX_SPECTRUM_POINTS: usize = 1000;
+
+/// The largest power that a point may have.
+const MAX_POWER: f64 = 1e12;
+
+/// What the spectrum of a scene is called where illuminants have names.
+const SPECTRUM_NAME: &str = "the spectrum of the scene";
+
+impl LightSpectrum {
+    /// Its points: wavelength in nm and power.
+    pub fn points(&self) -> impl ExactSizeIterator<Item = (f64, f64)> {
+        self.wavelengths_nm.iter().copied().zip(self.power.iter().copied())
+    }
+
+    /// The light that has this spectrum.
+    ///
+    /// # Errors
+    /// It has no power, or none that is seen.
+    pub fn illuminant(&self) -> Result<Illuminant, SpectrumError> {
+        Illuminant::new(SPECTRUM_NAME, Spectrum::within_points(&self.points().collect::<Vec<_>>()))
+    }
+
+    fn check(&self) -> Checked {
+        self.check_ranges()?;
+        let (count, powers) = (self.wavelengths_nm.len(), self.power.len());
+        if !(2..=MAX_SPECTRUM_POINTS).contains(&count) {
+            let reason = format!("is a list of {count}; it must hold 2 to {MAX_SPECTRUM_POINTS} numbers");
+            return Err(Fault::new("wavelengths_nm", reason));
+        }
+        if powers != count {
+            let reason = format!("is a list of {powers}; it must hold as many numbers as `wavelengths_nm`, {count}");
+            return Err(Fault::new("power", reason));
+        }
+        check::all_in_range("wavelengths_nm", &self.wavelengths_nm, FIRST_NM..=LAST_NM)?;
+        if let Some(pair) = self.wavelengths_nm.windows(2).find(|pair| pair[1] <= pair[0]) {
+            let reason = format!("has {} after {}; sort the points by wavelength, each once", pair[1], pair[0]);
+            return Err(Fault::new("wavelengths_nm", reason));
+        }
+        check::all_in_range("power", &self.power, 0.0..=MAX_POWER)?;
+        if self.power.iter().all(|power| *power == 0.0) {
+            return Err(Fault::new("power", "is 0 everywhere; give one of the points some power"));
+        }
+        Ok(())
+    }
 }
 
 /// The largest number of patches in one light: each spectrum is drawn for itself.
@@ -84,6 +146,8 @@ impl Light {
     pub(super) fn check(&self) -> Checked {
         self.check_ranges()?;
         check_illuminant(&self.illuminant)?;
+        let spectrum = self.spectrum.as_ref().map_or(Ok(()), LightSpectrum::check);
+        spectrum.map_err(|fault| fault.inside("spectrum"))?;
         check::at_most("patch", self.patches.len(), MAX_PATCHES)?;
         check::each("patch", &self.patches, LightPatch::check)?;
         check::at_most("lamp", self.lamps.len(), MAX_LAMPS)?;

@@ -41,7 +41,7 @@ pub use generator::{Generator, GeneratorKeys, Layout};
 pub use lens::{Lens, LensKeys};
 pub use light::{
     Backdrop, Environment, LampShape, Light, LightKeys, LightLamp, LightLampKeys, LightPatch, LightPatchKeys,
-    MAX_LAMPS, MAX_PATCHES, Quality, View, ViewKeys,
+    LightSpectrum, LightSpectrumKeys, MAX_LAMPS, MAX_PATCHES, MAX_SPECTRUM_POINTS, Quality, View, ViewKeys,
 };
 pub use motion::{Motion, MotionChange, MotionKeys};
 pub use preset::{PRESET_GROUPS, TEST_PRESETS, preset, preset_names, preset_sentence, preset_toml};

@@ -54,7 +54,7 @@ impl Value for f64 {
 impl Value for [f64; 3] {
     fn check(&self, key: &Key) -> Checked {
         match key.range {
-            Range::Within(low, high) => check::all_in_range(key.name, *self, low..=high),
+            Range::Within(low, high) => check::all_in_range(key.name, self, low..=high),
             _ => self.iter().try_for_each(|number| check::finite(key.name, *number)),
         }
     }
@@ -85,6 +85,13 @@ impl Value for bool {
 impl Value for String {
     fn check(&self, key: &Key) -> Checked {
         check::plain_text(key.name, self)
+    }
+}
+
+/// A list whose length is checked by the table that holds it.
+impl Value for Vec<f64> {
+    fn check(&self, key: &Key) -> Checked {
+        self.iter().try_for_each(|number| check::finite(key.name, *number))
     }
 }
 

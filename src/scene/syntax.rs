@@ -3,7 +3,9 @@
 use super::check::BACKSLASHES;
 use super::error::{Located, Problem};
 use super::words::shorten;
-use super::{Bubble, Camera, Change, Event, Generator, Keyframe, Lens, Light, LightLamp, LightPatch, Scene, View};
+use super::{
+    Bubble, Camera, Change, Event, Generator, Keyframe, Lens, Light, LightLamp, LightPatch, LightSpectrum, Scene, View,
+};
 use toml::Table;
 use toml::de::Error;
 
@@ -18,6 +20,8 @@ pub(super) fn every_key() -> Table {
         generators: vec![Generator::default()],
         light: Light {
             constant: Some([0.0; 3]),
+            // Empty: lists of numbers that have an item each are lists of three.
+            spectrum: Some(LightSpectrum { wavelengths_nm: Vec::new(), power: Vec::new() }),
             lamps: vec![LightLamp { kelvin: Some(5000.0), ..LightLamp::default() }],
             patches: vec![LightPatch { radiance: Some([0.0; 3]), ..LightPatch::default() }],
             ..Light::default()

@@ -5,10 +5,11 @@ mod camera;
 #[cfg(not(target_arch = "wasm32"))]
 mod exports;
 mod lesson;
+mod light;
 mod steps;
 mod time;
 
-use std::path::PathBuf;
+use std::{collections::BTreeSet, path::PathBuf};
 
 use glam::{DMat3, DVec2, DVec3};
 
@@ -20,12 +21,15 @@ use super::{
     costs::Costs,
     course::Course,
     edit::Edit,
+    gizmo,
     keys::Action,
+    lamps::Lamps,
     messages::Messages,
     orbit,
     overlay::Overlay,
     probe::Probe,
     request::{Question, Request, Target},
+    spectrum::Editor,
     storage::{Settings, Unsaved},
     time_line::TimeLine,
     tools::{self, Hand, Press, Tool},
@@ -34,7 +38,7 @@ use super::{
 use crate::{
     input::LoadedScene,
     plan::{Moment, Resources, Story, settle_detail},
-    scene::{Light, Motion, MotionChange, preset_toml},
+    scene::{Change, Motion, MotionChange, preset_toml},
 };
 
 /// How far a key tilts gravity, degrees.
@@ -74,9 +78,11 @@ pub struct Model {
     pub followed: Option<(Moment, u64)>,
     /// The moment at which a step was taken back last.
     pub undone_at: Option<Moment>,
-    /// Index of the bubble that the film panel edits.
+    /// Index of the bubble that the film panel shows.
     pub selected: usize,
-    /// Whether it is outlined in the picture, because it was clicked there.
+    /// Indices of bubbles that are selected beside it: edits change them too.
+    pub also_selected: BTreeSet<usize>,
+    /// Whether they are outlined in the picture, because one was clicked there.
     pub outlines: bool,
     /// Index of the generator that its panel edits.
     pub selected_generator: usize,
@@ -84,10 +90,16 @@ pub struct Model {
     pub furthest_tick: u64,
     /// What a slider of the motion has changed while it is being dragged: it counts once the slider is let go.
     pub motion_draft: Option<MotionChange>,
+    /// How the spectrum of the light is edited.
+    pub spectrum: Editor,
     /// What the pointer is used for.
     pub tool: Tool,
     /// What the pointer does with it.
     pub hand: Hand,
+    /// The handle of the gizmo that it holds.
+    pub gizmo: Option<gizmo::Grip>,
+    /// How the lamps of the light are edited.
+    pub lamps: Lamps,
     /// Whether the picture stands alone, as in a page that only shows it: without panels, tools and messages.
     pub stands_alone: bool,
     /// Whether the panels are there.
@@ -148,12 +160,16 @@ impl Model {
             followed: None,
             undone_at: None,
             selected: 0,
+            also_selected: BTreeSet::new(),
             outlines: false,
             selected_generator: 0,
             furthest_tick: 0,
             motion_draft: None,
+            spectrum: Editor::default(),
             tool: Tool::default(),
             hand: Hand::default(),
+            gizmo: None,
+            lamps: Lamps::default(),
             stands_alone: false,
             shows_panels: true,
             presents: false,
@@ -190,10 +206,12 @@ impl Model {
         self.probe = Probe::default();
         self.overlay.profile = None;
         self.followed = None;
-        (self.selected, self.outlines, self.selected_generator) = (0, false, 0);
+        self.select_one(0);
+        (self.outlines, self.selected_generator) = (false, 0);
         self.motion_draft = None;
+        (self.spectrum, self.lamps) = (Editor::default(), Lamps::default());
         // What the hand held is gone.
-        self.hand = Hand::default();
+        (self.hand, self.gizmo) = (Hand::default(), None);
         self.loading = None;
     }
 
@@ -215,17 +233,6 @@ impl Model {
             tick: self.clock.tick,
             scene: self.scene.to_toml(),
         })
-    }
-
-    /// Shows the scene in another light.
-    pub fn adopt_light(&mut self, light: Light, resources: Resources) {
-        // What was turned while the light was loading stays as it is.
-        let Light { rotation_deg, intensity, .. } = self.scene.light;
-        if let Some(back) = self.apply(Edit::Light(Light { rotation_deg, intensity, ..light })) {
-            let before = std::mem::replace(&mut self.resources, resources);
-            self.undo.record_whole("Light", vec![back], Some(before));
-        }
-        self.loading = None;
     }
 
     /// The motion that is in force now.
@@ -283,6 +290,9 @@ impl Model {
     /// Lets the pointer, pressed or not, use its tool. Tells whether the camera shall stand.
     pub fn touch(&mut self, pressed: Option<Press>) -> bool {
         if let Some(change) = tools::touch(&mut self.hand, self.tool, &self.scene, self.clock.tick, pressed) {
+            if let Change::Drag(drag) = &change {
+                self.drag_along(drag);
+            }
             self.edit(Edit::Happens(change));
         }
         matches!(self.hand, Hand::Film(_))
@@ -331,10 +341,8 @@ impl Model {
                 self.time_line.selected = None;
                 self.messages.clear();
             }
-            Action::Duplicate => {
-                let like = self.scene.bubbles.get(self.selected).cloned();
-                like.into_iter().for_each(|bubble| self.add_bubble(bubble));
-            }
+            Action::Duplicate => self.duplicate(),
+            Action::SelectAll => self.select_all(),
             Action::Keep => self.compare.wants = Some(Want::Keep),
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),

@@ -31,9 +31,12 @@ impl Model {
             self.messages.problem(error.to_string());
             return None;
         }
-        if let Edit::Films(bubbles, generators) = &back
-            && begins_anew(&film_owners(bubbles, generators), self.scene.owners())
-        {
+        let owners = match &back {
+            Edit::Films(bubbles, generators) => Some(film_owners(bubbles, generators)),
+            Edit::Bubbles(bubbles, _) => Some(film_owners(bubbles, &self.scene.generators)),
+            _ => None,
+        };
+        if owners.is_some_and(|before| begins_anew(&before, self.scene.owners())) {
             self.clock.reset();
         }
         self.forget_selection(&back);
@@ -43,7 +46,7 @@ impl Model {
     /// Events and keyframes are selected by their index, which another list gives to another one.
     fn forget_selection(&mut self, back: &Edit) {
         let is_other = match back {
-            Edit::History(..) | Edit::Forget(_) => true,
+            Edit::History(..) | Edit::Bubbles(..) | Edit::Forget(_) => true,
             Edit::Camera(before) => before.keyframes != self.scene.camera.keyframes,
             _ => false,
         };
@@ -82,7 +85,7 @@ impl Model {
             self.clock.reset();
         }
         // What a slider or the hand holds is of another scene.
-        (self.motion_draft, self.hand) = (None, Hand::default());
+        (self.motion_draft, self.hand, self.gizmo) = (None, Hand::default(), None);
         step
     }
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::{
-    app::edit::new_seed,
+    app::{edit::new_seed, group::Group},
     input::load_scene,
     plan::film_grids,
     scene::{Change, Event, FilmIndexName, Flow, Scene},
@@ -27,12 +27,13 @@ fn another_film_starts_again_and_another_index_does_not() {
     model.clock.tick = 50;
     let mut bubble = model.scene.bubbles[2].clone();
     bubble.film.index = FilmIndexName::Constant(1.5);
-    model.edit(Edit::Bubble(2, bubble.clone().into()));
+    model.select_one(2);
+    model.edit_selected(bubble.clone(), &Group::default());
     assert_eq!(model.clock.tick, 50, "the index shapes no film");
     let denser = model.scene.bubbles.iter().map(|bubble| bubble.film.index == FilmIndexName::Constant(1.5));
     assert_eq!(denser.collect::<Vec<_>>(), [false, false, true]);
     bubble.film.thickness_nm = 300.0;
-    model.edit(Edit::Bubble(2, bubble.into()));
+    model.edit_selected(bubble, &Group::default());
     assert_eq!((model.clock.tick, model.scene.bubbles[2].film.thickness_nm), (0, 300.0));
 }
 

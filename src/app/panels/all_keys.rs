@@ -5,21 +5,26 @@ use egui::{ComboBox, DragValue, Grid, Response, Ui};
 use serde::{Serialize, de::DeserializeOwned};
 use toml::Value;
 
-use super::{light, widgets::tooltip};
+use super::{
+    light,
+    widgets::{MIXED, tooltip},
+};
 use crate::{
-    app::{edit::Edit, model::Model},
+    app::{edit::Edit, group::Group, model::Model},
     scene::{Bubble, Camera, Film, Generator, Key, Lens, Light, Range, View},
 };
 
 /// Shows and edits the keys of the selected bubble and generator, the camera, the view, the lens and the light.
 pub fn show(ui: &mut Ui, model: &mut Model) {
     if let Some(bubble) = model.scene.bubbles.get(model.selected) {
-        let mut edited = bubble.clone();
-        section(ui, &format!("Bubble {}", model.selected + 1), &mut edited, Bubble::ALL_KEYS);
-        section(ui, "Its film", &mut edited.film, Film::ALL_KEYS);
-        if edited != *bubble {
-            model.edit(Edit::Bubble(model.selected, edited.into()));
-        }
+        let (mut edited, group) = (bubble.clone(), model.group());
+        let (title, films) = match model.selection().len() {
+            0 | 1 => (format!("Bubble {}", model.selected + 1), "Its film"),
+            count => (format!("{count} bubbles"), "Their films"),
+        };
+        shared_section(ui, &title, &mut edited, Bubble::ALL_KEYS, &group);
+        shared_section(ui, films, &mut edited.film, Film::ALL_KEYS, &group);
+        model.edit_selected(edited, &group);
     }
     if let Some(generator) = model.scene.generators.get(model.selected_generator) {
         let mut edited = generator.clone();
@@ -54,13 +59,21 @@ fn section<T>(ui: &mut Ui, title: &str, value: &mut T, keys: &[Key]) -> bool
 where
     T: Serialize + DeserializeOwned + Default,
 {
+    shared_section(ui, title, value, keys, &Group::default())
+}
+
+/// The rows of a section of several bubbles, with a mark where they differ.
+fn shared_section<T>(ui: &mut Ui, title: &str, value: &mut T, keys: &[Key], group: &Group) -> bool
+where
+    T: Serialize + DeserializeOwned + Default,
+{
     let [mut table, normal] = [&*value, &T::default()].map(|value| toml::Table::try_from(value).unwrap_or_default());
     let before = table.clone();
     ui.strong(title);
     Grid::new(title).num_columns(3).spacing([8.0, 3.0]).show(ui, |ui| {
         for key in keys {
             let Some(now) = table.get_mut(key.name) else { continue };
-            row(ui, key, now, normal.get(key.name));
+            row(ui, key, now, normal.get(key.name), group.is_mixed(key));
             ui.end_row();
         }
     });
@@ -78,9 +91,14 @@ where
 }
 
 /// The name of a key, its value, and a way back to the normal one.
-fn row(ui: &mut Ui, key: &Key, now: &mut Value, normal: Option<&Value>) {
+fn row(ui: &mut Ui, key: &Key, now: &mut Value, normal: Option<&Value>, is_mixed: bool) {
     let label = ui.label(key.label).on_hover_text(format!("`{}`: {}", key.name, tooltip(key.help)));
-    ui.horizontal(|ui| field(ui, key, now, &label));
+    ui.horizontal(|ui| {
+        field(ui, key, now, &label);
+        if is_mixed {
+            ui.weak(MIXED).on_hover_text("The selected bubbles differ; this is the value of one");
+        }
+    });
     if let Some(normal) = normal.filter(|normal| *normal != now) {
         let reset = ui.small_button("reset").on_hover_text(format!("Set {} back to {normal}", key.label));
         if reset.clicked() {

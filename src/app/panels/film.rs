@@ -2,9 +2,12 @@
 
 use egui::Ui;
 
-use super::widgets::{choice, choice_of, group, number, number_within, options_of, seed, slider};
+use super::widgets::{
+    MIXED, group, mixed_options, number, number_within, options_of, shared, shared_choice, shared_seed, slider,
+};
 use crate::{
-    app::{edit::Edit, model::Model},
+    Words,
+    app::{group::Group, model::Model},
     scene::{Boundary, Bubble, Detail, Film, FilmIndexName, FilmStateName, Range},
 };
 
@@ -16,14 +19,18 @@ const CELLS: [(u32, &str, &str); 4] = [
     (512, "512", "1 572 864 cells: for fast graphics cards"),
 ];
 
-/// Shows and edits the selected bubble's film.
+/// Shows and edits the film of the selected bubble, and with it those of the others that are selected.
 pub fn show(ui: &mut Ui, model: &mut Model) {
     let count = model.scene.bubbles.len();
     model.selected = model.selected.min(count.saturating_sub(1));
+    model.also_selected.retain(|index| *index < count);
     if count > 1 {
         let mut number = model.selected + 1;
         slider(ui, "Bubble", &mut number, 1..=count, "The bubble to edit", |slider| slider);
-        model.selected = number - 1;
+        if number != model.selected + 1 {
+            model.select_one(number - 1);
+        }
+        selection(ui, model, count);
     }
     bubbles(ui, model);
     let Some(bubble) = model.scene.bubbles.get(model.selected) else {
@@ -31,79 +38,111 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         ui.label(if made { "Generators make all bubbles of this scene." } else { "This scene has no bubble." });
         return;
     };
-    let mut edited = bubble.clone();
-    number(ui, &Bubble::KEYS.radius_mm, &mut edited.radius_mm, |slider| slider.logarithmic(true).max_decimals(1));
-    boundary(ui, &mut edited);
-    film(ui, &mut edited.film);
-    if edited != *bubble {
-        model.edit(Edit::Bubble(model.selected, edited.into()));
-    }
+    let (mut edited, mut group) = (bubble.clone(), model.group());
+    number(ui, &Bubble::KEYS.radius_mm, &mut edited.radius_mm, |slider| {
+        shared(slider.logarithmic(true).max_decimals(1), &group, &Bubble::KEYS.radius_mm)
+    });
+    boundary(ui, &mut edited, &mut group);
+    film(ui, &mut edited.film, &mut group);
+    model.edit_selected(edited, &group);
+}
+
+/// How many bubbles are selected, and a way to select all.
+fn selection(ui: &mut Ui, model: &mut Model, count: usize) {
+    let selected = model.selection().len();
+    group(ui, "Selected", |ui| {
+        ui.label(format!("{selected} of {count}"))
+            .on_hover_text("Edits change all of them; Shift or Ctrl with a click");
+        if selected < count && ui.button("Select all").on_hover_text("Select all bubbles (Ctrl+A)").clicked() {
+            model.select_all();
+        }
+    });
 }
 
 /// Buttons that add and delete bubbles.
 fn bubbles(ui: &mut Ui, model: &mut Model) {
-    let selected = model.scene.bubbles.get(model.selected).cloned();
     group(ui, "", |ui| {
         if ui.button("Add").on_hover_text("Add a bubble with the default film").clicked() {
             model.add_bubble(Bubble::default());
         }
-        let Some(selected) = selected else { return };
-        if ui.button("Duplicate").on_hover_text("Another bubble like this one (Ctrl+D)").clicked() {
-            model.add_bubble(selected);
+        if model.scene.bubbles.is_empty() {
+            return;
         }
-        if ui.button("Delete").on_hover_text("Delete this bubble and its events").clicked() {
-            model.delete_bubble();
+        if ui.button("Duplicate").on_hover_text("More bubbles like the selected ones (Ctrl+D)").clicked() {
+            model.duplicate();
+        }
+        if ui.button("Delete").on_hover_text("Delete the selected bubbles and their events").clicked() {
+            model.delete_bubbles();
         }
     });
 }
 
 /// What the film ends at, and what comes from there.
-fn boundary(ui: &mut Ui, bubble: &mut Bubble) {
-    choice(ui, &Bubble::KEYS.boundary, &mut bubble.boundary);
+fn boundary(ui: &mut Ui, bubble: &mut Bubble, group: &mut Group) {
+    let keys = Bubble::KEYS;
+    shared_choice(ui, &keys.boundary, &mut bubble.boundary, Boundary::CHOICES, group);
     if let Some([lowest, highest]) = bubble.boundary.rims_deg() {
         bubble.rim_deg = bubble.rim_deg.clamp(lowest, highest);
-        number_within(ui, &Bubble::KEYS.rim_deg, &mut bubble.rim_deg, lowest..=highest, |s| s.max_decimals(0));
+        number_within(ui, &keys.rim_deg, &mut bubble.rim_deg, lowest..=highest, |slider| {
+            shared(slider.max_decimals(0), group, &keys.rim_deg)
+        });
     }
     if bubble.boundary == Boundary::Free {
         return;
     }
-    number(ui, &Bubble::KEYS.regeneration, &mut bubble.regeneration, |slider| slider.max_decimals(1));
+    number(ui, &keys.regeneration, &mut bubble.regeneration, |slider| {
+        shared(slider.max_decimals(1), group, &keys.regeneration)
+    });
     let max_mm = 0.25 * bubble.radius_mm.clamp(0.4, 400.0);
     bubble.patch_mm = bubble.patch_mm.min(max_mm);
-    number_within(ui, &Bubble::KEYS.patch_mm, &mut bubble.patch_mm, 0.1..=max_mm, |slider| {
-        slider.logarithmic(true).max_decimals(1)
+    number_within(ui, &keys.patch_mm, &mut bubble.patch_mm, 0.1..=max_mm, |slider| {
+        shared(slider.logarithmic(true).max_decimals(1), group, &keys.patch_mm)
     });
 }
 
-/// How a film begins.
-pub fn film(ui: &mut Ui, film: &mut Film) {
+/// How a film begins, or the films of several bubbles that have some of it in common.
+pub fn film(ui: &mut Ui, film: &mut Film, group: &mut Group) {
     let keys = Film::KEYS;
-    choice(ui, &keys.state, &mut film.state);
+    shared_choice(ui, &keys.state, &mut film.state, FilmStateName::CHOICES, group);
     let Range::Within(flowing_nm, thickest_nm) = keys.thickness_nm.range else { unreachable!("a range of numbers") };
     let thinnest_nm = if film.state == FilmStateName::Uniform { 0.0 } else { flowing_nm };
     film.thickness_nm = film.thickness_nm.max(thinnest_nm);
     number_within(ui, &keys.thickness_nm, &mut film.thickness_nm, thinnest_nm..=thickest_nm, |slider| {
-        slider.logarithmic(true).smallest_positive(1.0).max_decimals(1)
+        shared(slider.logarithmic(true).smallest_positive(1.0).max_decimals(1), group, &keys.thickness_nm)
     });
     if film.state != FilmStateName::Uniform {
-        number(ui, &keys.stratification, &mut film.stratification, |slider| slider.max_decimals(2));
+        number(ui, &keys.stratification, &mut film.stratification, |slider| {
+            shared(slider.max_decimals(2), group, &keys.stratification)
+        });
     }
-    index(ui, &mut film.index);
-    number(ui, &keys.skin_nm, &mut film.skin_nm, |slider| slider.max_decimals(1));
+    index(ui, &mut film.index, group);
+    number(ui, &keys.skin_nm, &mut film.skin_nm, |slider| shared(slider.max_decimals(1), group, &keys.skin_nm));
     if film.state == FilmStateName::Blown {
-        seed(ui, &keys.seed, &mut film.seed);
+        shared_seed(ui, &keys.seed, &mut film.seed, group);
     }
     if film.state != FilmStateName::Uniform {
-        options_of(ui, keys.cells.label, &mut film.cells, &CELLS);
+        cells(ui, &mut film.cells, group);
         // The window has settled whether a film takes all or half of its cells.
-        choice_of(ui, keys.detail.label, &mut film.detail, &[Detail::Full, Detail::Half]);
+        shared_choice(ui, &keys.detail, &mut film.detail, &[Detail::Full, Detail::Half], group);
+    }
+}
+
+fn cells(ui: &mut Ui, cells: &mut u32, group: &mut Group) {
+    let key = Film::KEYS.cells;
+    if !group.is_mixed(&key) {
+        options_of(ui, key.label, cells, &CELLS);
+    } else if let Some(chosen) = mixed_options(ui, key.label, &CELLS) {
+        *cells = chosen;
+        group.set(&key);
     }
 }
 
 /// Water's index varies with the wavelength; any other one is a number.
-fn index(ui: &mut Ui, index: &mut FilmIndexName) {
+fn index(ui: &mut Ui, index: &mut FilmIndexName, bubbles: &mut Group) {
     const WATER_LIKE: f64 = 1.333;
-    group(ui, Film::KEYS.index.label, |ui| {
+    let key = Film::KEYS.index;
+    let is_mixed = bubbles.is_mixed(&key);
+    group(ui, key.label, |ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         let is_constant = matches!(index, FilmIndexName::Constant(_));
         let liquids = [
@@ -111,16 +150,25 @@ fn index(ui: &mut Ui, index: &mut FilmIndexName) {
             ("glycerol", FilmIndexName::Named("glycerol 30%".to_owned()), "Water with 30 % of glycerol by mass"),
         ];
         for (label, liquid, help) in liquids {
-            if ui.selectable_label(*index == liquid, label).on_hover_text(help).clicked() {
+            let is = !is_mixed && *index == liquid;
+            if ui.selectable_label(is, label).on_hover_text(help).clicked() {
                 *index = liquid;
+                bubbles.set(&key);
             }
         }
         let help = "The same index at every wavelength";
-        if ui.selectable_label(is_constant, "constant").on_hover_text(help).clicked() && !is_constant {
-            *index = FilmIndexName::Constant(WATER_LIKE);
+        let is = !is_mixed && is_constant;
+        if ui.selectable_label(is, "constant").on_hover_text(help).clicked() && !is {
+            *index = if is_constant { index.clone() } else { FilmIndexName::Constant(WATER_LIKE) };
+            bubbles.set(&key);
+        }
+        if is_mixed {
+            ui.weak(MIXED).on_hover_text("The selected bubbles differ");
         }
     });
-    if let (FilmIndexName::Constant(n), Range::Within(lowest, highest)) = (index, Film::KEYS.index.range) {
-        slider(ui, "Value", n, lowest..=highest, "Refractive index of the film", |slider| slider.fixed_decimals(3));
+    if let (FilmIndexName::Constant(n), Range::Within(lowest, highest)) = (index, key.range) {
+        slider(ui, "Value", n, lowest..=highest, "Refractive index of the film", |slider| {
+            shared(slider.fixed_decimals(3), bubbles, &key)
+        });
     }
 }

@@ -7,7 +7,7 @@ use super::{
     widgets::{choice, number, number_within, seed, slider},
 };
 use crate::{
-    app::{edit::Edit, model::Model},
+    app::{edit::Edit, group::Group, model::Model},
     scene::{Generator, Layout},
 };
 
@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     let mut edited = generator.clone();
     bubbles(ui, &mut edited);
     way(ui, &mut edited);
-    film::film(ui, &mut edited.film);
+    film::film(ui, &mut edited.film, &mut Group::default());
     if edited != *generator {
         model.edit(Edit::Generator(model.selected_generator, edited.into()));
     }

@@ -3,7 +3,7 @@
 use egui::Ui;
 
 use super::{
-    header,
+    header, lamps, spectrum,
     widgets::{group, number, number_within, row, slider},
 };
 use crate::{
@@ -25,6 +25,8 @@ const BLACK_BODY: &str = "3200 K";
 pub fn show(ui: &mut Ui, model: &mut Model) {
     environment(ui, model);
     illuminant(ui, model);
+    spectrum::show(ui, model);
+    lamps::show(ui, model);
     let mut light = model.scene.light.clone();
     if let Some(radiance) = &mut light.constant {
         group(ui, "Radiance", |ui| {
@@ -91,16 +93,18 @@ fn environment(ui: &mut Ui, model: &mut Model) {
 fn illuminant(ui: &mut Ui, model: &mut Model) {
     let light = &model.scene.light;
     let mut chosen: Option<&str> = None;
+    let is_named = light.spectrum.is_none();
+    let shown = if is_named { light.illuminant.as_str() } else { "spectrum" };
     row(ui, "Illuminant", "The spectrum of white light", |ui| {
-        let list = egui::ComboBox::from_id_salt("illuminant").selected_text(light.illuminant.as_str());
+        let list = egui::ComboBox::from_id_salt("illuminant").selected_text(shown);
         list.show_ui(ui, |ui| {
             for BuiltIn { name, help, .. } in BUILT_IN {
-                let is = light.illuminant.eq_ignore_ascii_case(name);
+                let is = is_named && light.illuminant.eq_ignore_ascii_case(name);
                 if ui.selectable_label(is, *name).on_hover_text(*help).clicked() && !is {
                     chosen = Some(name);
                 }
             }
-            let is = kelvin(&light.illuminant).is_some();
+            let is = is_named && kelvin(&light.illuminant).is_some();
             let help = "Light of a glowing body, of a temperature that can be set";
             if ui.selectable_label(is, "black body").on_hover_text(help).clicked() && !is {
                 chosen = Some(BLACK_BODY);
@@ -108,9 +112,10 @@ fn illuminant(ui: &mut Ui, model: &mut Model) {
         })
         .response
     });
-    let changed = chosen.map(|name| Light { illuminant: name.to_owned(), ..light.clone() });
+    let changed = chosen.map(|name| Light { illuminant: name.to_owned(), spectrum: None, ..light.clone() });
     model.requests.extend(changed.map(Request::LoadLight));
-    if let Some(kelvin) = kelvin(&model.scene.light.illuminant) {
+    let kelvin = kelvin(&model.scene.light.illuminant).filter(|_| model.scene.light.spectrum.is_none());
+    if let Some(kelvin) = kelvin {
         temperature(ui, model, kelvin);
     }
 }

@@ -9,9 +9,11 @@ mod exports;
 mod film;
 pub mod gallery;
 mod generators;
+mod gizmo;
 mod header;
 mod help;
 mod hints;
+mod lamps;
 mod lesson;
 mod light;
 mod motion;
@@ -19,9 +21,11 @@ mod notices;
 mod overlay;
 mod picture;
 pub mod pin_plots;
+mod places;
 mod plots;
 mod probe;
 mod question;
+mod spectrum;
 #[cfg(test)]
 mod tests;
 pub mod textures;
@@ -62,7 +66,9 @@ pub struct Picture {
 
 /// Shows everything around the picture, obeys the keys, and returns where the picture stands.
 pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
-    let (now_s, is_held) = ui.input(|input| (input.time, input.pointer.any_down()));
+    // What letting go does belongs to the drag.
+    let held = |input: &egui::InputState| input.pointer.any_down() || input.pointer.any_released();
+    let (now_s, is_held) = ui.input(|input| (input.time, held(input)));
     model.undo.pass(now_s, is_held);
     // Who is asked a question answers it first.
     let is_asked = model.question.is_some() || model.shows_gallery || is_exporting(model);
@@ -79,13 +85,13 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
             Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
         }
     }
-    let mut picture = picture::show(ui, model.scene.camera.follow_deg);
+    let mut picture = picture::show(ui, model);
     picture.gesture.frame |= actions.contains(&Action::Frame);
-    if model.touch(picture.pressed) {
+    if model.hold_lamp(picture.pressed) || model.touch(picture.pressed) {
         picture.gesture.turn = DVec2::ZERO;
     }
     if let Some(place) = picture.hovered.filter(|_| picture.clicked && model.tool == Tool::Orbit) {
-        model.select(place);
+        model.select(place, ui.input(clicked_with_a_key));
     }
     draw_line(model, &mut picture);
     let probes = model.tool == Tool::Probe;
@@ -94,6 +100,14 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
         over_picture(ui.ctx(), picture.rect, model);
     }
     picture
+}
+
+/// Whether Shift or Ctrl was held at a click. By the time of a slow frame it may be let go.
+fn clicked_with_a_key(input: &egui::InputState) -> bool {
+    input.events.iter().any(|event| {
+        let egui::Event::PointerButton { pressed: false, modifiers, .. } = event else { return false };
+        modifiers.shift || modifiers.command
+    })
 }
 
 /// Whether the dialog for exports is open.
@@ -126,6 +140,7 @@ const SHORTEST_LINE: f64 = 0.02;
 fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
     if !model.presents {
         picture::outline(ctx, picture, model);
+        lamps::held(ctx, picture, model);
         tools::show(ctx, picture, model);
         hints::show(ctx, picture, model);
     }

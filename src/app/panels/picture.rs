@@ -1,12 +1,14 @@
 //! The picture's place in the window, and what the pointer does there.
 
 use egui::{
-    CentralPanel, Color32, Context, Frame, InputState, LayerId, PointerButton, Pos2, Rect, Response, Sense, Stroke, Ui,
-    Vec2, vec2,
+    CentralPanel, Color32, Context, Frame, InputState, LayerId, PointerButton, Rect, Response, Sense, Stroke, Ui, Vec2,
 };
 use glam::DVec2;
 
-use super::Picture;
+use super::{
+    Picture, gizmo,
+    places::{at, place},
+};
 use crate::app::{
     model::Model,
     orbit::{Gesture, TURN_DEG},
@@ -17,16 +19,19 @@ use crate::app::{
 const ZOOM_PER_POINT: f64 = 0.004;
 
 /// Shows the picture in the rest of the window, and reads the pointer there, which a camera may follow by an angle for the picture's height.
-pub fn show(ui: &mut Ui, follow_deg: f64) -> Picture {
+pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
+    let follow_deg = model.scene.camera.follow_deg;
     CentralPanel::no_frame()
         .frame(Frame::NONE)
         .show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
             let (fingers, held) = (fingers(ui, &response), is_held(ui, &response));
+            let mut gesture = gesture(ui, &response, follow_deg, fingers, held);
+            gesture.frame |= gizmo::show(ui, rect, model);
             Picture {
                 rect,
-                gesture: gesture(ui, &response, follow_deg, fingers, held),
+                gesture,
                 pressed: if held && fingers == Fingers::One { pressed(ui, rect) } else { None },
                 hovered: response.hover_pos().map(|at| place(rect, at)),
                 clicked: response.clicked(),
@@ -83,18 +88,13 @@ fn pressed(ui: &Ui, picture: Rect) -> Option<Press> {
     Some(Press { from: place(from.unwrap_or(at)), at: place(at) })
 }
 
-/// A place in the picture, right and up from its middle in heights of it.
-fn place(picture: Rect, at: Pos2) -> DVec2 {
-    let from_middle = (at - picture.center()) / picture.height().max(1.0);
-    DVec2::new(from_middle.x.into(), (-from_middle.y).into())
-}
-
-/// Outlines the selected bubble, if it was clicked.
+/// Outlines the selected bubbles, if one was clicked.
 pub fn outline(ctx: &Context, picture: Rect, model: &Model) {
-    let outline = tools::outline(&model.scene, model.clock.tick, model.selected);
-    if let Some((middle, radius)) = outline.filter(|_| model.outlines) {
-        let at = picture.center() + picture.height() * vec2(middle.x as f32, -middle.y as f32);
-        let painter = ctx.layer_painter(LayerId::background()).with_clip_rect(picture);
+    let selection = if model.outlines { model.selection() } else { Vec::new() };
+    let outlines = selection.into_iter().filter_map(|bubble| tools::outline(&model.scene, model.clock.tick, bubble));
+    let painter = ctx.layer_painter(LayerId::background()).with_clip_rect(picture);
+    for (middle, radius) in outlines {
+        let at = at(picture, middle);
         painter.circle_stroke(
             at,
             picture.height() * radius as f32 + 2.0,

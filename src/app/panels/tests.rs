@@ -12,19 +12,22 @@ use crate::{
         probe::Plot,
         request::{Fate, Question, Request, Target},
         time_line::Mark,
-        tools::Tool,
+        tools::{Press, Tool},
     },
     scene::{
         Backdrop, Boundary, Change, Event, FilmStateName, Flow, Generator, Layout, Motion, MotionChange, Scene, Scheme,
     },
 };
 
+mod bubbles;
 mod exports;
 mod keyframes;
+mod lamps;
 mod lesson;
 mod measure;
 mod picture;
 mod safety;
+mod spectrum;
 mod time_line;
 
 struct State {
@@ -53,6 +56,12 @@ fn window() -> Harness<'static, State> {
     let mut window = harness(model, vec2(1280.0, 1200.0));
     window.run();
     window
+}
+
+/// A frame of a test takes a quarter of a second, and two clicks eight frames. What was clicked before does not count.
+fn wait_for_double_clicks(window: &mut Harness<'static, State>) {
+    window.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.5);
+    (0..12).for_each(|_| window.step());
 }
 
 fn click(window: &mut Harness<'static, State>, name: &str) {

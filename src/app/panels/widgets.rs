@@ -6,6 +6,7 @@ use egui::{Align, Layout, Response, Slider, SliderClamping, Ui, emath::Numeric, 
 
 use crate::{
     Words,
+    app::group::Group,
     scene::{Key, Range},
 };
 
@@ -96,6 +97,44 @@ pub fn choice<T: Words>(ui: &mut Ui, key: &Key, value: &mut T) -> bool {
     choice_of(ui, key.label, value, T::CHOICES)
 }
 
+/// What stands in the place of a value that several bubbles do not have in common.
+pub const MIXED: &str = "—";
+
+/// A slider that shows no number where several bubbles do not have it in common.
+pub fn shared<'a>(slider: Slider<'a>, group: &Group, key: &Key) -> Slider<'a> {
+    if group.is_mixed(key) { slider.custom_formatter(|_, _| MIXED.to_owned()) } else { slider }
+}
+
+/// A row with the words of a key, none of them chosen where several bubbles do not have one in common.
+pub fn shared_choice<T: Words>(ui: &mut Ui, key: &Key, value: &mut T, choices: &[T], bubbles: &mut Group) {
+    if !bubbles.is_mixed(key) {
+        choice_of(ui, key.label, value, choices);
+        return;
+    }
+    let options: Vec<_> = choices.iter().map(|choice| (*choice, choice.name(), choice.help())).collect();
+    if let Some(chosen) = mixed_options(ui, key.label, &options) {
+        *value = chosen;
+        bubbles.set(key);
+    }
+}
+
+/// A row of options, none of them chosen; returns the one that is clicked.
+pub fn mixed_options<T: Copy>(ui: &mut Ui, name: &str, options: &[(T, &str, &str)]) -> Option<T> {
+    let mut chosen = None;
+    group(ui, name, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = vec2(3.0, 2.0);
+            ui.weak(MIXED).on_hover_text("The selected bubbles differ");
+            for (option, label, help) in options {
+                if ui.selectable_label(false, *label).on_hover_text(*help).clicked() {
+                    chosen = Some(*option);
+                }
+            }
+        });
+    });
+    chosen
+}
+
 /// A row with some of the words of a key, one of them chosen.
 pub fn choice_of<T: Words>(ui: &mut Ui, name: &str, value: &mut T, choices: &[T]) -> bool {
     let options: Vec<_> = choices.iter().map(|choice| (*choice, choice.name(), choice.help())).collect();
@@ -118,9 +157,17 @@ pub fn options_of<T: Copy + PartialEq>(ui: &mut Ui, name: &str, value: &mut T, o
 
 /// A seed as a number, and a button for another one.
 pub fn seed(ui: &mut Ui, key: &Key, value: &mut u64) -> bool {
+    shared_seed(ui, key, value, &Group::default())
+}
+
+/// A seed, which is shown if several bubbles have it in common.
+pub fn shared_seed(ui: &mut Ui, key: &Key, value: &mut u64, bubbles: &Group) -> bool {
     ui.horizontal(|ui| {
         let label = named(ui, key.label);
-        let number = egui::DragValue::new(value).speed(0.1);
+        let mut number = egui::DragValue::new(value).speed(0.1);
+        if bubbles.is_mixed(key) {
+            number = number.custom_formatter(|_, _| MIXED.to_owned());
+        }
         let number = ui.add(number).labelled_by(label.id).on_hover_text(tooltip(key.help));
         let button = ui.button(format!("New {}", key.label.to_lowercase())).on_hover_text("Picks another random seed");
         if button.clicked() {

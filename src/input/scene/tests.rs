@@ -30,6 +30,10 @@ fn a_bad_file_of_a_scene_is_refused_by_line_and_key() {
         ),
         ("[light]\nilluminant = \"words.csv\"", "s.toml:3: `illuminant` in [light] cannot be used: words.csv"),
         (
+            "[light.spectrum]\nwavelengths_nm = [360, 362]",
+            "s.toml:2: `spectrum` in [light] cannot be used: the spectrum of the scene: cannot be seen",
+        ),
+        (
             "[light]\nenvironment = \"no.exr\"",
             "s.toml:3: `environment` in [light] cannot be used: file no.exr does not exist",
         ),

@@ -70,6 +70,7 @@ fn tables() -> Vec<(&'static str, Vec<Key>)> {
         ("camera.keyframe", Keyframe::ALL_KEYS.to_vec()),
         ("lens", Lens::ALL_KEYS.to_vec()),
         ("light", Light::ALL_KEYS.to_vec()),
+        ("light.spectrum", LightSpectrum::ALL_KEYS.to_vec()),
         ("light.patch", LightPatch::ALL_KEYS.to_vec()),
         ("light.lamp", LightLamp::ALL_KEYS.to_vec()),
         ("view", View::ALL_KEYS.to_vec()),
@@ -115,7 +116,12 @@ fn defaults() -> toml::Table {
     let scene = Scene {
         generators: vec![Generator::default()],
         camera: Camera { keyframes: vec![Keyframe::default()], ..Camera::default() },
-        light: Light { lamps: vec![LightLamp::default()], patches: vec![LightPatch::default()], ..Light::default() },
+        light: Light {
+            spectrum: Some(LightSpectrum::default()),
+            lamps: vec![LightLamp::default()],
+            patches: vec![LightPatch::default()],
+            ..Light::default()
+        },
         events: changes.map(|change| Event { tick: 0, change }).into(),
         ..Scene::default()
     };

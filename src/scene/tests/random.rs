@@ -102,10 +102,12 @@ fn light() -> impl Strategy<Value = Light> {
         file
     ];
     let patches = (prop::collection::vec(patch(), 0..3), prop::collection::vec(lamp(), 0..3));
-    (environment, illuminant(), prop::option::of(radiance()), -1e9..1e9, 0.0..1e4, patches).prop_map(
-        |(environment, illuminant, constant, rotation_deg, intensity, (patches, lamps))| Light {
+    let spectrum = prop::option::of(spectrum());
+    (environment, (illuminant(), spectrum), prop::option::of(radiance()), -1e9..1e9, 0.0..1e4, patches).prop_map(
+        |(environment, (illuminant, spectrum), constant, rotation_deg, intensity, (patches, lamps))| Light {
             environment,
             illuminant,
+            spectrum,
             constant,
             rotation_deg,
             intensity,
@@ -117,6 +119,13 @@ fn light() -> impl Strategy<Value = Light> {
 
 fn illuminant() -> impl Strategy<Value = String> {
     "[A-Z][A-Z0-9\"]{0,4}"
+}
+
+fn spectrum() -> impl Strategy<Value = LightSpectrum> {
+    prop::collection::btree_map(360u16..=780, 0.1..1e12, 2..30).prop_map(|points| LightSpectrum {
+        wavelengths_nm: points.keys().map(|nm| f64::from(*nm)).collect(),
+        power: points.into_values().collect(),
+    })
 }
 
 fn patch() -> impl Strategy<Value = LightPatch> {

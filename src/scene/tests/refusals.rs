@@ -73,7 +73,7 @@ fn unknown_keys_name_the_nearest_known_one() {
         ("[[event]]\nkind = \"motion\"\nspeed = 2", "4: unknown key `speed` in [[event]]; did you mean `seed`?"),
         (
             "[light]\nx.y = 1\n[camera]\nfov = 3",
-            "3: unknown key `x` in [light]; known here: `constant`, `environment`, `illuminant`, `intensity`, `lamp`, `patch`, `rotation_deg`",
+            "3: unknown key `x` in [light]; known here: `constant`, `environment`, `illuminant`, `intensity`, `lamp`, `patch`, `rotation_deg`, `spectrum`",
         ),
         (
             "\"a\\nb\" = 1",
@@ -101,6 +101,53 @@ fn tables_and_lists_are_told_apart() {
             "2: `film` in [[bubble]] is wrong: invalid type: integer `3`, expected the table Film",
         ),
         ("[camera.fov_y_deg]", "2: `fov_y_deg` in [camera] is wrong: invalid type: table, expected a number"),
+    ]);
+}
+
+#[test]
+fn a_spectrum_has_its_points_in_order_and_some_power() {
+    let many = vec!["400"; 1001].join(", ");
+    let cases = [
+        ("400", "1", "3: `wavelengths_nm` in [light.spectrum] is a list of 1; it must hold 2 to 1000 numbers"),
+        (&many, "1", "3: `wavelengths_nm` in [light.spectrum] is a list of 1001; it must hold 2 to 1000 numbers"),
+        (
+            "400, 500",
+            "1, 1, 1",
+            "4: `power` in [light.spectrum] is a list of 3; it must hold as many numbers as `wavelengths_nm`, 2",
+        ),
+        (
+            "350, 500",
+            "1, 1",
+            "3: `wavelengths_nm` in [light.spectrum] holds a number that is 350; it must be within 360 ..= 780",
+        ),
+        ("nan, 500", "1, 1", "3: `wavelengths_nm` in [light.spectrum] is NaN; it must be a finite number"),
+        (
+            "500, 500",
+            "1, 1",
+            "3: `wavelengths_nm` in [light.spectrum] has 500 after 500; sort the points by wavelength, each once",
+        ),
+        (
+            "400, 500",
+            "1, -1",
+            "4: `power` in [light.spectrum] holds a number that is -1; it must be within 0 ..= 1000000000000",
+        ),
+        ("400, 500", "0, 0", "4: `power` in [light.spectrum] is 0 everywhere; give one of the points some power"),
+        (
+            "400, 500",
+            "1, 'x'",
+            "4: `power` in [light.spectrum] is wrong: invalid type: string \"x\", expected a number",
+        ),
+    ];
+    for (nm, power, message) in cases {
+        let text = with_version(&format!("[light.spectrum]\nwavelengths_nm = [{nm}]\npower = [{power}]"));
+        assert_eq!(refusal(&text), format!("s.toml:{message}"), "{nm} {power}");
+    }
+    assert_refused(&[
+        (
+            "[light]\nspectrum = 'D65'",
+            "3: `spectrum` in [light] is wrong: invalid type: string \"D65\", expected the table LightSpectrum",
+        ),
+        ("[light.spectrum]\npowers = [1, 1]", "3: unknown key `powers` in [light.spectrum]; did you mean `power`?"),
     ]);
 }
 

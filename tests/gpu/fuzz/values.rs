@@ -8,7 +8,8 @@ use crate::support::page::{Row, documented};
 /// A value of a key, or none: its default. Shrinks to none.
 pub fn value(row: Row) -> BoxedStrategy<Option<Value>> {
     // Random scenes have no files beside them. What a lens of some length sees, `fov_y_deg` says too.
-    if row.range == "a path" || row.key == "focal_mm" {
+    // A spectrum's lists must be equally long.
+    if row.range == "a path" || row.section == "light.spectrum" || row.key == "focal_mm" {
         return Just(None).boxed();
     }
     prop_oneof![Just(None), chosen(row).prop_map(Some)].boxed()
