@@ -94,15 +94,16 @@ impl RenderThread {
     /// Begins to execute a plan that was made for the renderer's present state. Nothing happens while another one is executed.
     pub fn begin(&mut self, plan: Plan) {
         let Some(renderer) = self.renderer.take() else { return };
+        let job = Box::new((renderer, plan));
         #[cfg(not(target_arch = "wasm32"))]
-        let (renderer, plan) = match &self.thread {
-            Some(thread) if !plan.is_empty() => match thread.begin(renderer, plan) {
+        let job = match &self.thread {
+            Some(thread) if !job.1.is_empty() => match thread.begin(job) {
                 Ok(()) => return,
-                Err(back) => back,
+                Err(job) => job,
             },
-            _ => (renderer, plan),
+            _ => job,
         };
-        let (renderer, finished) = execute(renderer, plan, self.copies);
+        let (renderer, finished) = execute(*job, self.copies);
         (self.renderer, self.finished) = (Some(renderer), Some(finished));
     }
 
@@ -133,7 +134,7 @@ impl RenderThread {
     }
 }
 
-fn execute(mut renderer: Renderer, plan: Plan, copies: bool) -> (Renderer, Finished) {
+fn execute((mut renderer, plan): (Renderer, Plan), copies: bool) -> (Renderer, Finished) {
     let begun = Instant::now();
     let draws = plan.steps.iter().any(|(pass, _)| matches!(pass, Pass::Tonemap(_)));
     let executed = renderer.execute(&plan);
@@ -171,7 +172,7 @@ mod thread {
     /// The thread that draws.
     pub struct Thread {
         /// Dropped first, which ends the thread.
-        plans: Option<Sender<(Renderer, Plan)>>,
+        plans: Option<Sender<Box<(Renderer, Plan)>>>,
         finished: Receiver<(Renderer, Finished)>,
         handle: Option<JoinHandle<()>>,
     }
@@ -179,12 +180,12 @@ mod thread {
     impl Thread {
         /// A thread that waits for plans, if the system gives one. With `copies`, it reads back what it draws.
         pub fn new(copies: bool, wake: impl Fn() + Send + 'static) -> Option<Self> {
-            let (plans, begun) = channel();
+            let (plans, begun) = channel::<Box<(Renderer, Plan)>>();
             let (done, finished) = channel();
             let draw = move || {
-                for (renderer, plan) in begun {
+                for job in begun {
                     // Nobody listens any more once the window is gone.
-                    let _ = done.send(execute(renderer, plan, copies));
+                    let _ = done.send(execute(*job, copies));
                     wake();
                 }
             };
@@ -195,10 +196,10 @@ mod thread {
         }
 
         /// Lends it a renderer; one that it cannot take comes back.
-        pub fn begin(&self, renderer: Renderer, plan: Plan) -> Result<(), (Renderer, Plan)> {
+        pub fn begin(&self, job: Box<(Renderer, Plan)>) -> Result<(), Box<(Renderer, Plan)>> {
             match &self.plans {
-                Some(plans) => plans.send((renderer, plan)).map_err(|SendError(back)| back),
-                None => Err((renderer, plan)),
+                Some(plans) => plans.send(job).map_err(|SendError(job)| job),
+                None => Err(job),
             }
         }
 

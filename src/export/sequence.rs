@@ -11,7 +11,7 @@ use anyhow::{Context, bail};
 use super::{Format, Painter, PictureOptions, Progress, options::ending};
 use crate::{
     output::{FrameRate, Picture, Video, VideoFormat, VideoWriter},
-    plan::FrameRequest,
+    plan::{FrameRequest, Moment},
 };
 
 /// What a sequence is.
@@ -92,12 +92,14 @@ impl Sequence {
         Ok(Video { format, size, rate: self.rate, frames, gamut, has_alpha, metadata: Default::default() })
     }
 
-    /// Refuses what cannot be drawn before the first frame, not hours later, and opens the device: one moment of a scene can be drawn if all can.
+    /// Refuses what cannot be drawn before the first frame, not hours later, and opens the device: one moment of a scene can be drawn if all can
+    /// whose camera sees something.
     ///
     /// # Errors
     /// The last frame is too late, or the scene cannot be drawn.
     pub fn prepare(&self, painter: &mut Painter) -> anyhow::Result<()> {
         let last = self.request(painter, *self.frames.end())?;
+        self.frames.clone().try_for_each(|frame| painter.check_view(self.moment(painter, frame)?))?;
         painter.prepare(&last)
     }
 
@@ -155,7 +157,11 @@ impl Sequence {
     }
 
     fn request(&self, painter: &Painter, frame: u64) -> anyhow::Result<FrameRequest> {
-        painter.request(painter.moment(self.rate.time_s(frame), &format!("frame {frame}"))?)
+        painter.request(self.moment(painter, frame)?)
+    }
+
+    fn moment(&self, painter: &Painter, frame: u64) -> anyhow::Result<Moment> {
+        painter.moment(self.rate.time_s(frame), &format!("frame {frame}"))
     }
 }
 

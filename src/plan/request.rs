@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LentFilm, LightKey,
-    Lighting, OpticsKey, PlateKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
+    Lighting, Moment, OpticsKey, PlateKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
@@ -67,8 +67,21 @@ impl Story {
     ///
     /// The key of a scene that cannot be drawn: a camera below the bath, an index that no film has.
     pub fn request(&self, resources: &Resources, shot: &Shot) -> Result<FrameRequest, Fault> {
-        let time_s = shot.moment.ticks() * self.motion.tick_s;
-        self.request_from(&self.camera.at(time_s), resources, shot)
+        self.request_from(&self.camera_at(shot.moment), resources, shot)
+    }
+
+    /// Refuses the moment of a scene whose camera sees nothing then.
+    ///
+    /// # Errors
+    ///
+    /// The key of a camera below the bath.
+    pub fn check_view(&self, moment: Moment) -> Result<(), Fault> {
+        let is_below = |height_m: f64| self.camera_at(moment).eye().z <= height_m;
+        if bath_m(self).is_some_and(is_below) { Err(below_bath(self, moment)) } else { Ok(()) }
+    }
+
+    fn camera_at(&self, moment: Moment) -> Camera {
+        self.camera.at(moment.ticks() * self.motion.tick_s)
     }
 
     /// The frame request for a shot of the scene from a camera that stands, in place of the scene's own.
@@ -79,10 +92,9 @@ impl Story {
     pub fn request_from(&self, seen_from: &Camera, resources: &Resources, shot: &Shot) -> Result<FrameRequest, Fault> {
         let scene: &Scene = self;
         let camera = camera(seen_from, shot.size);
-        let bath_m =
-            scene.bubbles.iter().find(|bubble| bubble.boundary == Boundary::Bath).map(|bubble| bubble.center_m[2]);
+        let bath_m = bath_m(scene);
         if bath_m.is_some_and(|height_m| camera.eye_m.z <= height_m) {
-            return Err(below_bath(scene, shot));
+            return Err(below_bath(scene, shot.moment));
         }
         let mut bubbles: Vec<BubbleKey> = scene
             .bubbles
@@ -139,13 +151,18 @@ fn finish(scene: &Scene, shot: &Shot) -> Finish {
     Finish { glare, vignetting_ev, grain, grain_seed }
 }
 
+/// Height of the bath that bubbles stand on, if there is one, m.
+fn bath_m(scene: &Scene) -> Option<f64> {
+    scene.bubbles.iter().find(|bubble| bubble.boundary == Boundary::Bath).map(|bubble| bubble.center_m[2])
+}
+
 /// What is wrong with a camera below the bath.
-fn below_bath(scene: &Scene, shot: &Shot) -> Fault {
+fn below_bath(scene: &Scene, moment: Moment) -> Fault {
     let reason = "looks from below the bath that the bubbles stand on";
     let reason = if scene.camera.keyframes.is_empty() {
         format!("{reason}; raise it, or `target_m`")
     } else {
-        let time_s = shot.moment.ticks() * scene.motion.tick_s;
+        let time_s = moment.ticks() * scene.motion.tick_s;
         format!("{reason}, at {time_s:.2} s; raise it, or `target_m`, in the keyframes")
     };
     Fault::new("elevation_deg", reason).inside("camera")

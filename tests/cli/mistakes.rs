@@ -62,5 +62,12 @@ fn a_sequence_is_drawn_whole_or_not_at_all() {
     desk.write("below.toml", "version = 1\n[camera]\nelevation_deg = -9\n[[bubble]]\nboundary = \"bath\"\n");
     let line = desk.refused("sequence below.toml -o frames --frames 0..90 --size 32x18");
     assert!(line.contains("below.toml:3: `elevation_deg` in [camera] looks from below the bath"), "{line}");
+    // A camera that is above it at the start and at the end.
+    let keyframes: String = [(0, 9), (1, -9), (2, 9)]
+        .map(|(time_s, deg)| format!("[[camera.keyframe]]\ntime_s = {time_s}\nelevation_deg = {deg}\n"))
+        .concat();
+    desk.write("dips.toml", format!("version = 1\n{keyframes}[[bubble]]\nboundary = \"bath\"\n"));
+    let line = desk.refused("sequence dips.toml -o frames --frames 0..120 --size 32x18");
+    assert!(line.contains("looks from below the bath") && line.contains(" s; raise it"), "{line}");
     assert!(!desk.path("frames").exists());
 }

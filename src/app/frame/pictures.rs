@@ -11,6 +11,7 @@ use crate::{
         compare::Want,
         model::Model,
         producer::Producer,
+        render_thread::Finished,
     },
     output::Metadata,
     physics::colour::Gamut,
@@ -73,8 +74,8 @@ pub(super) struct Pictures {
 
 /// What became of a picture.
 enum Drawn {
-    /// It is there, after so many milliseconds.
-    Yes(Begun, Plan, f64),
+    /// It is there.
+    Yes(Box<(Begun, Finished)>),
     /// Not yet: the window is woken when it is.
     Waits,
     /// It cannot be drawn, and why.
@@ -117,10 +118,13 @@ impl View {
         }
         loop {
             match self.bring(model, first_tick) {
-                Drawn::Yes(begun, plan, ms) => match begun.purpose {
-                    Purpose::Show => return self.show(model, begun, plan, ms, due),
-                    purpose => self.hand_out(&begun.request, purpose, due),
-                },
+                Drawn::Yes(drawn) => {
+                    let (Begun { request, purpose, first_tick, .. }, finished) = *drawn;
+                    match purpose {
+                        Purpose::Show => return self.show(model, (request, first_tick), &finished, due),
+                        purpose => self.hand_out(&request, purpose, due),
+                    }
+                }
                 Drawn::Waits => {
                     self.wait(model, first_tick, due);
                     return false;
@@ -179,8 +183,8 @@ impl View {
             patience = PATIENCE;
         }
         let Some(finished) = self.stage.drawing.finished(patience) else { return Drawn::Waits };
-        match (self.pictures.begun.take(), finished.result) {
-            (Some(begun), Ok(())) => Drawn::Yes(begun, finished.plan, finished.ms),
+        match (self.pictures.begun.take(), &finished.result) {
+            (Some(begun), Ok(())) => Drawn::Yes(Box::new((begun, finished))),
             (Some(begun), Err(error)) => Drawn::Failed(begun.purpose, error.to_string()),
             (None, _) => Drawn::Waits,
         }
@@ -207,22 +211,28 @@ impl View {
     }
 
     /// A picture is there, and shown with the next paint; returns whether its pixels are others.
-    fn show(&mut self, model: &mut Model, begun: Begun, plan: Plan, ms: f64, due: &mut Due) -> bool {
+    fn show(
+        &mut self,
+        model: &mut Model,
+        (request, first_tick): (FrameRequest, u64),
+        Finished { plan, ms, .. }: &Finished,
+        due: &mut Due,
+    ) -> bool {
         model.drawing = false;
         if std::mem::take(&mut self.pictures.is_late) || !plan.complete {
             due.after(Duration::ZERO);
         }
         let Some(renderer) = self.stage.drawing.renderer() else { return false };
-        hold_clock(model, &begun.request, renderer.state(), begun.first_tick);
+        hold_clock(model, &request, renderer.state(), first_tick);
         // Times arrive when the device is polled; one that is lost is found out at the next redraw.
         let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
         model.costs.add_passes(renderer.times.take());
         if !plan.is_empty() {
-            model.costs.add(ms, renderer.counts);
+            model.costs.add(*ms, renderer.counts);
         }
-        let is_done = is_done(&begun.request, &plan, model.clock.running) && model.behind_ticks == 0;
+        let is_done = is_done(&request, plan, model.clock.running) && model.behind_ticks == 0;
         self.progress = if is_done { Progress::Done } else { Progress::Under };
-        self.shown = Some(begun.request.picture);
+        self.shown = Some(request.picture);
         !plan.is_empty()
     }
 

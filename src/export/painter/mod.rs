@@ -71,6 +71,14 @@ impl Painter {
         Ok(moment)
     }
 
+    /// Refuses a moment that cannot be drawn, in less time than its request takes.
+    ///
+    /// # Errors
+    /// The camera sees nothing then.
+    pub fn check_view(&self, moment: Moment) -> anyhow::Result<()> {
+        self.story.check_view(moment).map_err(|fault| self.loaded.source.locate(fault).into())
+    }
+
     /// What a picture of a moment needs.
     pub fn request(&self, moment: Moment) -> anyhow::Result<FrameRequest> {
         let samples = if self.options.is_reference() { 1 } else { self.options.samples };
