@@ -135,15 +135,15 @@ impl CubedSphere {
     /// The place of cell (i, j) in padded storage; i and j run from −[`HALO`] to N + [`HALO`] − 1.
     pub fn padded_index(self, panel: usize, i: isize, j: isize) -> usize {
         let width = self.padded_width();
-        let [i, j] = [i, j].map(|k| (k + HALO as isize) as usize);
-        (panel * width + j) * width + i
+        let (i, j) = (i + HALO as isize, j + HALO as isize);
+        (panel * width + j as usize) * width + i as usize
     }
 
     /// The unit vector at a place in padded storage, the inverse of [`Self::padded_index`].
     pub fn padded_direction(self, index: usize) -> DVec3 {
         let width = self.padded_width();
-        let (row, i) = (index / width, index % width);
-        let [x, y] = [i, row % width].map(|k| k as f64 - HALO as f64);
+        let row = index / width;
+        let (x, y) = ((index % width) as f64 - HALO as f64, (row % width) as f64 - HALO as f64);
         self.direction(PanelPoint { panel: row / width, x, y })
     }
 

@@ -114,8 +114,8 @@ impl<T: FieldValue> PaddedField<T> {
     /// Gives each halo cell its value, made of an entry of the table and the four values that it reads.
     fn fill(&mut self, halo: &HaloTable, value: impl Fn(&HaloEntry, [T; 4]) -> T) {
         for entry in halo.edges.iter().chain(&halo.corners) {
-            let source = std::array::from_fn(|k| self.values[entry.source(k as u32) as usize]);
-            self.values[entry.cell as usize] = value(entry, source);
+            let source = |k| self.values[entry.source(k) as usize];
+            self.values[entry.cell as usize] = value(entry, [source(0), source(1), source(2), source(3)]);
         }
     }
 }
@@ -147,14 +147,15 @@ impl PaddedField<f64> {
         let place = self.grid.locate(direction);
         let first = self.grid.padded_index(place.panel, place.x.floor() as isize, place.y.floor() as isize);
         let above = first + self.grid.padded_width();
-        let [low, high] = range([first, first + 1, above, above + 1].map(|index| self.values[index]));
+        let cells = &self.values;
+        let [low, high] = range([cells[first], cells[first + 1], cells[above], cells[above + 1]]);
         value.clamp(low, high)
     }
 }
 
 /// The smallest and the largest of four values.
-fn range(values: [f64; 4]) -> [f64; 2] {
-    values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+fn range([a, b, c, d]: [f64; 4]) -> [f64; 2] {
+    [a.min(b).min(c.min(d)), a.max(b).max(c.max(d))]
 }
 
 /// The weights of an entry.
