@@ -6,6 +6,7 @@
 //! [`flow`], [`film`] and [`draw`], which compose them.
 
 mod abilities;
+mod adapter;
 pub mod composition;
 pub mod control;
 pub mod copies;
@@ -38,5 +39,6 @@ pub mod timing;
 pub mod transport_case;
 pub mod uniform_buffer;
 
-pub use device::{AdapterChoice, Gpu, GpuError};
+pub use adapter::AdapterChoice;
+pub use device::{Gpu, GpuError};
 pub use renderer::Renderer;

@@ -1,5 +1,6 @@
 //! The keys of products: for each, exactly what its pass reads.
 
+mod bubble;
 mod environment;
 mod film;
 mod history;
@@ -10,14 +11,12 @@ mod plate;
 mod rest;
 mod step;
 
+pub(in crate::plan) use bubble::samples;
+pub use bubble::{BubbleKey, LentFilm, SmallBubble};
 pub use environment::{DefocusKey, EnvironmentKey};
 pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};
 pub use optics::{OpticsKey, QuadratureKey, TableKey, range_nm};
-pub(in crate::plan) use picture::samples;
-pub use picture::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, FilmColours, LentFilm, LightKey, Lighting, SmallBubble, TonemapKey,
-    exposed_ev,
-};
+pub use picture::{BackdropKey, CameraKey, DrawKey, FilmColours, LightKey, Lighting, TonemapKey, exposed_ev};
 pub use plate::PlateKey;
 pub use rest::RestingFilm;
 

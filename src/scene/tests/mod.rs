@@ -4,6 +4,7 @@ use super::*;
 use crate::Words;
 use page::{Row, documented};
 
+mod orders;
 #[path = "../../../tests/support/page.rs"]
 mod page;
 mod random;
