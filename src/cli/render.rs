@@ -9,7 +9,7 @@ use super::{measure, parse, picture::PictureArguments, progress::progress};
 use crate::{
     export::{Format, Painter},
     output::{Picture, check_target, print},
-    plan::FrameRequest,
+    plan::Moment,
 };
 
 /// Draw one picture into a PNG or EXR file.
@@ -49,12 +49,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let mut painter = arguments.picture.painter(format, &arguments.scene)?;
     let moment = painter.moment(arguments.time, &format!("--time {}", arguments.time))?;
-    let request = painter.request(moment)?;
-    let picture = draw(arguments, &mut painter, &request)?;
+    let picture = draw(arguments, &mut painter, moment)?;
     Ok(picture.save(&arguments.output, &painter.metadata(arguments.time))?)
 }
 
-fn draw(arguments: &Arguments, painter: &mut Painter, request: &FrameRequest) -> anyhow::Result<Picture> {
+fn draw(arguments: &Arguments, painter: &mut Painter, moment: Moment) -> anyhow::Result<Picture> {
     let measures = arguments.repeat > 0 || arguments.stats.is_some();
     let is_plain = arguments.picture.options().is_plain();
     if !is_plain && (arguments.explain || measures) {
@@ -62,12 +61,13 @@ fn draw(arguments: &Arguments, painter: &mut Painter, request: &FrameRequest) ->
             "--explain, --repeat and --stats report on one frame on the GPU; leave them out with --quality reference, --alpha, --layers and --samples"
         );
     }
-    painter.prepare(request)?;
+    let request = painter.request(moment)?;
+    painter.prepare(&request)?;
     let progress = progress("render", painter.parts());
     if !is_plain {
-        return painter.paint(request, &progress);
+        return painter.paint(moment, &progress);
     }
-    let (picture, plan) = painter.draw(request, &progress)?;
+    let (picture, plan) = painter.draw(&request, &progress)?;
     drop(progress);
     if arguments.explain {
         print(plan)?;
@@ -75,7 +75,7 @@ fn draw(arguments: &Arguments, painter: &mut Painter, request: &FrameRequest) ->
     if measures {
         let renderer = painter.renderer()?;
         let first = measure::passes(renderer);
-        let cost = measure::frames(renderer, request, arguments.repeat, arguments.yardstick)?;
+        let cost = measure::frames(renderer, &request, arguments.repeat, arguments.yardstick)?;
         measure::report(renderer, &first, &cost, arguments.stats.as_deref())?;
     }
     Ok(picture)

@@ -63,8 +63,8 @@ impl Job {
         match self {
             Self::Picture { options, format, time_s, path } => {
                 let mut painter = Painter::new(*options, *format, scene, open)?;
-                let request = painter.request(painter.moment(*time_s, &format!("{time_s} s"))?)?;
-                let picture = painter.paint(&request, &Progress::new(painter.parts(), observer))?;
+                let moment = painter.moment(*time_s, &format!("{time_s} s"))?;
+                let picture = painter.paint(moment, &Progress::new(painter.parts(), observer))?;
                 Ok(picture.save(path, &painter.metadata(*time_s))?)
             }
             Self::Sequence { options, sequence } => {

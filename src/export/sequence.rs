@@ -11,7 +11,7 @@ use anyhow::{Context, bail};
 use super::{Format, Painter, PictureOptions, Progress, options::ending};
 use crate::{
     output::{FrameRate, Picture, Video, VideoFormat, VideoWriter},
-    plan::{FrameRequest, Moment},
+    plan::Moment,
 };
 
 /// What a sequence is.
@@ -98,7 +98,7 @@ impl Sequence {
     /// # Errors
     /// The last frame is too late, or the scene cannot be drawn.
     pub fn prepare(&self, painter: &mut Painter) -> anyhow::Result<()> {
-        let last = self.request(painter, *self.frames.end())?;
+        let last = painter.request(self.moment(painter, *self.frames.end())?)?;
         self.frames.clone().try_for_each(|frame| painter.check_view(self.moment(painter, frame)?))?;
         painter.prepare(&last)
     }
@@ -140,7 +140,7 @@ impl Sequence {
                 progress.parts(painter.parts(), 1).add(1);
                 continue;
             }
-            let picture = painter.paint(&self.request(painter, frame)?, progress)?;
+            let picture = painter.paint(self.moment(painter, frame)?, progress)?;
             picture.save(&path, &painter.metadata(self.rate.time_s(frame)).of_frame(self.rate, frame))?;
         }
         Ok(kept)
@@ -148,16 +148,12 @@ impl Sequence {
 
     fn draw_video(&self, painter: &mut Painter, progress: &Progress, mut video: VideoWriter) -> anyhow::Result<()> {
         for frame in self.frames.clone() {
-            match painter.paint(&self.request(painter, frame)?, progress)? {
+            match painter.paint(self.moment(painter, frame)?, progress)? {
                 Picture::Display { rgba, .. } => video.add(&rgba)?,
                 Picture::Radiance { .. } | Picture::Channels { .. } => bail!("a video shows what a display shows"),
             }
         }
         Ok(video.finish()?)
-    }
-
-    fn request(&self, painter: &Painter, frame: u64) -> anyhow::Result<FrameRequest> {
-        painter.request(self.moment(painter, frame)?)
     }
 
     fn moment(&self, painter: &Painter, frame: u64) -> anyhow::Result<Moment> {

@@ -35,7 +35,7 @@ pub use keys::{
 pub use lender::film_owners;
 pub use pass::{Pass, Reason};
 pub use request::{Resources, SpectralLight, film_index, request};
-pub use shot::Shot;
+pub use shot::{LensSample, Shot};
 pub use story::Story;
 pub use work::{Prepared, Product, SeedKey, Work};
 

@@ -6,8 +6,8 @@ use glam::{DMat3, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LentFilm, LightKey,
-    Lighting, Moment, OpticsKey, PlateKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LensSample,
+    LentFilm, LightKey, Lighting, Moment, OpticsKey, PlateKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
@@ -70,6 +70,20 @@ impl Story {
         self.request_from(&self.camera_at(shot.moment), resources, shot)
     }
 
+    /// The frame request for a shot of the scene through one place of the lens.
+    ///
+    /// # Errors
+    ///
+    /// As [`Story::request`].
+    pub fn request_through(
+        &self,
+        lens: &LensSample,
+        resources: &Resources,
+        shot: &Shot,
+    ) -> Result<FrameRequest, Fault> {
+        self.request_by(&self.camera_at(shot.moment), lens, resources, shot)
+    }
+
     /// Refuses the moment of a scene whose camera sees nothing then.
     ///
     /// # Errors
@@ -90,8 +104,18 @@ impl Story {
     ///
     /// As [`Story::request`].
     pub fn request_from(&self, seen_from: &Camera, resources: &Resources, shot: &Shot) -> Result<FrameRequest, Fault> {
+        self.request_by(seen_from, &LensSample::MIDDLE, resources, shot)
+    }
+
+    fn request_by(
+        &self,
+        seen_from: &Camera,
+        lens: &LensSample,
+        resources: &Resources,
+        shot: &Shot,
+    ) -> Result<FrameRequest, Fault> {
         let scene: &Scene = self;
-        let camera = camera(seen_from, shot.size);
+        let camera = through(camera(seen_from, shot.size), lens, scene.lens.in_focus_m(seen_from));
         let bath_m = bath_m(scene);
         if bath_m.is_some_and(|height_m| camera.eye_m.z <= height_m) {
             return Err(below_bath(scene, shot.moment));
@@ -115,7 +139,8 @@ impl Story {
         let own =
             SpectralLight { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
         let lighting = |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &films, are_many);
-        let light = light(scene, resources, seen_from, &camera);
+        let defocus_rad = lens.defocus * scene.lens.defocus_rad(seen_from);
+        let light = light(scene, resources, defocus_rad, &camera);
         let draw = DrawKey {
             size: shot.size,
             full_precision: shot.full_precision,
@@ -179,12 +204,23 @@ fn camera(camera: &Camera, [_, height]: [u32; 2]) -> CameraKey {
     }
 }
 
+/// A camera that looks through one place of its lens. What is in focus stays where it is in the picture.
+fn through(camera: CameraKey, lens: &LensSample, in_focus_m: f64) -> CameraKey {
+    let LensSample { offset_m, in_pixel, .. } = *lens;
+    let in_focus = offset_m / (in_focus_m * camera.pixel_height_m);
+    CameraKey {
+        eye_m: camera.eye_m + offset_m.x * camera.right + offset_m.y * camera.up,
+        shift: camera.shift + DVec2::new(in_focus.x, -in_focus.y) - in_pixel,
+        ..camera
+    }
+}
+
 fn plate(scene: &Scene, resources: &Resources, size: [u32; 2]) -> Option<PlateKey> {
     let plate = resources.plate.clone().filter(|_| scene.view.plate.is_some())?;
     Some(PlateKey { plate, whole: size, corner: [0; 2], size })
 }
 
-fn light(scene: &Scene, resources: &Resources, seen_from: &Camera, camera: &CameraKey) -> LightKey {
+fn light(scene: &Scene, resources: &Resources, defocus_rad: f64, camera: &CameraKey) -> LightKey {
     // A constant environment is a white cube times this factor: exact, where half floats in the cube would round.
     let constant = scene.light.constant.filter(|_| scene.light.lamps.is_empty());
     let constant = constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
@@ -205,7 +241,7 @@ fn light(scene: &Scene, resources: &Resources, seen_from: &Camera, camera: &Came
         polariser,
         rotation_rad: scene.light.rotation_deg.to_radians(),
         backdrop,
-        defocus_rad: scene.lens.defocus_rad(seen_from),
+        defocus_rad,
     }
 }
 

@@ -34,8 +34,10 @@ pub(super) fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius
     }
     let half = size.map(|pixels| 0.5 * f64::from(pixels) * camera.pixel_height_m);
     let margin = DVec2::new(2.0 / f64::from(size[0]), 2.0 / f64::from(size[1]));
-    let x = span(offset.dot(camera.right), depth, radius_m).map(|x| x / half[0]);
-    let y = span(offset.dot(camera.up), depth, radius_m).map(|y| y / half[1]);
+    // Clip coordinates point up.
+    let shift = camera.shift * DVec2::new(margin.x, -margin.y);
+    let x = span(offset.dot(camera.right), depth, radius_m).map(|x| x / half[0] + shift.x);
+    let y = span(offset.dot(camera.up), depth, radius_m).map(|y| y / half[1] + shift.y);
     let low = (DVec2::new(x[0], y[0]) - margin).max(DVec2::NEG_ONE);
     let high = (DVec2::new(x[1], y[1]) + margin).min(DVec2::ONE);
     (low.x < high.x && low.y < high.y).then_some([low, high])

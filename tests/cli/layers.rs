@@ -129,3 +129,27 @@ fn what_does_not_fit_together_is_refused() {
     assert!(desk.refused("render default -o a.png --layers").contains("EXR"));
     assert!(desk.refused("render default -o a.png --alpha --repeat 2").contains("--alpha"));
 }
+
+/// A bubble out of focus before windows, and a camera that turns while the shutter is open.
+const LENS: &str = "version = 1\n[light]\nenvironment = 'windows'\n[view]\nbackdrop = 'environment'\ndither = false\n\
+    [camera]\ndistance_m = 0.3\n[[camera.keyframe]]\nazimuth_deg = 0\nease = 'linear'\n[[camera.keyframe]]\ntime_s = 1\nazimuth_deg = 12\n\
+    [lens]\naperture_mm = 12\nfocus_m = 0.2\nblades = 6\nshutter_s = 1\n[[bubble]]\n[bubble.film]\nstate = 'uniform'\nthickness_nm = 400\n";
+
+#[test]
+fn stills_are_blurred_by_lens_and_shutter_as_the_reference_is() {
+    let desk = Desk::new();
+    desk.write("lens.toml", LENS);
+    let Some(_) = desk.done("render lens.toml -o lens.exr --size 48x32 --samples 4") else { return };
+    desk.done("render lens.toml -o truth.exr --size 48x32 --samples 4 --quality reference");
+    desk.done("render lens.toml -o sharp.exr --size 48x32 --samples 4 --set lens.aperture_mm=0 --set lens.shutter_s=0");
+    let [lens, truth, sharp] =
+        ["lens.exr", "truth.exr", "sharp.exr"].map(|name| colour(&read_exr(&desk.path(name)).unwrap(), ""));
+    let mean = |a: &[[f32; 3]], b: &[[f32; 3]]| {
+        let pairs = a.as_flattened().iter().zip(b.as_flattened());
+        pairs.map(|(a, b)| (a - b).abs()).sum::<f32>() / a.as_flattened().len() as f32
+    };
+    let (error, blur) = (mean(&lens, &truth), mean(&sharp, &truth));
+    eprintln!("measured: error {error:.5}, blur {blur:.5}");
+    // What is left is how each of the two antialiases a single sample.
+    assert!(blur > 0.02 && error < 0.1 * blur, "{error} {blur}");
+}

@@ -6,7 +6,7 @@ use anyhow::Context;
 use glam::{DVec3, Vec3};
 
 use super::{
-    Painter,
+    Exposure, Painter,
     finished::{alpha, colour_channels, in_bt709, vector_channels},
     parts::PICTURES_OF_PASSAGES,
 };
@@ -33,9 +33,10 @@ type Channels = Vec<(String, Vec<f32>)>;
 
 impl Painter {
     /// The layers of a picture.
-    pub(super) fn layers(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Picture> {
+    pub(super) fn layers(&mut self, shot: &Exposure, progress: &Progress) -> anyhow::Result<Picture> {
+        let request = &shot.request;
         let size = self.options.size;
-        let mut channels = self.colours(request, progress)?;
+        let mut channels = self.colours(shot, progress)?;
         let draw = self.at_pixels(&request.picture.draw);
         let films = self.films_in_sight(request, &draw)?;
         channels.extend(data(&draw, &films)?);
@@ -43,8 +44,8 @@ impl Painter {
     }
 
     /// Beauty and what it is made of. What stands behind is left out of all of them with `--alpha`.
-    fn colours(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Channels> {
-        let light = self.passages(request, progress)?;
+    fn colours(&mut self, shot: &Exposure, progress: &Progress) -> anyhow::Result<Channels> {
+        let light = self.passages(shot, progress)?;
         let to_bt709 = bt2020_to_bt709();
         let transmission = parallel::map(light.len(), |k| light[k].transmittance(&to_bt709).as_vec3());
         let arrays = |colours: &[Vec3]| colours.iter().map(Vec3::to_array).collect::<Vec<_>>();
@@ -57,9 +58,8 @@ impl Painter {
             return Ok(channels);
         }
         drop(light);
-        let draw = &request.picture.draw;
-        let background = in_bt709(&self.radiance(request, draw.without_bubbles(), progress)?);
-        let beauty = in_bt709(&self.radiance(request, draw.clone(), progress)?);
+        let background = in_bt709(&self.exposed(shot, &DrawKey::without_bubbles, progress)?);
+        let beauty = in_bt709(&self.exposed(shot, &DrawKey::clone, progress)?);
         let parts = beauty.iter().zip(&background).zip(&transmission);
         let reflection: Vec<[f32; 3]> = parts
             .map(|((beauty, background), left)| (Vec3::from(*beauty) - *left * Vec3::from(*background)).to_array())

@@ -16,7 +16,8 @@ use crate::{
     gpu::{Gpu, GpuError, Renderer},
     input::LoadedScene,
     output::{Metadata, Picture},
-    plan::{FrameRequest, Moment, Pace, Plan, Shot, Story, plan},
+    plan::{DrawKey, FrameRequest, LensSample, Moment, Pace, Plan, Shot, Story, plan},
+    scene::Lens,
     studio::MAX_TICKS,
     verify::reference::{MovedFilms, moved_film, needs_device},
 };
@@ -25,6 +26,14 @@ use parts::{PICTURES_OF_PASSAGES, tiles};
 
 /// Opens the device that pictures are drawn on.
 pub type OpenGpu = Box<dyn FnOnce() -> Result<Gpu, GpuError> + Send>;
+
+/// A picture that is taken.
+struct Exposure {
+    /// When the shutter opens.
+    moment: Moment,
+    /// All of it at that moment, through the middle of the lens.
+    request: FrameRequest,
+}
 
 /// Draws pictures of one scene.
 pub struct Painter {
@@ -82,6 +91,26 @@ impl Painter {
     /// What a picture of a moment needs.
     pub fn request(&self, moment: Moment) -> anyhow::Result<FrameRequest> {
         let samples = if self.options.is_reference() { 1 } else { self.options.samples };
+        self.request_by(&LensSample::MIDDLE, moment, samples)
+    }
+
+    /// What one of the pictures needs whose mean is the picture of a moment through the whole lens, while the shutter is open.
+    fn request_through(&self, moment: Moment, k: u32, count: u32) -> anyhow::Result<FrameRequest> {
+        let Lens { aperture_mm, blades, shutter_s, .. } = self.story.lens;
+        let lens = LensSample::of(k, count, 0.5e-3 * aperture_mm, blades);
+        let tick_s = self.story.motion.tick_s;
+        let open_s = shutter_s * (f64::from(k) + 0.5) / f64::from(count);
+        self.request_by(&lens, Moment::of_time(moment.ticks() * tick_s + open_s, tick_s), 1)
+    }
+
+    /// How many pictures the picture of a moment is the mean of: more than one where a lens or a shutter needs them.
+    fn lens_samples(&self) -> u32 {
+        let Lens { aperture_mm, shutter_s, .. } = self.story.lens;
+        let is_sharp = aperture_mm == 0.0 && shutter_s == 0.0;
+        if is_sharp || self.options.layers { 1 } else { self.options.samples.pow(2) }
+    }
+
+    fn request_by(&self, lens: &LensSample, moment: Moment, samples: u32) -> anyhow::Result<FrameRequest> {
         let shot = Shot {
             size: self.options.size.map(|pixels| samples * pixels),
             moment,
@@ -90,7 +119,7 @@ impl Painter {
             yardstick: false,
             pace: Pace::Whole,
         };
-        let request = self.story.request(&self.loaded.resources, &shot);
+        let request = self.story.request_through(lens, &self.loaded.resources, &shot);
         let mut request = request.map_err(|fault| self.loaded.source.locate(fault))?;
         if self.options.is_reference() {
             let bubbles = request.picture.draw.bubbles.iter_mut();
@@ -124,7 +153,11 @@ impl Painter {
 
     /// How many parts the work of a picture has, as its progress is reported.
     pub fn parts(&self) -> u64 {
-        let tiles = if self.options.is_reference() { 1 } else { tiles(self.options.size, self.options.samples).len() };
+        let tiles = match self.lens_samples() {
+            1 if self.options.is_reference() => 1,
+            1 => tiles(self.options.size, self.options.samples).len(),
+            count => count as usize,
+        };
         let pictures = match (self.options.layers, self.options.alpha) {
             (true, false) => PICTURES_OF_LAYERS,
             (_, true) => PICTURES_OF_PASSAGES,
@@ -133,23 +166,24 @@ impl Painter {
         tiles as u64 * pictures
     }
 
-    /// Draws or computes a picture, which is the next [`Self::parts`] of the work.
-    pub fn paint(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Picture> {
-        let (size, format, key) = (self.options.size, self.format, &request.picture);
+    /// Draws or computes the picture of a moment, which is the next [`Self::parts`] of the work.
+    pub fn paint(&mut self, moment: Moment, progress: &Progress) -> anyhow::Result<Picture> {
+        let shot = Exposure { moment, request: self.request(moment)? };
+        let (size, format, key) = (self.options.size, self.format, &shot.request.picture);
         if self.options.is_plain() {
-            return Ok(self.draw(request, progress)?.0);
+            return Ok(self.draw(&shot.request, progress)?.0);
         }
         if self.options.layers {
-            return self.layers(request, progress);
+            return self.layers(&shot, progress);
         }
         if self.options.alpha {
-            let light = self.passages(request, progress)?;
+            let light = self.passages(&shot, progress)?;
             return Ok(match format {
                 Format::Png => finished::display_alone(key, size, &light),
                 Format::Exr => finished::linear_alone(size, &light),
             });
         }
-        let radiance = self.radiance(request, key.draw.clone(), progress)?;
+        let radiance = self.exposed(&shot, &DrawKey::clone, progress)?;
         Ok(match format {
             Format::Png => finished::display(key, size, &radiance),
             Format::Exr => finished::linear(size, &radiance),

@@ -1,9 +1,9 @@
 //! The linear pictures that a file is made of, drawn or computed, at any number of samples per pixel.
 
 use anyhow::Context;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
-use super::{Painter, carry_out, finished::Passage};
+use super::{Exposure, Painter, carry_out, finished::Passage};
 use crate::{
     export::Progress,
     physics::picture::Finish,
@@ -25,18 +25,45 @@ pub(super) fn tiles([width, height]: [u32; 2], samples: u32) -> Vec<[[u32; 2]; 2
 pub(super) const PICTURES_OF_PASSAGES: u64 = 3;
 
 impl Painter {
-    /// Radiance of each pixel of the file, linear BT.2020. `draw` is the linear picture of a request, or a part of it.
+    /// Radiance of each pixel of the file, linear BT.2020: of the linear picture of a request, or of a part of it.
     pub(super) fn radiance(
         &mut self,
         request: &FrameRequest,
-        draw: DrawKey,
+        part: &dyn Fn(&DrawKey) -> DrawKey,
         progress: &Progress,
     ) -> anyhow::Result<Vec<Vec3>> {
+        let draw = part(&request.picture.draw);
         if self.options.is_reference() {
             self.computed(request, draw, progress)
         } else {
             self.drawn(request, &draw, progress)
         }
+    }
+
+    /// As [`Self::radiance`], through the whole lens while the shutter is open, where the scene has them: the mean of pictures of one sample per pixel,
+    /// each through another place of the lens.
+    pub(super) fn exposed(
+        &mut self,
+        shot: &Exposure,
+        part: &dyn Fn(&DrawKey) -> DrawKey,
+        progress: &Progress,
+    ) -> anyhow::Result<Vec<Vec3>> {
+        let count = self.lens_samples();
+        if count == 1 {
+            return self.radiance(&shot.request, part, progress);
+        }
+        let mut sum = vec![DVec3::ZERO; self.options.size.map(|pixels| pixels as usize).iter().product()];
+        for k in 0..count {
+            let request = self.request_through(shot.moment, k, count)?;
+            let draw = part(&request.picture.draw);
+            let seen = if self.options.is_reference() {
+                self.computed(&request, draw, progress)?
+            } else {
+                self.draw_tile(&request, draw, progress)?
+            };
+            sum.iter_mut().zip(seen).for_each(|(sum, seen)| *sum += seen.as_dvec3());
+        }
+        Ok(sum.into_iter().map(|sum| (sum / f64::from(count)).as_vec3()).collect())
     }
 
     fn computed(&mut self, request: &FrameRequest, draw: DrawKey, progress: &Progress) -> anyhow::Result<Vec<Vec3>> {
@@ -73,12 +100,10 @@ impl Painter {
     }
 
     /// What bubbles add, and what they leave of light from behind.
-    pub(super) fn passages(&mut self, request: &FrameRequest, progress: &Progress) -> anyhow::Result<Vec<Passage>> {
-        let draw = &request.picture.draw;
-        let white = draw.before_white();
-        let through = self.radiance(request, white.clone(), progress)?;
-        let white = self.radiance(request, white.without_bubbles(), progress)?;
-        let added = self.radiance(request, draw.before_black(), progress)?;
+    pub(super) fn passages(&mut self, shot: &Exposure, progress: &Progress) -> anyhow::Result<Vec<Passage>> {
+        let through = self.exposed(shot, &DrawKey::before_white, progress)?;
+        let white = self.exposed(shot, &|draw| draw.before_white().without_bubbles(), progress)?;
+        let added = self.exposed(shot, &DrawKey::before_black, progress)?;
         let light = added.into_iter().zip(through).zip(white);
         Ok(light.map(|((added, through), white)| Passage { added, through, white }).collect())
     }

@@ -25,6 +25,7 @@
 //! Surroundings are unpolarised, and a bath mirrors without polarising (see `bath.rs`). Rays are straight (refraction shifts them by less than the
 //! film's thickness). What stands behind the bubbles is seen straight through them only, not in reflections.
 
+mod aperture;
 mod bath;
 mod finish;
 mod front;
@@ -39,6 +40,7 @@ use glam::{DMat3, DVec2, DVec3};
 use crate::parallel;
 
 use super::colour::{ColourWeights, FilmOptics};
+pub use aperture::{aperture_place, spread};
 pub use finish::Finish;
 pub use front::{FrontBubble, FrontPixel, FrontScene, FrontWall};
 use light_path::LightPath;

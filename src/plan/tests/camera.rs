@@ -1,5 +1,7 @@
 //! A camera that keyframes move.
 
+use glam::DVec2;
+
 use super::*;
 use crate::scene::{Camera, Ease, Keyframe, Lens};
 
@@ -89,4 +91,34 @@ fn a_camera_that_goes_below_a_bath_is_refused_with_the_time() {
     assert!(request(&scene, &resources(), &shot(0, Pace::Whole)).is_ok());
     let error = request(&scene, &resources(), &shot(60, Pace::Whole)).unwrap_err().to_string();
     assert!(error.contains("at 1.00 s; raise it, or `target_m`, in the keyframes"), "{error}");
+}
+
+#[test]
+fn through_the_edge_of_a_lens_the_focus_stays_and_what_is_behind_it_moves() {
+    let mut scene = uniform_scene();
+    scene.camera = Camera { azimuth_deg: 0.0, elevation_deg: 0.0, distance_m: 0.5, ..Camera::default() };
+    let bubble = |x_m: f64| Bubble { center_m: [x_m, 0.0, 0.0], radius_mm: 5.0, ..scene.bubbles[0].clone() };
+    // In focus, and twice as far away.
+    scene.bubbles = vec![bubble(0.0), bubble(-0.5)];
+    let story = Story::new(scene);
+    let through = |offset_m: DVec2| {
+        let lens = LensSample { offset_m, ..LensSample::MIDDLE };
+        story.request_through(&lens, &resources(), &shot(0, Pace::Whole)).unwrap().picture.draw
+    };
+    let offset_m = DVec2::new(0.01, 0.004);
+    let (middle, edge) = (through(DVec2::ZERO), through(offset_m));
+    let place = |draw: &DrawKey, index: usize| {
+        let bubble = draw.bubbles.iter().find(|bubble| bubble.index == index).unwrap();
+        let from_eye = bubble.center_m - draw.camera.eye_m;
+        let across = DVec2::new(from_eye.dot(draw.camera.right), -from_eye.dot(draw.camera.up));
+        let pixels = across / from_eye.dot(draw.camera.forward) / draw.camera.pixel_height_m;
+        // The middle of the outline's rectangle, of which clip coordinates point up.
+        let of_outline = 0.5 * (bubble.bounds[0] + bubble.bounds[1]) * DVec2::new(32.0, -18.0);
+        assert!(of_outline.distance(pixels + draw.camera.shift) < 0.01, "{of_outline}");
+        pixels + draw.camera.shift
+    };
+    assert!(place(&middle, 0).distance(place(&edge, 0)) < 1e-9);
+    let moved = place(&edge, 1) - place(&middle, 1);
+    let expected = DVec2::new(offset_m.x, -offset_m.y) * (1.0 / 0.5 - 1.0) / middle.camera.pixel_height_m;
+    assert!(moved.distance(expected) < 1e-9, "{moved} {expected}");
 }

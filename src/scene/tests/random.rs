@@ -77,10 +77,12 @@ fn keyframes() -> impl Strategy<Value = Vec<Keyframe>> {
 
 fn lens() -> impl Strategy<Value = Lens> {
     let finish = (0.0..0.5, 0.0..4.0, 0.0..0.5);
-    (0.0..200.0, prop::option::of(0.01..1e3), finish).prop_map(
-        |(aperture_mm, focus_m, (glare, vignetting_ev, grain))| Lens {
+    (0.0..200.0, prop::option::of(0.01..1e3), 0u32..=16, 0.0..10.0, finish).prop_map(
+        |(aperture_mm, focus_m, blades, shutter_s, (glare, vignetting_ev, grain))| Lens {
             aperture_mm,
             focus_m,
+            blades,
+            shutter_s,
             glare,
             vignetting_ev,
             grain,
