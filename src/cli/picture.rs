@@ -33,7 +33,7 @@ pub struct PictureArguments {
     /// its thickness, normal, position, depth, angle, place on the film and number of its bubble
     #[arg(long)]
     layers: bool,
-    /// Take N x N samples per pixel
+    /// Take N x N samples per pixel, each through another place of the lens and while the shutter is open, if the scene's [lens] has them
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     samples: u32,
     #[command(flatten)]
