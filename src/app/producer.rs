@@ -64,6 +64,9 @@ mod tests {
         plan::{GpuState, Moment, Pace, Shot, plan},
     };
 
+    /// What a busy machine may take for all of the work.
+    const LONGEST: Duration = Duration::from_secs(600);
+
     #[test]
     fn a_plan_is_ready_once_all_its_work_is_done() {
         let (told, arrived) = channel();
@@ -82,7 +85,7 @@ mod tests {
         assert!(count >= 2, "a film and its colours");
         assert!(!producer.prepare(&plan, &mut prepared));
         for _ in 0..count {
-            arrived.recv_timeout(Duration::from_secs(60)).unwrap();
+            arrived.recv_timeout(LONGEST).unwrap();
             producer.prepare(&plan, &mut prepared);
         }
         assert!(producer.prepare(&plan, &mut prepared));

@@ -206,7 +206,7 @@ fn written(key: &str, default: &str, value: f64) -> String {
     // TOML writes `nan` where Rust writes `NaN`.
     let number = format!("{value:?}").to_lowercase();
     match key {
-        "cells" | "count" | "films" | "remap_ticks" | "ticks" | "version" => {
+        "blades" | "cells" | "count" | "films" | "remap_ticks" | "ticks" | "version" => {
             format!("{}", value.round()).to_lowercase()
         }
         _ if default.starts_with('[')
