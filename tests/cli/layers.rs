@@ -144,7 +144,7 @@ fn stills_are_blurred_by_lens_and_shutter_and_lose_no_light() {
         Some(colour(&read_exr(&desk.path(name)).unwrap(), ""))
     };
     let Some(few) = render("few.exr", "--samples 4") else { return };
-    let mut other = |name: &str, more: &str| render(name, more).unwrap();
+    let other = |name: &str, more: &str| render(name, more).unwrap();
     let many = other("many.exr", "--samples 10");
     let sharp = other("sharp.exr", "--samples 4 --set lens.aperture_mm=0 --set lens.shutter_s=0");
     let still = other("still.exr", "--samples 4 --set lens.shutter_s=0");

@@ -37,7 +37,7 @@ mod tests {
     const COUNT: u32 = 4096;
 
     fn places(blades: u32) -> Vec<DVec2> {
-        (0..COUNT).map(|k| spread(k)).map(|[u, v, ..]| aperture_place(blades, [u, v])).collect()
+        (0..COUNT).map(spread).map(|[u, v, ..]| aperture_place(blades, [u, v])).collect()
     }
 
     /// Mean and mean square of the distance from the middle against those of a polygon of circumradius 1: ∫ r² dA / A = (2 + cos 2π/n) / 6.
