@@ -12,7 +12,7 @@ pub struct BubbleKey {
     pub id: u32,
     /// Index of its film, which for a bubble of the scene is the bubble's own.
     pub index: usize,
-    /// Index of the material of its film in each of the [`Lighting`]s.
+    /// Index of the material of its film in each of the [`Lighting`](super::Lighting)s.
     pub material: usize,
     /// Center in metres.
     pub center_m: DVec3,
@@ -57,7 +57,7 @@ impl BubbleKey {
 pub struct LentFilm {
     /// Index of the film.
     pub index: usize,
-    /// Index of its material in each of the [`Lighting`]s.
+    /// Index of its material in each of the [`Lighting`](super::Lighting)s.
     pub material: usize,
     /// The film.
     pub film: FilmKey,
@@ -80,7 +80,7 @@ pub struct SmallBubble {
     pub radius_m: f64,
     /// Bounding rectangle in clip coordinates, lower left and upper right.
     pub bounds: [DVec2; 2],
-    /// Its film's place in [`DrawKey::lent`].
+    /// Its film's place in [`DrawKey::lent`](super::DrawKey::lent).
     pub lent: usize,
     /// How far its film is turned about the vertical, radians.
     pub turn_rad: f64,
