@@ -1,6 +1,6 @@
 //! The adapter that a user asks for.
 
-use super::device::GpuError;
+use super::error::GpuError;
 
 /// What a user asked for; without a name or backend the best adapter there is.
 #[derive(Clone, Debug, Default, PartialEq)]

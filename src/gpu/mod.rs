@@ -13,6 +13,7 @@ pub mod copies;
 pub mod device;
 pub mod draw;
 pub mod environment;
+mod error;
 pub mod film;
 mod film_atlas;
 pub mod flow;

@@ -52,6 +52,8 @@ struct Begun {
     purpose: Purpose,
     /// The clock's tick before the redraw that began it.
     first_tick: u64,
+    /// The tick before which the clock is not taken back, should films not keep up.
+    earliest_tick: u64,
     since: Instant,
 }
 
@@ -67,6 +69,8 @@ pub(super) struct Pictures {
     begun: Option<Begun>,
     /// Whether the picture that comes next was asked for by an earlier redraw: the model may be another one since.
     is_late: bool,
+    /// Ticks that passed while the picture before came late: films have had no chance to keep up with them.
+    late_ticks: u64,
     /// Whether the next picture is drawn although it may be there already.
     forgotten: bool,
     rests_until: Option<Instant>,
@@ -91,6 +95,7 @@ impl Pictures {
             waiting: None,
             begun: None,
             is_late: false,
+            late_ticks: 0,
             forgotten: false,
             rests_until: None,
         }
@@ -119,9 +124,9 @@ impl View {
         loop {
             match self.bring(model, first_tick) {
                 Drawn::Yes(drawn) => {
-                    let (Begun { request, purpose, first_tick, .. }, finished) = *drawn;
+                    let (Begun { request, purpose, earliest_tick, .. }, finished) = *drawn;
                     match purpose {
-                        Purpose::Show => return self.show(model, (request, first_tick), &finished, due),
+                        Purpose::Show => return self.show(model, request, &finished, [first_tick, earliest_tick], due),
                         purpose => self.hand_out(&request, purpose, due),
                     }
                 }
@@ -178,7 +183,8 @@ impl View {
                 pictures.waiting = Some(request);
                 return Drawn::Waits;
             }
-            pictures.begun = Some(Begun { request, purpose, first_tick, since: Instant::now() });
+            let earliest_tick = first_tick.saturating_sub(std::mem::take(&mut pictures.late_ticks));
+            pictures.begun = Some(Begun { request, purpose, first_tick, earliest_tick, since: Instant::now() });
             self.stage.drawing.begin(plan);
             patience = PATIENCE;
         }
@@ -214,16 +220,21 @@ impl View {
     fn show(
         &mut self,
         model: &mut Model,
-        (request, first_tick): (FrameRequest, u64),
+        request: FrameRequest,
         Finished { plan, ms, .. }: &Finished,
+        [first_tick, earliest_tick]: [u64; 2],
         due: &mut Due,
     ) -> bool {
         model.drawing = false;
-        if std::mem::take(&mut self.pictures.is_late) || !plan.complete {
+        let is_late = std::mem::take(&mut self.pictures.is_late);
+        if is_late || !plan.complete {
             due.after(Duration::ZERO);
         }
         let Some(renderer) = self.stage.drawing.renderer() else { return false };
-        hold_clock(model, &request, renderer.state(), first_tick);
+        hold_clock(model, &request, renderer.state(), earliest_tick);
+        if is_late {
+            self.pictures.late_ticks = model.clock.tick.saturating_sub(first_tick);
+        }
         // Times arrive when the device is polled; one that is lost is found out at the next redraw.
         let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
         model.costs.add_passes(renderer.times.take());

@@ -1,6 +1,7 @@
 //! The keys of products: for each, exactly what its pass reads.
 
 mod bubble;
+mod camera;
 mod environment;
 mod film;
 mod history;
@@ -13,10 +14,11 @@ mod step;
 
 pub(in crate::plan) use bubble::samples;
 pub use bubble::{BubbleKey, LentFilm, SmallBubble};
+pub use camera::CameraKey;
 pub use environment::{DefocusKey, EnvironmentKey};
 pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};
 pub use optics::{OpticsKey, QuadratureKey, TableKey, range_nm};
-pub use picture::{BackdropKey, CameraKey, DrawKey, FilmColours, LightKey, Lighting, TonemapKey, exposed_ev};
+pub use picture::{BackdropKey, DrawKey, FilmColours, LightKey, Lighting, TonemapKey, exposed_ev};
 pub use plate::PlateKey;
 pub use rest::RestingFilm;
 

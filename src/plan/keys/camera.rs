@@ -1,0 +1,28 @@
+//! The key of the camera.
+
+use glam::{DVec2, DVec3};
+
+/// Where the picture is taken from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraKey {
+    /// The eye, in metres.
+    pub eye_m: DVec3,
+    /// Unit vector along the line of sight.
+    pub forward: DVec3,
+    /// Unit vector to the right of the picture.
+    pub right: DVec3,
+    /// Unit vector to its top.
+    pub up: DVec3,
+    /// Height of a pixel on the plane one metre before the eye, in metres.
+    pub pixel_height_m: f64,
+    /// Where the line of sight meets the picture, in pixels to the right of its middle and below: zero but for a part of a larger picture.
+    pub shift: DVec2,
+}
+
+impl CameraKey {
+    /// Where the line of sight meets a picture of that size, in pixels from the top left.
+    #[must_use]
+    pub fn axis(&self, size: [u32; 2]) -> DVec2 {
+        0.5 * DVec2::from(size.map(f64::from)) + self.shift
+    }
+}
