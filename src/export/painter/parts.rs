@@ -26,7 +26,7 @@ pub(super) const PICTURES_OF_PASSAGES: u64 = 3;
 
 impl Painter {
     /// Radiance of each pixel of the file, linear BT.2020: of the linear picture of a request, or of a part of it.
-    pub(super) fn radiance(
+    fn radiance(
         &mut self,
         request: &FrameRequest,
         part: &dyn Fn(&DrawKey) -> DrawKey,

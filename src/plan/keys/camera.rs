@@ -15,7 +15,7 @@ pub struct CameraKey {
     pub up: DVec3,
     /// Height of a pixel on the plane one metre before the eye, in metres.
     pub pixel_height_m: f64,
-    /// Where the line of sight meets the picture, in pixels to the right of its middle and below: zero but for a part of a larger picture.
+    /// Where the line of sight meets the picture, in pixels to the right of its middle and below: zero but for a part of a larger picture, or a place beside the middle of the lens.
     pub shift: DVec2,
 }
 
