@@ -18,10 +18,12 @@ struct Bake {
     first_row: u32,
     // Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast.
     resolved_step: f32,
+    // Wavelengths of the light: so many of the samples count.
+    wavelengths: u32,
 }
 
 @group(0) @binding(0) var<uniform> bake: Bake;
-@group(0) @binding(1) var<storage, read> samples: array<QuadratureSample>;
+@group(0) @binding(1) var<uniform> samples: array<QuadratureSample, 512>;
 @group(0) @binding(2) var table: texture_storage_2d_array<rgba16float, write>;
 
 const TAU: f32 = 6.2831853;
@@ -94,7 +96,7 @@ fn bake_table(@builtin(global_invocation_id) id: vec3u) {
     );
     var s: Seen;
     var p: Seen;
-    for (var k = 0u; k < arrayLength(&samples); k++) {
+    for (var k = 0u; k < bake.wavelengths; k++) {
         let r = sample_reflectances(samples[k], film.cos_theta, thickness_nm);
         if (POLARISED == 1u) {
             add(&s, samples[k].response, r.s);

@@ -42,7 +42,10 @@ impl From<&QuadratureWavelength> for QuadratureSample {
     }
 }
 
-/// All wavelengths of a light.
+/// Room for the wavelengths of a light's whole spectrum: the length of `array<QuadratureSample, ...>` in the table's bake.
+pub(super) const MAX_SPECTRUM: usize = 512;
+
+/// All wavelengths of a light: one for each nanometre, or a built-in light's few lines.
 pub(super) fn spectrum_samples(key: &OpticsKey) -> Vec<QuadratureSample> {
     let optics = key.spectra();
     let wavelengths_nm = optics.weights().wavelengths_nm();
@@ -138,5 +141,25 @@ overrides! {
         override WAVELENGTHS: u32 in [0, 13];
         /// Whether there are films that they are too few for.
         override THICK: bool;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::physics::{
+        colour::{BUILT_IN, Illuminant},
+        optics::FilmIndex,
+    };
+
+    #[test]
+    fn every_light_has_room() {
+        for light in BUILT_IN {
+            let illuminant = Arc::new(Illuminant::from(light));
+            let samples = spectrum_samples(&OpticsKey { illuminant, film: FilmIndex::Water.into() });
+            assert!((1..=MAX_SPECTRUM).contains(&samples.len()), "{}: {}", light.name, samples.len());
+        }
     }
 }

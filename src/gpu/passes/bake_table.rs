@@ -2,11 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use bytemuck::Zeroable;
+
 use crate::{
     gpu::{
         device::{Gpu, GpuError},
-        kernel::{Read, Rgba16Float, Uniform, Written2dArray, WrittenFormat, kernels, overrides, shader_struct},
-        quadrature::{QuadratureSample, spectrum_samples},
+        kernel::{Rgba16Float, Uniform, Written2dArray, WrittenFormat, kernels, overrides, shader_struct},
+        quadrature::{MAX_SPECTRUM, QuadratureSample, spectrum_samples},
         timing::Recorder,
         uniform_buffer::UniformBuffer,
     },
@@ -54,7 +56,9 @@ shader_struct! {
         pub first_row: u32,
         /// Phase by which fringes may move from sample to sample, in radians.
         pub resolved_step: f32,
-        pad: [u32; 2],
+        /// Wavelengths of the light.
+        pub wavelengths: u32,
+        pad: u32,
     }
 }
 
@@ -77,7 +81,7 @@ kernels! {
         override FADES: bool;
         overrides table_kind: TableOverrides;
         @0 bake: Uniform<BakeUniform>;
-        @1 samples: Read<[QuadratureSample]>;
+        @1 samples: Uniform<[QuadratureSample; MAX_SPECTRUM]>;
         // Filterable and storable on every adapter.
         @2 table: Written2dArray<Rgba16Float>;
     }
@@ -90,7 +94,10 @@ pub struct Table {
     pub axes: UniformBuffer<TableAxes>,
     /// View of all layers.
     pub view: wgpu::TextureView,
-    samples: wgpu::Buffer,
+    /// As many samples as the light has wavelengths, then zeros. A uniform, for all lanes of a processor read the same one at once: from a storage
+    /// buffer llvmpipe reads them for each lane, which takes eight times as long.
+    spectra: UniformBuffer<[QuadratureSample; MAX_SPECTRUM]>,
+    wavelengths: u32,
     /// Whether the samples are too few for the fringes of some film.
     fades: bool,
 }
@@ -128,7 +135,15 @@ impl Table {
         });
         let axes = gpu.uniform("table axes", &TableAxes::of(key));
         let samples = spectrum_samples(&key.optics);
-        Self { axes, view, samples: gpu.storage("spectra", &samples), fades: fades(&samples, key.max_thickness_nm) }
+        let mut spectra = [QuadratureSample::zeroed(); MAX_SPECTRUM];
+        spectra[..samples.len()].copy_from_slice(&samples);
+        Self {
+            axes,
+            view,
+            spectra: gpu.uniform("spectra", &spectra),
+            wavelengths: samples.len() as u32,
+            fades: fades(&samples, key.max_thickness_nm),
+        }
     }
 
     /// A whole table.
@@ -159,13 +174,14 @@ impl Table {
             axes: TableAxes::of(key),
             first_row: rows.start,
             resolved_step: RESOLVED_STEP as f32,
-            pad: [0; 2],
+            wavelengths: self.wavelengths,
+            pad: 0,
         };
         let kernel = BakeTable {
             FADES: self.fades,
             table_kind: TableOverrides { COLOURED: key.coloured, POLARISED: key.polarised },
             bake: &recorder.gpu.uniform("bake", &uniform),
-            samples: &self.samples,
+            samples: &self.spectra,
             table: &self.view,
         };
         kernel.bake_table(

@@ -93,7 +93,7 @@ impl Illuminant {
     /// This light with its continuous part as lines, `per_nm` per nanometre: integrals then resolve fringes finer than the grid, which
     /// films of more than some 10 µm have.
     #[must_use]
-    pub fn as_lines(&self, lines_per_nm: usize) -> Self {
+    pub(super) fn as_lines(&self, lines_per_nm: usize) -> Self {
         let power = |nm: f64| self.spectrum.at_nm(nm) / lines_per_nm as f64;
         let line = |k: usize| FIRST_NM + k as f64 / lines_per_nm as f64;
         let continuous = (0..=(SAMPLES - 1) * lines_per_nm).map(line);
