@@ -92,7 +92,7 @@ impl Diffusion {
                     stage_earlier: fields[k.saturating_sub(2)],
                     stage: fields[k],
                 };
-                kernel.diffuse_stage(recorder, STEP_FIELD, control.tracer_groups())?;
+                kernel.diffuse_stage(recorder, STEP_FIELD, control.quad_groups())?;
             }
             halo_of_thickness(recorder, grid, field, control.one_group())?;
         }
