@@ -184,7 +184,7 @@ fn black(run: &mut Run<'_>) -> Result<(), GpuError> {
 /// An hour of a blown film, most of which it rests. In the short form more drag and a smaller bubble bring it to rest sooner.
 fn an_hour(run: &mut Run<'_>) -> Result<(), GpuError> {
     const HOUR_S: f64 = 3600.0;
-    let (slower, radius_mm) = run.short_or_full((8.0, 5.0), (1.0, 50.0));
+    let (slower, radius_mm) = run.short_or_full((16.0, 5.0), (1.0, 50.0));
     let mut scene = blown_with(|motion| motion.drag_1_s *= slower);
     scene.bubbles[0].radius_mm = radius_mm;
     let mut played = Played::new(run.gpu, &scene)?;

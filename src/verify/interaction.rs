@@ -23,9 +23,9 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     undriven(run)?;
     sloshing(run)?;
     creeping(run)?;
-    anything(run, "", run.short_or_full(45, 3000), 0.5)?;
+    anything(run, "", run.short_or_full(30, 3000), 0.5)?;
     // Accelerated as no bubble could bear.
-    anything(run, ", dragged by kilometres", run.short_or_full(15, 200), 1000.0)
+    anything(run, ", dragged by kilometres", run.short_or_full(8, 200), 1000.0)
 }
 
 /// A film without weight in air at rest.
@@ -126,10 +126,10 @@ fn swing(run: &mut Run<'_>, name: &str, events: Vec<Event>) -> Result<(), GpuErr
     (scene.motion.strength, scene.motion.drag_1_s) = (0.0, drag_1_s);
     scene.motion.diffusion_mm2_s = 0.0;
     let mut played = Played::new(run.gpu, &scene)?;
-    // By then a bubble that was dragged is back to within e⁻¹⁴.
-    const CALM: u64 = 100;
+    // By then a bubble that was dragged is back to within e⁻¹⁴, in the short form e⁻⁸.
+    let calm = run.short_or_full(60, 100);
     let mut swings = Vec::new();
-    for tick in (CALM..CALM + 120).step_by(2) {
+    for tick in (calm..calm + run.short_or_full(80, 120)).step_by(2) {
         played.play_to(tick)?;
         let (grid, zeta) = (played.flow()?.sphere(), played.zeta()?);
         let swing = |(cell, area): (usize, f64)| area * zeta[cell] * grid.cell_direction(cell).y;
@@ -158,7 +158,7 @@ fn anything(run: &mut Run<'_>, name: &str, events: u64, reach_m: f64) -> Result<
     let mut played = Played::new(run.gpu, &scene)?;
     let before = played.thickness()?;
     let mut fastest: f64 = 0.0;
-    let ticks_apart = run.short_or_full(15, 100);
+    let ticks_apart = run.short_or_full(8, 100);
     for tick in (ticks_apart..=events).step_by(ticks_apart as usize) {
         played.play_to(tick)?;
         fastest = largest([fastest, played.fastest()?].into_iter());
@@ -211,7 +211,7 @@ fn creeping(run: &mut Run<'_>) -> Result<(), GpuError> {
         let slope: DVec3 = weighted.map(|(cell, (area, h))| area * (h - level) * grid.cell_direction(cell)).sum();
         Ok::<f64, GpuError>(tilt - (slope.x / -slope.z).atan())
     };
-    let [from_s, to_s] = run.short_or_full([7.0, 10.0], [8.0, 30.0]);
+    let [from_s, to_s] = run.short_or_full([7.0, 9.0], [8.0, 30.0]);
     let (first, last): (f64, f64) = (angle(from_s)?, angle(to_s)?);
     let swing = 0.5 * a * 9.81 / (1e-3 * scene.bubbles[0].radius_mm);
     let expected = 0.5 * drag_1_s - (0.25 * drag_1_s * drag_1_s - swing).sqrt();

@@ -43,11 +43,11 @@ pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
 }
 
 /// A fresh film of 700 nm that sorts itself.
-fn fresh<'a>(gpu: &'a Gpu, cap: Option<Cap>, drop_rad: Option<f64>) -> Result<FreeFilm<'a>, GpuError> {
+fn fresh<'a>(run: &Run<'a>, cells: usize, cap: Option<Cap>, drop_rad: Option<f64>) -> Result<FreeFilm<'a>, GpuError> {
     let film = InitialFilm::Blown { thickness_nm: 700.0, stratification: 0.0, seed: 1 }.profile();
     let forces = FlowForces { gravity: GRAVITY, drag: 2.0, air_drag: 0.0, viscosity: 0.04 };
-    let field = field(gpu, 64, Rules { cap, drop_rad, ..RULES }, film)?;
-    FreeFilm::new(gpu, field, forces, PrescribedFlow::draught(1, 1.0))
+    let field = field(run.gpu, cells, Rules { cap, drop_rad, ..RULES }, film)?;
+    FreeFilm::new(run.gpu, field, forces, PrescribedFlow::draught(1, 1.0))
 }
 
 /// A field of the flow, in the order of its grid.
@@ -112,10 +112,10 @@ fn leak(gpu: &Gpu, film: &FreeFilm<'_>, rim: f64) -> Result<f64, GpuError> {
 /// Nothing flows across a rim, and no film is lost.
 fn tight(run: &mut Run<'_>) -> Result<(), GpuError> {
     let rims = [("a bath", FRAC_PI_2, 2e-3), ("a ring at 126°", 2.2, 2e-2), ("a ring at 69°", 1.2, 2e-2)];
-    let steps = run.short_or_full(10, 30);
+    let steps = run.short_or_full(6, 30);
     for (name, rim, limit) in rims.into_iter().take(run.short_or_full(2, 3)) {
         let cap = if rim == FRAC_PI_2 { Cap::HEMISPHERE } else { Cap::above(rim) };
-        let mut film = fresh(run.gpu, Some(cap), None)?;
+        let mut film = fresh(run, 64, Some(cap), None)?;
         let (before, _) = film.liquid()?;
         film.run(steps, STEP_S)?;
         let early = leak(run.gpu, &film, rim)?;
@@ -129,7 +129,7 @@ fn tight(run: &mut Run<'_>) -> Result<(), GpuError> {
 
 /// Each remap samples beyond the rim what is within, and each step makes the vorticity there its image.
 fn image(run: &mut Run<'_>) -> Result<(), GpuError> {
-    let mut film = fresh(run.gpu, Some(Cap::HEMISPHERE), None)?;
+    let mut film = fresh(run, run.short_or_full(32, 64), Some(Cap::HEMISPHERE), None)?;
     let steps = run.short_or_full(30, 120);
     film.run(steps, STEP_S)?;
     let solver = film.motion.flow();
@@ -155,7 +155,7 @@ fn drop(run: &mut Run<'_>) -> Result<(), GpuError> {
     let radius = 15f64.to_radians();
     let mut leaks = [0.0; 2];
     for (drop_rad, found) in [None, Some(radius)].into_iter().zip(&mut leaks) {
-        let mut film = fresh(run.gpu, None, drop_rad)?;
+        let mut film = fresh(run, 64, None, drop_rad)?;
         let (before, _) = film.liquid()?;
         film.run(60, STEP_S)?;
         let name = if drop_rad.is_some() { "a film with a drop" } else { "a film without a drop" };
@@ -175,7 +175,7 @@ fn drainage(run: &mut Run<'_>) -> Result<(), GpuError> {
     const NM: f64 = 2000.0;
     let steps = run.short_or_full(40, 120);
     for (name, cap, drop_rad) in [("a drop", None, 0.1), ("a bath", Some(Cap::HEMISPHERE), 0.0)] {
-        let even = field(run.gpu, 64, Rules { cap, ..RULES }, |_| NM)?;
+        let even = field(run.gpu, run.short_or_full(32, 64), Rules { cap, ..RULES }, |_| NM)?;
         let mut film = FreeFilm::new(run.gpu, even, FlowForces::default(), PrescribedFlow::default())?;
         let flux = 1e-18 * FACTOR * DENSITY / (12.0 * VISCOSITY) * STEP_S;
         let law =
@@ -213,7 +213,7 @@ fn patch(run: &mut Run<'_>) -> Result<(), GpuError> {
     // 1, 10 and 2e-4 m²/s, of which the second stops a patch within a step.
     for viscosity in [0.04, 0.4, 0.08].into_iter().take(run.short_or_full(1, 3)) {
         let forces = FlowForces { gravity, drag: DRAG_1_S, air_drag: 0.0, viscosity };
-        let even = field(run.gpu, 128, Rules { cap: Some(Cap::HEMISPHERE), ..RULES }, |_| NM)?;
+        let even = field(run.gpu, run.short_or_full(64, 128), Rules { cap: Some(Cap::HEMISPHERE), ..RULES }, |_| NM)?;
         let mut film = FreeFilm::new(run.gpu, even, forces, PrescribedFlow::default())?;
         let patches = vec![(middle, 1.0 - LACK, 0)];
         let law = DrainLaw { patch_radius: RADIUS, patches, black_nm: BLACK_NM, ..DrainLaw::default() };
@@ -260,7 +260,7 @@ fn regeneration(run: &mut Run<'_>) -> Result<(), GpuError> {
     const NM: f64 = 700.0;
     let steps = run.short_or_full(30, 90);
     let cap = Cap::above(RIM);
-    let even = field(run.gpu, 64, Rules { cap: Some(cap), ..RULES }, |_| NM)?;
+    let even = field(run.gpu, run.short_or_full(48, 64), Rules { cap: Some(cap), ..RULES }, |_| NM)?;
     let mut film = FreeFilm::new(run.gpu, even, FlowForces::default(), PrescribedFlow::default())?;
     let regeneration = Regeneration { rim: RIM, radius: RADIUS, amount: 3.0, seed: 5 };
     let (mut reservoir, mut returned, mut lost): (f64, f64, f64) = (0.0, 0.0, 0.0);

@@ -64,7 +64,7 @@ fn a_collapse_to_black_film_loses_no_liquid() {
 fn black_film_ends_at_a_level_border_as_sharp_as_cells() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = thin(70.0);
-    let cells = short_or_long(128, 256);
+    let cells = short_or_long(64, 256);
     (loaded.scene.bubbles[0].film.cells, loaded.scene.motion.strength) = (cells, 0.0);
     let (grid, values, _) = shown(&mut renderer, &still(&loaded, SIZE, 2.0));
     let heights = |is_part: &dyn Fn(f64) -> bool| {
@@ -90,7 +90,7 @@ fn black_film_grows_as_the_film_evaporates_and_then_evaporates_no_more() {
     let Some(mut renderer) = renderer() else { return };
     let mut loaded = thin(150.0);
     loaded.scene.bubbles[0].film.cells = short_or_long(32, CELLS);
-    let rate_nm_s = short_or_long(160.0, 40.0);
+    let rate_nm_s = short_or_long(320.0, 40.0);
     loaded.scene.motion.evaporation_nm_s = rate_nm_s;
     let mut black = vec![0.0];
     for evaporated_nm in [40.0, 80.0, 120.0, 160.0, 360.0] {

@@ -218,16 +218,16 @@ fn colours(request: &FrameRequest, picture: &[DVec3], white: f64) -> [DVec3; 2] 
 #[test]
 fn a_film_with_half_of_the_cells_sorts_itself_alike() {
     let Some(mut renderer) = renderer() else { return };
-    let mut white = None;
+    let (mut white, time_s) = (None, short_or_long(0.3, 1.0));
     let found = [Detail::Full, Detail::Half].map(|detail| {
-        let (request, before) = (blown(detail, 40.0, 1.0), renderer.counts);
+        let (request, before) = (blown(detail, 40.0, time_s), renderer.counts);
         let cpu = cpu_time::ProcessTime::now();
         let picture = radiance(&mut renderer, &request);
         let cells = renderer.counts.cells_stepped - before.cells_stepped;
         let cpu_s = cpu.elapsed().as_secs_f64();
         (colours(&request, &picture, *white.get_or_insert(brightest(&picture))), cells, cpu_s)
     });
-    eprintln!("measured: 1 s of film, mean and spread of its colours, cells moved, CPU time: {found:.3?}");
+    eprintln!("measured: {time_s} s of film, mean and spread of its colours, cells moved, CPU time: {found:.3?}");
     let [(full, full_cells, _), (half, half_cells, _)] = found;
     assert_eq!(full_cells, 4 * half_cells);
     assert!((0..2).all(|k| (full[k] - half[k]).abs().max_element() <= 2.0), "{found:?}");

@@ -33,9 +33,9 @@ use crate::support::{mean_and_max, radiance, renderer};
 const CASES: u32 = 100;
 const FRAMES: u32 = 5;
 const SIZE: [u32; 2] = [12, 8];
-/// Steps of films, and cells that they move in all, at most: what a picture may take.
-const MAX_STEPS: usize = 8;
-const MAX_CELLS: u64 = 100_000;
+/// Steps of films, and cells that they move in all, at most: what a picture may take in the gate, and where any number of scenes is drawn.
+const MAX_STEPS: [usize; 2] = [4, 8];
+const MAX_CELLS: [u64; 2] = [40_000, 100_000];
 /// Part of a picture's brightest X, Y or Z by which others may be negative: fitted wavelengths and half floats in tables err by as much.
 const MAX_NEGATIVE: f64 = 2e-3;
 /// Mean difference between `fast` and `spectral`, as a part of the mean of the picture.
@@ -142,14 +142,16 @@ fn frame_request(loaded: &LoadedScene, mut moment: Moment) -> Result<FrameReques
 }
 
 fn is_cheap(request: &FrameRequest) -> bool {
+    let form = usize::from(number("SOAPFILM_FUZZ_CASES").is_some());
+    let (max_steps, max_cells) = (MAX_STEPS[form], MAX_CELLS[form]);
     let (mut steps, mut cells) = (0, 0);
     for (_, film) in request.picture.draw.films() {
         if let FilmKey::Field(film) = film {
-            let own = film.steps_from(0).take(MAX_STEPS + 1).count();
+            let own = film.steps_from(0).take(max_steps + 1).count();
             (steps, cells) = (steps + own, cells + own as u64 * film.cell_count());
         }
     }
-    steps <= MAX_STEPS && cells <= MAX_CELLS
+    steps <= max_steps && cells <= max_cells
 }
 
 /// Every pixel is a number, and none is less than dark: X, Y and Z of light are never negative, whatever red, green and blue are.
