@@ -4,6 +4,7 @@
 mod support;
 
 mod backends;
+mod benchmarks;
 mod boundaries;
 mod breaking;
 mod bursting;
