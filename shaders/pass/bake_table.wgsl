@@ -18,7 +18,7 @@ struct Bake {
     first_row: u32,
     // Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast.
     resolved_step: f32,
-    // Wavelengths of the light: so many of the samples count.
+    // Number of samples in use, one for each wavelength of the light; the rest are zero.
     wavelengths: u32,
 }
 

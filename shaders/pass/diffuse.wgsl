@@ -28,7 +28,7 @@ struct Diffuse {
 @group(0) @binding(4) var<storage, read> stage_earlier: array<f32>;
 @group(0) @binding(5) var<storage, read_write> stage: array<f32>;
 
-// Four values of a row, of which the middle two are those of cells.
+// Two cells of a row, and the cell before and after them.
 fn row_of(at: u32) -> vec4f {
     return vec4f(stage_before[at - 1u], stage_before[at], stage_before[at + 1u], stage_before[at + 2u]);
 }
@@ -45,7 +45,7 @@ fn laplacian(below: vec4f, here: vec4f, above: vec4f, along: vec2f, across: f32)
     return delta2 / a * by_aa + 2.0 * delta2 * along * across / (a * b) * by_ab + delta2 / b * by_bb;
 }
 
-// The stage of two cells, of which the first is at a place.
+// Writes the stage of two cells of a row, the first of them at a place in storage.
 fn store(at: u32, here: vec2f, spread: vec2f) {
     let earlier = vec2f(stage_earlier[at], stage_earlier[at + 1u]);
     let found = diffuse.before * here + diffuse.earlier * earlier + spread;

@@ -42,7 +42,8 @@ impl From<&QuadratureWavelength> for QuadratureSample {
     }
 }
 
-/// Room for the wavelengths of a light's whole spectrum: the length of `array<QuadratureSample, ...>` in the table's bake.
+/// Maximum number of wavelengths of a light's whole spectrum: one for each of 471 nanometres, and the lines of built-in lights, which alone have any.
+/// The length of `array<QuadratureSample, ...>` in the table's bake.
 pub(super) const MAX_SPECTRUM: usize = 512;
 
 /// All wavelengths of a light: one for each nanometre, or a built-in light's few lines.

@@ -1,4 +1,4 @@
-//! What the literature has measured of other schemes, as `soapfilm verify transport` has it: a long test, which starts among the first.
+//! Published benchmarks of transport, as `soapfilm verify transport` runs them: a long test, which starts among the first.
 
 use soapfilm::verify::Part;
 

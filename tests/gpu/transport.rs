@@ -1,4 +1,4 @@
-//! Transport on the GPU against its f64 twin. What other schemes were measured by is in `benchmarks`.
+//! Transport on the GPU against its f64 twin. Published benchmarks are in `benchmarks`.
 
 use glam::DVec3;
 use rayon::prelude::*;

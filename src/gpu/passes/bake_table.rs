@@ -56,7 +56,7 @@ shader_struct! {
         pub first_row: u32,
         /// Phase by which fringes may move from sample to sample, in radians.
         pub resolved_step: f32,
-        /// Wavelengths of the light.
+        /// Number of samples in use.
         pub wavelengths: u32,
         pad: u32,
     }
@@ -94,8 +94,8 @@ pub struct Table {
     pub axes: UniformBuffer<TableAxes>,
     /// View of all layers.
     pub view: wgpu::TextureView,
-    /// As many samples as the light has wavelengths, then zeros. A uniform, for all lanes of a processor read the same one at once: from a storage
-    /// buffer llvmpipe reads them for each lane, which takes eight times as long.
+    /// A sample for each wavelength of the light, then zeros. A uniform, because all lanes read the same sample at once: llvmpipe reads a storage
+    /// buffer separately for each lane, which made the bake eight times as slow.
     spectra: UniformBuffer<[QuadratureSample; MAX_SPECTRUM]>,
     wavelengths: u32,
     /// Whether the samples are too few for the fringes of some film.
@@ -136,6 +136,7 @@ impl Table {
         let axes = gpu.uniform("table axes", &TableAxes::of(key));
         let samples = spectrum_samples(&key.optics);
         let mut spectra = [QuadratureSample::zeroed(); MAX_SPECTRUM];
+        // No light has more: see `MAX_SPECTRUM`.
         spectra[..samples.len()].copy_from_slice(&samples);
         Self {
             axes,

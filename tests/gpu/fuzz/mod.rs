@@ -27,15 +27,18 @@ use soapfilm::{
     scene::{Backdrop, Fault, Quality, Scene},
 };
 
-use crate::support::{mean_and_max, radiance, renderer};
+use crate::support::{mean_and_max, radiance, renderer, short_or_long};
 
 /// Scenes of the gate, and frames that they share: a driver compiles the pipelines of each frame for seconds.
 const CASES: u32 = 100;
 const FRAMES: u32 = 5;
 const SIZE: [u32; 2] = [12, 8];
-/// Steps of films, and cells that they move in all, at most: what a picture may take in the gate, and where any number of scenes is drawn.
-const MAX_STEPS: [usize; 2] = [4, 8];
-const MAX_CELLS: [u64; 2] = [40_000, 100_000];
+/// What the films of a picture may take: steps, and cells that these move in all.
+type Effort = (usize, u64);
+/// In the gate.
+const SHORT: Effort = (4, 40_000);
+/// Where tests run in full, or somebody asks for a number of scenes.
+const FULL: Effort = (8, 100_000);
 /// Part of a picture's brightest X, Y or Z by which others may be negative: fitted wavelengths and half floats in tables err by as much.
 const MAX_NEGATIVE: f64 = 2e-3;
 /// Mean difference between `fast` and `spectral`, as a part of the mean of the picture.
@@ -142,8 +145,7 @@ fn frame_request(loaded: &LoadedScene, mut moment: Moment) -> Result<FrameReques
 }
 
 fn is_cheap(request: &FrameRequest) -> bool {
-    let form = usize::from(number("SOAPFILM_FUZZ_CASES").is_some());
-    let (max_steps, max_cells) = (MAX_STEPS[form], MAX_CELLS[form]);
+    let (max_steps, max_cells) = number("SOAPFILM_FUZZ_CASES").map_or_else(|| short_or_long(SHORT, FULL), |_| FULL);
     let (mut steps, mut cells) = (0, 0);
     for (_, film) in request.picture.draw.films() {
         if let FilmKey::Field(film) = film {
