@@ -1,4 +1,4 @@
-//! What a frame of many bubbles costs: CPU time of the process, planning included.
+//! What a frame of many bubbles costs, planning included where CPU time is measured.
 
 use soapfilm::{
     gpu::Renderer,
@@ -9,8 +9,9 @@ use soapfilm::{
 };
 
 use crate::{
+    clock::{Clock, median},
     draw,
-    parts::{cpu_ms, median, renderer},
+    parts::{frame_ms, renderer},
 };
 
 /// The qualities that windows use.
@@ -24,29 +25,36 @@ const DISTANCE_M: f64 = 10.0;
 pub fn print(size: [u32; 2], rounds: usize) {
     let mut renderer = renderer();
     println!("adapter: {}, {}", renderer.gpu.adapter_name(), renderer.gpu.driver());
+    for clock in Clock::all(&renderer.gpu) {
+        print_by(*clock, &mut renderer, size, rounds);
+    }
+}
+
+fn print_by(clock: Clock, renderer: &mut Renderer, size: [u32; 2], rounds: usize) {
     println!(
-        "CPU time of a frame of {}x{}, ms, median of {rounds}, without the same frame without bubbles",
-        size[0], size[1]
+        "\n{} of a frame of {}x{}, ms, median of {rounds}, without the same frame without bubbles",
+        clock.name(),
+        size[0],
+        size[1]
     );
     println!("\n{:<45}{:>8}{:>10}", "bubbles of equal area in all", "fast", "standard");
-    let base = frame_ms(&mut renderer, &with_bubbles(0, Quality::Fast), size, rounds);
+    let base = planned_ms(renderer, clock, &with_bubbles(0, Quality::Fast), size, rounds);
     for count in [1, 100, 10_000] {
         let costs =
-            QUALITIES.map(|quality| frame_ms(&mut renderer, &with_bubbles(count, quality), size, rounds) - base);
-        println!("{count:<45}{:>8.1}{:>10.1}", costs[0], costs[1]);
+            QUALITIES.map(|quality| planned_ms(renderer, clock, &with_bubbles(count, quality), size, rounds) - base);
+        println!("{count:<45}{:>8.2}{:>10.2}", costs[0], costs[1]);
     }
     let few = few_in_sight(size);
-    let planned = frame_ms(&mut renderer, &few, size, rounds);
+    let planned = planned_ms(renderer, clock, &few, size, rounds);
     let request = request(&few, size);
     let seen = request.picture.draw.bubbles.len() + request.picture.draw.small.len();
-    draw(&mut renderer, &request);
-    let alone = median((0..rounds).map(|_| cpu_ms(|| draw(&mut renderer, &request))).collect());
-    println!("\n{seen} of 10000 bubbles in sight: {planned:.1} ms; those alone, without planning: {alone:.1} ms");
+    let alone = frame_ms(renderer, clock, &request, rounds);
+    println!("\n{seen} of 10000 bubbles in sight: {planned:.2} ms; those alone, without planning: {alone:.2} ms");
     let large = size.map(|pixels| 3 * pixels);
     let cloud = load("cloud");
-    let costs = [size, large].map(|size| frame_ms(&mut renderer, &cloud, size, rounds));
+    let costs = [size, large].map(|size| planned_ms(renderer, clock, &cloud, size, rounds));
     println!(
-        "the preset cloud: {:.1} ms; nine times the pixels: {:.1} ms, {:.1} times",
+        "the preset cloud: {:.2} ms; nine times the pixels: {:.2} ms, {:.1} times",
         costs[0],
         costs[1],
         costs[1] / costs[0]
@@ -110,10 +118,10 @@ fn request_of(story: &Story, loaded: &LoadedScene, size: [u32; 2]) -> FrameReque
     story.request(&loaded.resources, &shot).expect("a scene that can be drawn")
 }
 
-/// CPU time of a frame from the scene to the picture.
-fn frame_ms(renderer: &mut Renderer, loaded: &LoadedScene, size: [u32; 2], rounds: usize) -> f64 {
+/// The cost of a frame from the scene to the picture.
+fn planned_ms(renderer: &mut Renderer, clock: Clock, loaded: &LoadedScene, size: [u32; 2], rounds: usize) -> f64 {
     let story = Story::new(loaded.scene.clone());
-    let mut frame = || draw(renderer, &request_of(&story, loaded, size));
-    frame();
-    median((0..rounds).map(|_| cpu_ms(&mut frame)).collect())
+    let frame = |renderer: &mut Renderer| draw(renderer, &request_of(&story, loaded, size));
+    frame(renderer);
+    median((0..rounds).map(|_| clock.ms(renderer, frame)).collect())
 }

@@ -1,8 +1,11 @@
 //! Frame timing: the whole frame and each pass by itself, bubble 80 % of the height, on the adapter that the program would use.
 //!
-//! `cargo bench --bench frame -- parts` prints a table of what each part of a frame costs instead, and `-- crowd` what many bubbles cost.
+//! `cargo bench --bench frame -- parts` prints a table of what each part of a frame costs instead, `-- crowd` what many bubbles cost, and `-- film`
+//! what a step of a film costs.
 
+mod clock;
 mod crowd;
+mod film;
 mod parts;
 
 use criterion::{BenchmarkId, Criterion, criterion_group};
@@ -91,9 +94,14 @@ fn main() {
         crowd::print(SIZES[0], CROWD_ROUNDS);
         return;
     }
+    if asked("film") {
+        film::print(ROUNDS);
+        return;
+    }
     if asked("--test") {
         parts::print(SMOKE[0], 1);
         crowd::print(SMOKE[0], 1);
+        film::print(1);
     }
     benches();
     Criterion::default().configure_from_args().final_summary();

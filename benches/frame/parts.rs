@@ -1,16 +1,18 @@
-//! What each part of a frame costs, where the film stands as it was blown: CPU time of the process, with parts of the shaders switched off one at a time. Frames with and without a part
-//! alternate, so that what else the machine does meets both.
+//! What each part of a frame costs, where the film stands as it was blown, with parts of the shaders switched off one at a time. Frames with
+//! and without a part alternate, so that what else the machine does meets both.
 
 use std::{fs, path::Path};
 
-use cpu_time::ProcessTime;
 use soapfilm::{
     gpu::{AdapterChoice, Gpu, Renderer, shaders::Library},
     plan::{FrameRequest, Moment},
     scene::{Backdrop, Quality, Scene},
 };
 
-use crate::{draw, frame_request_of};
+use crate::{
+    clock::{Clock, median},
+    draw, frame_request_of,
+};
 
 /// Distance of the camera from which the bubble of 10 cm covers 99 % of the picture's height, as in the bench of three.js' materials.
 const DISTANCE_M: f64 = 0.1947;
@@ -77,10 +79,10 @@ const PARTS: [(&str, &[Edit]); 11] = [
 pub fn print(size: [u32; 2], rounds: usize) {
     let [mut whole, mut without] = [(); 2].map(|()| renderer());
     println!("adapter: {}, {}", whole.gpu.adapter_name(), whole.gpu.driver());
-    println!("CPU time of a frame of {}x{}, ms, median of {rounds}", size[0], size[1]);
+    let clock = Clock::of(&whole.gpu);
+    println!("{} of a frame of {}x{}, ms, median of {rounds}", clock.name(), size[0], size[1]);
     for (name, request) in frames(size) {
-        draw(&mut whole, &request);
-        println!("{name:<45}{:>8.1}", median((0..rounds).map(|_| cpu_ms(|| draw(&mut whole, &request))).collect()));
+        println!("{name:<45}{:>8.2}", frame_ms(&mut whole, clock, &request, rounds));
     }
     println!("\nsaved without a part, ms{:>29}{:>10}", "fast", "standard");
     let requests = [Quality::Fast, Quality::Standard].map(|quality| bubble(size, quality));
@@ -90,8 +92,8 @@ pub fn print(size: [u32; 2], rounds: usize) {
         write_shaders(folder.path(), edits);
         let library = Library::Directory(folder.path().to_owned());
         without.gpu.pipelines.reload(&without.gpu.device, library).expect("shaders that still compile");
-        let saved = requests.each_ref().map(|request| saved_ms([&mut whole, &mut without], request, rounds));
-        println!("{name:<45}{:>8.1}{:>10.1}", saved[0], saved[1]);
+        let saved = requests.each_ref().map(|request| saved_ms([&mut whole, &mut without], clock, request, rounds));
+        println!("{name:<45}{:>8.2}{:>10.2}", saved[0], saved[1]);
     }
 }
 
@@ -102,11 +104,17 @@ pub fn renderer() -> Renderer {
     )
 }
 
-fn saved_ms([whole, without]: [&mut Renderer; 2], request: &FrameRequest, rounds: usize) -> f64 {
+/// The cost of a frame that is drawn again and again.
+pub fn frame_ms(renderer: &mut Renderer, clock: Clock, request: &FrameRequest, rounds: usize) -> f64 {
+    draw(renderer, request);
+    median((0..rounds).map(|_| clock.ms(renderer, |renderer| draw(renderer, request))).collect())
+}
+
+fn saved_ms([whole, without]: [&mut Renderer; 2], clock: Clock, request: &FrameRequest, rounds: usize) -> f64 {
     draw(whole, request);
     draw(without, request);
-    let mut saved = || cpu_ms(|| draw(whole, request)) - cpu_ms(|| draw(without, request));
-    median((0..rounds).map(|_| saved()).collect())
+    let ms = |renderer: &mut Renderer| clock.ms(renderer, |renderer| draw(renderer, request));
+    median((0..rounds).map(|_| ms(whole) - ms(without)).collect())
 }
 
 /// Frames as a whole.
@@ -135,19 +143,6 @@ fn bubble(size: [u32; 2], quality: Quality) -> FrameRequest {
         scene.camera.distance_m = DISTANCE_M;
         scene.view.quality = quality;
     })
-}
-
-/// CPU time of some work.
-pub fn cpu_ms(work: impl FnOnce()) -> f64 {
-    let start = ProcessTime::now();
-    work();
-    start.elapsed().as_secs_f64() * 1e3
-}
-
-/// The middle one of some values.
-pub fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 /// Writes all shaders to a folder, some of them changed.

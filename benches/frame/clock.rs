@@ -1,0 +1,52 @@
+//! The clock that costs are read from.
+
+use cpu_time::ProcessTime;
+use soapfilm::gpu::{Gpu, Renderer};
+
+/// What counts as the cost of some work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clock {
+    /// CPU time of the process. Where a program draws in place of a GPU, it holds all that is drawn, and it is steadier than wall time.
+    Process,
+    /// Time of the passes on the GPU.
+    Gpu,
+}
+
+impl Clock {
+    /// The clocks that tell something on a device, the one that holds all that is drawn first.
+    pub fn all(gpu: &Gpu) -> &'static [Self] {
+        let is_program = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        if is_program || !gpu.can_time() { &[Self::Process] } else { &[Self::Gpu, Self::Process] }
+    }
+
+    /// The clock that holds all that is drawn on a device.
+    pub fn of(gpu: &Gpu) -> Self {
+        Self::all(gpu)[0]
+    }
+
+    /// What the clock shows, for headings.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Process => "CPU time",
+            Self::Gpu => "GPU time",
+        }
+    }
+
+    /// Milliseconds of some work, which must end with a wait for the device.
+    pub fn ms(self, renderer: &mut Renderer, work: impl FnOnce(&mut Renderer)) -> f64 {
+        drop(renderer.times.take());
+        let start = ProcessTime::now();
+        work(renderer);
+        let cpu_ms = start.elapsed().as_secs_f64() * 1e3;
+        match self {
+            Self::Process => cpu_ms,
+            Self::Gpu => renderer.times.take().iter().filter_map(|pass| pass.gpu_ms).sum(),
+        }
+    }
+}
+
+/// The middle one of some values.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
