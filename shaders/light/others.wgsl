@@ -58,7 +58,7 @@ fn mirrored_light(point: vec3f, direction: vec3f, footprint: f32) -> vec3f {
 // What a wall of another bubble reflects of light, as light.
 fn reflected_light(other: OtherBubble, place: vec3f, cos_theta: f32, step: vec3f) -> vec3f {
     let film = FilmPoint(cos_theta, other_nm(films, other, place), 0.0);
-    return light.unseen * (light.scale * reflection_at(table, table_sampler, axes, film, vec2f(0.5), step));
+    return light.unseen * (light.scale * reflection_at(table, axes, film, vec2f(0.5), step));
 }
 
 // What other bubbles leave of light on its way from the bubble's front and back wall.

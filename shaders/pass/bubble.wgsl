@@ -78,8 +78,8 @@ struct ListPart {
 @group(0) @binding(3) var environment_sampler: sampler;
 @group(0) @binding(4) var<uniform> bubble: Bubble;
 @group(0) @binding(5) var<uniform> axes: TableAxes;
-@group(0) @binding(6) var table: texture_2d_array<f32>;
-@group(0) @binding(7) var table_sampler: sampler;
+@group(0) @binding(6) var table: texture_2d_array<u32>;
+@group(0) @binding(7) var<uniform> lamps: array<Lamp, 12>;
 @group(0) @binding(8) var film: texture_2d_array<f32>;
 @group(0) @binding(9) var<uniform> quadrature: array<QuadratureSample, 256>;
 @group(0) @binding(10) var<uniform> film_balance: Balance;
@@ -95,7 +95,6 @@ struct ListPart {
 @group(0) @binding(20) var<storage, read> part: ListPart;
 // The environment as it is seen behind the bubbles.
 @group(0) @binding(21) var backdrop_map: texture_cube<f32>;
-@group(0) @binding(22) var<uniform> lamps: array<Lamp, 12>;
 
 // Sides of the polygons that rings are made of.
 override SIDES: u32;
@@ -336,7 +335,7 @@ fn colour_products(path: Path, hits: Hits) -> vec3f {
 }
 
 fn wall_reflection(path: Path, nm: f32, spread_nm: f32, polarisation: vec2f, step: vec3f) -> vec3f {
-    return film_reflection(table, table_sampler, axes, FilmPoint(path.cos_theta, nm, spread_nm), polarisation, step);
+    return film_reflection(table, axes, FilmPoint(path.cos_theta, nm, spread_nm), polarisation, step);
 }
 
 // What is seen of the bubble along a ray that is known to meet it.

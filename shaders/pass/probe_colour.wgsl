@@ -16,16 +16,15 @@ struct ProbePoint {
 }
 
 @group(0) @binding(0) var<uniform> axes: TableAxes;
-@group(0) @binding(1) var table: texture_2d_array<f32>;
-@group(0) @binding(2) var table_sampler: sampler;
-@group(0) @binding(3) var<uniform> quadrature: array<QuadratureSample, 256>;
-@group(0) @binding(4) var<storage, read> points: array<ProbePoint>;
-@group(0) @binding(5) var<storage, read_write> colours: array<vec4f>;
+@group(0) @binding(1) var table: texture_2d_array<u32>;
+@group(0) @binding(2) var<uniform> quadrature: array<QuadratureSample, 256>;
+@group(0) @binding(3) var<storage, read> points: array<ProbePoint>;
+@group(0) @binding(4) var<storage, read_write> colours: array<vec4f>;
 
 const UNPOLARISED: vec2f = vec2f(0.5, 0.5);
 
 fn wall(cos_theta: f32, thickness_nm: f32) -> vec3f {
-    return film_reflection(table, table_sampler, axes, FilmPoint(cos_theta, thickness_nm, 0.0), UNPOLARISED, vec3f(1.0));
+    return film_reflection(table, axes, FilmPoint(cos_theta, thickness_nm, 0.0), UNPOLARISED, vec3f(1.0));
 }
 
 // White light from where the outer and the first inner reflection lead, none from elsewhere: what is seen is the sum of the walls.

@@ -9,7 +9,7 @@ import package::light::stored::storable;
 import package::optics::airy::{max_reflectance, surface_reflectance};
 import package::optics::film_colour::{COLOURED, POLARISED};
 import package::optics::shares::between_walls;
-import package::optics::table::{FilmPoint, TableAxes, table_coordinates};
+import package::optics::table::{FilmPoint, TableAxes, TablePlace, table_colour, table_place};
 import package::sphere::others::{OtherBubble, chord_through, other_nm};
 import package::sphere::path::{Path, footprint, polarisation_along, spanned_angles};
 import package::sphere::silhouette::silhouette;
@@ -34,14 +34,13 @@ struct Tile {
 @group(0) @binding(2) var environment: texture_cube<f32>;
 @group(0) @binding(3) var environment_sampler: sampler;
 @group(0) @binding(4) var<uniform> axes: TableAxes;
-@group(0) @binding(5) var table: texture_2d_array<f32>;
-@group(0) @binding(6) var table_sampler: sampler;
+@group(0) @binding(5) var table: texture_2d_array<u32>;
+@group(0) @binding(6) var<uniform> lamps: array<Lamp, 12>;
 @group(0) @binding(7) var films: texture_2d_array<f32>;
 @group(0) @binding(8) var<storage, read> bubbles: array<OtherBubble>;
 @group(0) @binding(9) var<storage, read> lists: array<u32>;
 @group(0) @binding(10) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(11) var picture_behind: texture_2d<f32>;
-@group(0) @binding(12) var<uniform> lamps: array<Lamp, 12>;
 
 // The whole picture; the pass cuts it to the tiles that have bubbles.
 @vertex
@@ -93,23 +92,23 @@ fn surroundings(path: Path, direction: vec3f, turns: f32) -> vec3f {
 
 // What a wall makes of light: a column for each primary.
 fn wall_colours(path: Path, nm: f32) -> mat3x3f {
-    let uv = table_coordinates(axes, FilmPoint(path.cos_theta, nm, 0.0));
+    let place = table_place(axes, FilmPoint(path.cos_theta, nm, 0.0));
     let shares = polarisation_along(path, light.polariser);
     let scale = max_reflectance(axes.index, path.cos_theta) * light.scale;
-    var columns = primaries(uv, 0u);
+    var columns = primaries(place, 0u);
     if (POLARISED == 1u) {
-        columns = shares.x * columns + shares.y * primaries(uv, select(1u, 3u, COLOURED == 1u));
+        columns = shares.x * columns + shares.y * primaries(place, select(1u, 3u, COLOURED == 1u));
     }
     return mat3x3f(scale * columns[0], scale * columns[1], scale * columns[2]);
 }
 
-fn primaries(uv: vec2f, first: u32) -> mat3x3f {
-    let red = textureSampleLevel(table, table_sampler, uv, first, 0.0).rgb;
+fn primaries(place: TablePlace, first: u32) -> mat3x3f {
+    let red = table_colour(table, place, first);
     if (COLOURED == 0u) {
         return mat3x3f(vec3f(red.r, 0.0, 0.0), vec3f(0.0, red.g, 0.0), vec3f(0.0, 0.0, red.b));
     }
-    let green = textureSampleLevel(table, table_sampler, uv, first + 1u, 0.0).rgb;
-    let blue = textureSampleLevel(table, table_sampler, uv, first + 2u, 0.0).rgb;
+    let green = table_colour(table, place, first + 1u);
+    let blue = table_colour(table, place, first + 2u);
     return mat3x3f(red, green, blue);
 }
 

@@ -22,9 +22,10 @@ const COMPUTED: TextureUsages = TextureUsages::STORAGE_BINDING.union(TextureUsag
 /// The linear picture for measurements, which windows do without.
 const MEASURED: FormatNeed = FormatNeed { format: TextureFormat::Rgba32Float, usages: DRAWN, filtered: false };
 
-/// The table, the environment and the linear picture; the shown film; the finished picture.
-const FORMATS: [FormatNeed; 3] = [
+/// The table as it is baked, the environment and the linear picture; the table as it is read; the shown film; the finished picture.
+const FORMATS: [FormatNeed; 4] = [
     FormatNeed { format: TextureFormat::Rgba16Float, usages: DRAWN.union(COMPUTED), filtered: true },
+    FormatNeed { format: TextureFormat::Rgba32Uint, usages: COMPUTED, filtered: false },
     FormatNeed { format: TextureFormat::R32Float, usages: COMPUTED, filtered: false },
     FormatNeed { format: TextureFormat::Rgba8Unorm, usages: DRAWN, filtered: true },
 ];

@@ -164,7 +164,7 @@ fn make_compute(
     key: &ComputeKey,
 ) -> Result<Ready<wgpu::ComputePipeline>, ShaderError> {
     let source = PassSource::new(device, library, key.pass, &key.constants)?;
-    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let scopes = Scopes::open(device);
     let shader = source.stage(key.entry)?;
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(key.entry),
@@ -175,7 +175,7 @@ fn make_compute(
         cache: None,
     });
     let layout = pipeline.get_bind_group_layout(0);
-    source.ready(scope, late, [shader], (pipeline, layout))
+    source.ready(scopes, late, [shader], (pipeline, layout))
 }
 
 fn make_render(
@@ -184,7 +184,7 @@ fn make_render(
     key: &RenderKey,
 ) -> Result<Ready<wgpu::RenderPipeline>, ShaderError> {
     let source = PassSource::new(device, library, key.pass, &key.constants)?;
-    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let scopes = Scopes::open(device);
     let vertex = source.stage(key.vertex)?;
     let fragment = source.stage(key.fragment)?;
     let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -209,7 +209,32 @@ fn make_render(
         cache: None,
     });
     let layout = pipeline.get_bind_group_layout(0);
-    source.ready(scope, late, [vertex, fragment], (pipeline, layout))
+    source.ready(scopes, late, [vertex, fragment], (pipeline, layout))
+}
+
+/// Error scopes for all that may be wrong with a shader: wgpu refuses it, or the driver does, as OpenGL's do when they link.
+struct Scopes {
+    /// Opened last.
+    validation: wgpu::ErrorScopeGuard,
+    internal: wgpu::ErrorScopeGuard,
+}
+
+impl Scopes {
+    fn open(device: &wgpu::Device) -> Self {
+        let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
+        Self { validation: device.push_error_scope(wgpu::ErrorFilter::Validation), internal }
+    }
+
+    /// The first error. The driver's own comes before those that it caused.
+    fn close(self) -> impl Future<Output = Option<wgpu::Error>> {
+        let validation = self.validation.pop();
+        let internal = self.internal.pop();
+        async move {
+            let internal = internal.await;
+            let validation = validation.await;
+            internal.or(validation)
+        }
+    }
 }
 
 /// A composed pass, and a value for each of its constants.
@@ -267,17 +292,17 @@ impl<'a> PassSource<'a> {
         Ok(StageShader { module, constants: self.constants.clone(), bindings: None })
     }
 
-    /// A pipeline, if nothing was refused since an error scope was opened. What the compiler or the driver refuses comes back as an error, here
+    /// A pipeline, if nothing was refused since error scopes were opened. What the compiler or the driver refuses comes back as an error, here
     /// or later from [`Pipelines::late_error`].
     fn ready<P, const STAGES: usize>(
         self,
-        scope: wgpu::ErrorScopeGuard,
+        scopes: Scopes,
         late: &LateErrors,
         shaders: [StageShader; STAGES],
         (pipeline, layout): (P, wgpu::BindGroupLayout),
     ) -> Result<Ready<P>, ShaderError> {
         let bindings = shaders.iter().map(|shader| shader.bindings.clone()).collect::<Option<Vec<_>>>();
-        let (Self { pass, composed, .. }, errors) = (self, scope.pop());
+        let (Self { pass, composed, .. }, errors) = (self, scopes.close());
         let answer = async move {
             let error = errors.await?;
             let mut messages = Vec::new();

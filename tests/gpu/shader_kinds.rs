@@ -29,8 +29,12 @@ fn image_kind(dim: ImageDimension, arrayed: bool, class: ImageClass) -> Result<S
     };
     match class {
         ImageClass::Sampled { kind: NagaKind::Float, multi: false } => Ok(SlotKind::Texture(dimension)),
+        ImageClass::Sampled { kind: NagaKind::Uint, multi: false } => Ok(SlotKind::UintTexture(dimension)),
         ImageClass::Storage { format: StorageFormat::R32Float, access: StorageAccess::STORE } if arrayed => {
             Ok(SlotKind::Written(wgpu::TextureFormat::R32Float))
+        }
+        ImageClass::Storage { format: StorageFormat::Rgba32Uint, access: StorageAccess::STORE } if arrayed => {
+            Ok(SlotKind::Written(wgpu::TextureFormat::Rgba32Uint))
         }
         ImageClass::Storage { format: StorageFormat::Rgba16Float, access: StorageAccess::STORE } if arrayed => {
             Ok(SlotKind::Written(wgpu::TextureFormat::Rgba16Float))

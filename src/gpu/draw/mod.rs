@@ -12,7 +12,7 @@ use super::{
     kernel::Drawable,
     passes::{
         backdrop::{Backdrop, LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
-        bake_table::{Table, TableOverrides, table_sampler},
+        bake_table::{Table, TableOverrides},
         bubble::{OtherBubble, Shade, ShadeMirror},
         open_hole::OpenHole,
     },
@@ -141,7 +141,6 @@ struct Shared<'a> {
     light: LightBuffers,
     environment: &'a Environment,
     backdrop: &'a Environment,
-    table_sampler: wgpu::Sampler,
     behind: &'a wgpu::TextureView,
     so_far: &'a wgpu::TextureView,
     others: Others,
@@ -204,7 +203,6 @@ impl DrawPass {
         let light = LightBuffers::new(gpu, key, lighting, [inputs.environment, inputs.backdrop]);
         let backdrop = BackdropDraw::new(gpu, key, lighting, &light, (&view, inputs.backdrop))?;
         let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0] };
-        let table_sampler = table_sampler(gpu);
         let [behind, so_far] = inputs.drawn.map(|target| &target.view);
         let others = Others::new(gpu, key, lighting, inputs);
         let shared = Shared {
@@ -214,7 +212,6 @@ impl DrawPass {
             light,
             environment: inputs.environment,
             backdrop: inputs.backdrop,
-            table_sampler,
             behind,
             so_far,
             others,
@@ -301,20 +298,7 @@ fn copy_part(encoder: &mut wgpu::CommandEncoder, from: &Target, to: &Target, par
 impl Shared<'_> {
     /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
-        let Self {
-            key,
-            lighting,
-            view,
-            light,
-            environment,
-            backdrop,
-            table_sampler,
-            behind,
-            so_far,
-            others,
-            films,
-            ..
-        } = self;
+        let Self { key, lighting, view, light, environment, backdrop, behind, so_far, others, films, .. } = self;
         let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
         let bubble = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
         let part = &gpu.storage("part of the lists", &[list_part(drawn)]);
@@ -331,7 +315,6 @@ impl Shared<'_> {
             bubble,
             axes: &table.axes,
             table: &table.view,
-            table_sampler,
             film: film.film,
             quadrature: &quadrature.buffer,
             film_balance: film.balance,

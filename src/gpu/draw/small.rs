@@ -103,7 +103,6 @@ impl Shared<'_> {
             environment_sampler: &self.environment.sampler,
             axes: &table.axes,
             table: &table.view,
-            table_sampler: &self.table_sampler,
             films: self.films,
             bubbles: &self.small,
             lists: &gpu.storage("lists of small bubbles", &lists.lists),

@@ -31,8 +31,8 @@ pub(crate) use layout::{add_member, shader_struct, shader_view};
 pub use overrides::{Choice, Constants, Override, OverrideValues, Overrides};
 pub(crate) use overrides::{choices, override_values, overrides};
 pub use slots::{
-    R32Float, Read, ReadWrite, Rgba16Float, Sampler, Slot, SlotKind, Texture2d, Texture2dArray, TextureCube, Uniform,
-    Written2dArray, WrittenFormat,
+    R32Float, Read, ReadWrite, Rgba16Float, Rgba32Uint, Sampler, Slot, SlotKind, Texture2d, Texture2dArray,
+    TextureCube, Uint2dArray, Uniform, Written2dArray, WrittenFormat,
 };
 
 use std::collections::BTreeMap;

@@ -20,6 +20,8 @@ pub enum SlotKind {
     ReadWrite(Layout),
     /// A texture of floats that is sampled or loaded from.
     Texture(Dimension),
+    /// A texture of unsigned integers that is loaded from.
+    UintTexture(Dimension),
     /// A texture array that is written, and its format.
     Written(wgpu::TextureFormat),
     /// A sampler.
@@ -46,6 +48,8 @@ pub struct ReadWrite<T: ?Sized>(PhantomData<T>);
 pub struct Texture2d;
 /// An array of textures.
 pub struct Texture2dArray;
+/// An array of textures of unsigned integers.
+pub struct Uint2dArray;
 /// A cube map.
 pub struct TextureCube;
 /// An array of textures that is written.
@@ -63,6 +67,8 @@ pub trait WrittenFormat {
 pub struct Rgba16Float;
 /// One float a texel.
 pub struct R32Float;
+/// Four unsigned integers a texel.
+pub struct Rgba32Uint;
 
 impl WrittenFormat for Rgba16Float {
     const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -70,6 +76,10 @@ impl WrittenFormat for Rgba16Float {
 
 impl WrittenFormat for R32Float {
     const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+}
+
+impl WrittenFormat for Rgba32Uint {
+    const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 }
 
 /// Makes a type a kind of binding: what is bound, what a shader must declare, and how wgpu takes it.
@@ -94,6 +104,7 @@ slot!({ T: Contents + ?Sized } Read<T> = Buffer, SlotKind::Read(T::layout()), wh
 slot!({ T: Contents + ?Sized } ReadWrite<T> = Buffer, SlotKind::ReadWrite(T::layout()), whole);
 slot!(Texture2d = TextureView, SlotKind::Texture(Dimension::D2), BindingResource::TextureView);
 slot!(Texture2dArray = TextureView, SlotKind::Texture(Dimension::D2Array), BindingResource::TextureView);
+slot!(Uint2dArray = TextureView, SlotKind::UintTexture(Dimension::D2Array), BindingResource::TextureView);
 slot!(TextureCube = TextureView, SlotKind::Texture(Dimension::Cube), BindingResource::TextureView);
 slot!({ F: WrittenFormat } Written2dArray<F> = TextureView, SlotKind::Written(F::FORMAT), BindingResource::TextureView);
 slot!(Sampler = wgpu::Sampler, SlotKind::Sampler, BindingResource::Sampler);

@@ -7,7 +7,10 @@ use bytemuck::Zeroable;
 use crate::{
     gpu::{
         device::{Gpu, GpuError},
-        kernel::{Rgba16Float, Uniform, Written2dArray, WrittenFormat, kernels, overrides, shader_struct},
+        kernel::{
+            Rgba16Float, Rgba32Uint, Texture2dArray, Uniform, Written2dArray, WrittenFormat, kernels, overrides,
+            shader_struct,
+        },
         quadrature::{MAX_SPECTRUM, QuadratureSample, spectrum_samples},
         timing::Recorder,
         uniform_buffer::UniformBuffer,
@@ -82,18 +85,27 @@ kernels! {
         overrides table_kind: TableOverrides;
         @0 bake: Uniform<BakeUniform>;
         @1 samples: Uniform<[QuadratureSample; MAX_SPECTRUM]>;
-        // Filterable and storable on every adapter.
         @2 table: Written2dArray<Rgba16Float>;
     }
     compute bake_table;
+
+    /// Rows that were baked, and the one before, for lookups.
+    struct PairRows {
+        @0 bake: Uniform<BakeUniform>;
+        @3 baked: Texture2dArray;
+        @4 paired: Written2dArray<Rgba32Uint>;
+    }
+    compute pair_rows;
 }
 
 /// A table on the device: a layer for each primary and polarisation that it keeps apart.
 pub struct Table {
     /// What it spans, as a uniform.
     pub axes: UniformBuffer<TableAxes>,
-    /// View of all layers.
+    /// View of all layers: two rows to a texel, see `shaders/optics/table.wgsl`.
     pub view: wgpu::TextureView,
+    /// The same as it is baked.
+    baked: wgpu::TextureView,
     /// A sample for each wavelength of the light, then zeros. A uniform, because all lanes read the same sample at once: llvmpipe reads a storage
     /// buffer separately for each lane, which made the bake eight times as slow.
     spectra: UniformBuffer<[QuadratureSample; MAX_SPECTRUM]>,
@@ -115,24 +127,6 @@ impl Table {
     /// An empty table and the spectra that it will be baked from.
     #[must_use]
     pub fn new(gpu: &Gpu, key: &TableKey) -> Self {
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("film table"),
-            size: wgpu::Extent3d {
-                width: key.columns,
-                height: key.rows,
-                depth_or_array_layers: gpu.array_layers(key.layers()),
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: Rgba16Float::FORMAT,
-            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        });
-        let view = texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2Array),
-            ..Default::default()
-        });
         let axes = gpu.uniform("table axes", &TableAxes::of(key));
         let samples = spectrum_samples(&key.optics);
         let mut spectra = [QuadratureSample::zeroed(); MAX_SPECTRUM];
@@ -140,7 +134,8 @@ impl Table {
         spectra[..samples.len()].copy_from_slice(&samples);
         Self {
             axes,
-            view,
+            view: layers(gpu, "film table", key, Rgba32Uint::FORMAT),
+            baked: layers(gpu, "baked film table", key, Rgba16Float::FORMAT),
             spectra: gpu.uniform("spectra", &spectra),
             wavelengths: samples.len() as u32,
             fades: fades(&samples, key.max_thickness_nm),
@@ -178,28 +173,45 @@ impl Table {
             wavelengths: self.wavelengths,
             pad: 0,
         };
+        let bake = &recorder.gpu.uniform("bake", &uniform);
         let kernel = BakeTable {
             FADES: self.fades,
             table_kind: TableOverrides { COLOURED: key.coloured, POLARISED: key.polarised },
-            bake: &recorder.gpu.uniform("bake", &uniform),
+            bake,
             samples: &self.spectra,
-            table: &self.view,
+            table: &self.baked,
         };
         kernel.bake_table(
             recorder,
             "bake_table",
             [key.columns.div_ceil(64), (rows.len() as u32).div_ceil(ROWS_PER_INVOCATION), 1],
+        )?;
+        PairRows { bake, baked: &self.baked, paired: &self.view }.pair_rows(
+            recorder,
+            "bake_table",
+            [key.columns.div_ceil(64), rows.len() as u32 + 1, key.layers()],
         )
     }
 }
 
-/// Filters a table: linear, and no wrapping at its ends.
-#[must_use]
-pub fn table_sampler(gpu: &Gpu) -> wgpu::Sampler {
-    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some("film table"),
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
+/// All layers of a table in a format.
+fn layers(gpu: &Gpu, label: &str, key: &TableKey, format: wgpu::TextureFormat) -> wgpu::TextureView {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width: key.columns,
+            height: key.rows,
+            depth_or_array_layers: gpu.array_layers(key.layers()),
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..Default::default()
     })
 }

@@ -9,7 +9,8 @@ use crate::{
     gpu::{
         control::BalanceBlock,
         kernel::{
-            Matrix, Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uniform, kernels, overrides, shader_struct,
+            Matrix, Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uint2dArray, Uniform, kernels, overrides,
+            shader_struct,
         },
         quadrature::{MAX_WAVELENGTHS, QuadratureOverrides, QuadratureSample},
         rings::SIDES,
@@ -166,8 +167,8 @@ kernels! {
         @3 environment_sampler: Sampler;
         @4 bubble: Uniform<BubbleUniform>;
         @5 axes: Uniform<TableAxes>;
-        @6 table: Texture2dArray;
-        @7 table_sampler: Sampler;
+        @6 table: Uint2dArray;
+        @7 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
         @8 film: Texture2dArray;
         @9 quadrature: Uniform<[QuadratureSample; MAX_WAVELENGTHS]>;
         @10 film_balance: Uniform<BalanceBlock>;
@@ -182,7 +183,6 @@ kernels! {
         @19 films: Texture2dArray;
         @20 part: Read<ListPart>;
         @21 backdrop_map: TextureCube;
-        @22 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
     }
     draw ring, everywhere as shade;
 
@@ -197,10 +197,10 @@ kernels! {
         @2 environment: TextureCube;
         @3 environment_sampler: Sampler;
         @4 bubble: Uniform<BubbleUniform>;
+        @7 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
         @15 picture_behind: Texture2d;
         @16 picture_so_far: Texture2d;
         @21 backdrop_map: TextureCube;
-        @22 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
     }
     draw ring, everywhere as shade_mirror;
 }

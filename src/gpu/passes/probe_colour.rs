@@ -2,11 +2,11 @@
 
 use glam::{DVec3, Vec3};
 
-use super::bake_table::{Table, TableAxes, TableOverrides, table_sampler};
+use super::bake_table::{Table, TableAxes, TableOverrides};
 use crate::{
     gpu::{
         device::{Gpu, GpuError},
-        kernel::{Read, ReadWrite, Sampler, Texture2dArray, Uniform, kernels, shader_struct},
+        kernel::{Read, ReadWrite, Uint2dArray, Uniform, kernels, shader_struct},
         quadrature::{MAX_WAVELENGTHS, Quadrature, QuadratureOverrides, QuadratureSample},
         readback::Readback,
         timing::Recorder,
@@ -42,11 +42,10 @@ kernels! {
         overrides table_kind: TableOverrides;
         overrides summed: QuadratureOverrides;
         @0 axes: Uniform<TableAxes>;
-        @1 table: Texture2dArray;
-        @2 table_sampler: Sampler;
-        @3 quadrature: Uniform<[QuadratureSample; MAX_WAVELENGTHS]>;
-        @4 points: Read<[ProbePoint]>;
-        @5 colours: ReadWrite<[[f32; 4]]>;
+        @1 table: Uint2dArray;
+        @2 quadrature: Uniform<[QuadratureSample; MAX_WAVELENGTHS]>;
+        @3 points: Read<[ProbePoint]>;
+        @4 colours: ReadWrite<[[f32; 4]]>;
     }
     compute probe_colour;
 }
@@ -116,7 +115,6 @@ impl ColourProbe {
             summed: self.quadrature.overrides(),
             axes: &self.table.axes,
             table: &self.table.view,
-            table_sampler: &table_sampler(gpu),
             quadrature: &self.quadrature.buffer,
             points: &gpu.storage("points", points),
             colours: &colours,

@@ -5,7 +5,9 @@ use super::{
     bake_table::{TableAxes, TableOverrides},
     bubble::OtherBubble,
 };
-use crate::gpu::kernel::{Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uniform, kernels, shader_struct};
+use crate::gpu::kernel::{
+    Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uint2dArray, Uniform, kernels, shader_struct,
+};
 
 /// Side of a tile in pixels: bubbles are found by the tiles that they may cover.
 pub const TILE: u32 = 16;
@@ -39,14 +41,13 @@ kernels! {
         @2 environment: TextureCube;
         @3 environment_sampler: Sampler;
         @4 axes: Uniform<TableAxes>;
-        @5 table: Texture2dArray;
-        @6 table_sampler: Sampler;
+        @5 table: Uint2dArray;
+        @6 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
         @7 films: Texture2dArray;
         @8 bubbles: Read<[OtherBubble]>;
         @9 lists: Read<[u32]>;
         @10 tiles: Read<[SmallTile]>;
         @11 picture_behind: Texture2d;
-        @12 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
     }
     draw cover as small_bubbles;
 }
