@@ -59,20 +59,25 @@ fn table_place(axes: TableAxes, film: FilmPoint) -> TablePlace {
     return TablePlace(vec2u(first), clamp(texel - first, vec2f(0.0), vec2f(1.0)));
 }
 
-// Two rows of a table in one texel: of each primary, what is seen in the row and in the next.
+// Two rows of a table in one texel: six numbers of 21 bits, which are f32 without the last 11 bits of their mantissa. Three of a row and the first of
+// the next fill the upper parts of the texel's numbers, and halves of the last two numbers the lower parts.
 fn two_rows(here: vec3f, next: vec3f) -> vec4u {
-    return vec4u(
-        pack2x16float(vec2f(here.r, next.r)),
-        pack2x16float(vec2f(here.g, next.g)),
-        pack2x16float(vec2f(here.b, next.b)),
-        0u,
-    );
+    let kept = rounded(vec4f(here, next.r));
+    let split = rounded(vec4f(next.gb, 0.0, 0.0)) >> vec4u(11u);
+    return kept | vec4u(split.r >> 10u, split.r & 0x3ffu, split.g >> 10u, split.g & 0x3ffu);
+}
+
+// Bits of numbers rounded to 21 bits.
+fn rounded(numbers: vec4f) -> vec4u {
+    return (bitcast<vec4u>(numbers) + vec4u(0x400u)) & vec4u(0xfffff800u);
 }
 
 // What two rows hold part of the way to the next.
 fn between_rows(texel: vec4u, part: f32) -> vec3f {
-    let rows = mat3x2f(unpack2x16float(texel.r), unpack2x16float(texel.g), unpack2x16float(texel.b));
-    return vec2f(1.0 - part, part) * rows;
+    let kept = texel & vec4u(0xfffff800u);
+    let halves = texel & vec4u(0x7ffu);
+    let next = vec3u(kept.a, halves.r << 21u | halves.g << 11u, halves.b << 21u | halves.a << 11u);
+    return mix(bitcast<vec3f>(kept.rgb), bitcast<vec3f>(next), part);
 }
 
 // What a layer holds at a place, bilinearly. Not by a sampler: GPUs round its place to 1/256 of a texel, which costs a third of the precision.

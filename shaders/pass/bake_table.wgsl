@@ -1,10 +1,10 @@
 // Bakes the lookup table of what single walls reflect: for each texel the spectral sum over all wavelengths of the light, divided by the
-// greatest reflectance at its angle so that half floats and filtering spend their precision where the eye does. Layers: what is seen of
-// white light, or of each primary; of s and p light together, or first of s and then of p. What is baked is then stored as lookups read it.
+// greatest reflectance at its angle so that interpolation and rounding spend their precision where the eye does. Layers: what is seen of
+// white light, or of each primary; of s and p light together, or first of s and then of p.
 
 import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, max_reflectance, n_cos_refracted};
 import package::optics::quadrature::QuadratureSample;
-import package::optics::table::{TableAxes, film_of_texel, two_rows};
+import package::optics::table::{TableAxes, film_of_texel};
 
 // As in optics/film_colour.wgsl.
 override COLOURED: u32;
@@ -24,10 +24,7 @@ struct Bake {
 
 @group(0) @binding(0) var<uniform> bake: Bake;
 @group(0) @binding(1) var<uniform> samples: array<QuadratureSample, 512>;
-@group(0) @binding(2) var table: texture_storage_2d_array<rgba16float, write>;
-// The table as it was baked, and as it is read.
-@group(0) @binding(3) var baked: texture_2d_array<f32>;
-@group(0) @binding(4) var paired: texture_storage_2d_array<rgba32uint, write>;
+@group(0) @binding(2) var table: texture_storage_2d_array<rgba32float, write>;
 
 const TAU: f32 = 6.2831853;
 
@@ -114,17 +111,4 @@ fn bake_table(@builtin(global_invocation_id) id: vec3u) {
     if (POLARISED == 1u) {
         store_all(texel, select(1u, 3u, COLOURED == 1u), scale, p);
     }
-}
-
-// Stores each row together with the next, of rows that were just baked and of the one before, whose next was missing.
-@compute @workgroup_size(64)
-fn pair_rows(@builtin(global_invocation_id) id: vec3u) {
-    let texel = vec2u(id.x, max(bake.first_row, 1u) - 1u + id.y);
-    let size = vec2u(bake.axes.size);
-    if (any(texel >= size)) {
-        return;
-    }
-    let here = textureLoad(baked, texel, id.z, 0).rgb;
-    let next = textureLoad(baked, min(texel + vec2u(0u, 1u), size - 1u), id.z, 0).rgb;
-    textureStore(paired, texel, id.z, two_rows(here, next));
 }

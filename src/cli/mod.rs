@@ -35,6 +35,7 @@ use crate::{
     input::{LoadError, LoadedScene, load_scene_with},
     output::{tell, watch_signals},
     scene::Setting,
+    verify::trial,
 };
 
 /// Accompanies all errors of colours: small ones concern the numerics alone, and are no claim about a real film.
@@ -110,7 +111,10 @@ impl AdapterArguments {
 
     /// Opens the adapter without a window, and names it on stderr.
     fn open(&self) -> Result<Gpu, GpuError> {
-        let gpu = without_logs(|| pollster::block_on(Gpu::headless(&self.choice())))?;
+        let gpu = without_logs(|| {
+            let gpu = pollster::block_on(Gpu::headless(&self.choice()))?;
+            trial(&gpu).map(|()| gpu)
+        })?;
         tell(format_args!("adapter: {}, {}", gpu.adapter_name(), gpu.driver()));
         Ok(gpu)
     }

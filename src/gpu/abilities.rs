@@ -22,9 +22,10 @@ const COMPUTED: TextureUsages = TextureUsages::STORAGE_BINDING.union(TextureUsag
 /// The linear picture for measurements, which windows do without.
 const MEASURED: FormatNeed = FormatNeed { format: TextureFormat::Rgba32Float, usages: DRAWN, filtered: false };
 
-/// The table as it is baked, the environment and the linear picture; the table as it is read; the shown film; the finished picture.
-const FORMATS: [FormatNeed; 4] = [
-    FormatNeed { format: TextureFormat::Rgba16Float, usages: DRAWN.union(COMPUTED), filtered: true },
+/// The environment and the linear picture; the table as it is baked and as it is read; the shown film; the finished picture.
+const FORMATS: [FormatNeed; 5] = [
+    FormatNeed { format: TextureFormat::Rgba16Float, usages: DRAWN, filtered: true },
+    FormatNeed { format: TextureFormat::Rgba32Float, usages: COMPUTED, filtered: false },
     FormatNeed { format: TextureFormat::Rgba32Uint, usages: COMPUTED, filtered: false },
     FormatNeed { format: TextureFormat::R32Float, usages: COMPUTED, filtered: false },
     FormatNeed { format: TextureFormat::Rgba8Unorm, usages: DRAWN, filtered: true },
@@ -79,7 +80,8 @@ mod tests {
         let lacks = |usage| wgpu::TextureFormatFeatures { allowed_usages: TextureUsages::all() - usage, ..all };
         let told = |features| need.missing(features).unwrap();
         assert!(told(lacks(TextureUsages::RENDER_ATTACHMENT)).contains("draw into textures of the format Rgba16Float"));
-        assert!(told(lacks(TextureUsages::STORAGE_BINDING)).contains("compute into"));
+        let computed = &FORMATS[1];
+        assert!(computed.missing(lacks(TextureUsages::STORAGE_BINDING)).unwrap().contains("compute into"));
         assert!(told(lacks(TextureUsages::TEXTURE_BINDING)).contains("read"));
         let unfiltered = wgpu::TextureFormatFeatures { flags: wgpu::TextureFormatFeatureFlags::empty(), ..all };
         assert!(told(unfiltered).contains("filter"));

@@ -65,7 +65,9 @@ impl Studio {
     /// # Errors
     /// As [`Studio::open`]; the message lists the adapters that were found.
     pub fn open_on(choice: &AdapterChoice) -> Result<Self, Error> {
-        Ok(Self::on(pollster::block_on(Gpu::headless(choice))?))
+        let gpu = pollster::block_on(Gpu::headless(choice))?;
+        crate::verify::trial(&gpu)?;
+        Ok(Self::on(gpu))
     }
 
     /// Takes an adapter that is open already.

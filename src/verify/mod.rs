@@ -18,6 +18,9 @@ mod rims;
 pub mod sorting;
 mod stability;
 mod transport;
+mod trial;
+
+pub use trial::trial;
 
 use std::time::Instant;
 

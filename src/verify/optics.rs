@@ -44,17 +44,17 @@ fn dense_cases(index: f64) -> [Case; 3] {
     let film = FilmIndex::Constant(index);
     let case = |quality, walls, limits| Case { film: film.clone(), ..water("D65", quality, 1500.0, walls, limits) };
     [
-        case(Quality::Standard, 1, [Some(0.021), None, Some(1.0)]),
+        case(Quality::Standard, 1, [Some(0.01), None, Some(1.0)]),
         case(Quality::Fast, 2, [Some(1.0), Some(15.0), None]),
         case(Quality::Standard, 2, [Some(0.15), None, None]),
     ]
 }
 
 /// Under white light: the table alone for one wall, the table and products of few wavelengths for two, many wavelengths. The limits hold
-/// to 3 µm, where halves of floats and f32's phases cost a little more in the mean.
+/// to 3 µm, where f32's phases cost a little more in the mean.
 fn cases() -> Vec<Case> {
     use Quality::{Fast, Spectral, Standard};
-    let (table, table_thick) = ([Some(0.013), None, Some(0.1)], [Some(0.018), None, Some(0.1)]);
+    let (table, table_thick) = ([Some(0.005), None, Some(0.1)], [Some(0.006), None, Some(0.1)]);
     let spectral = [Some(0.012), Some(0.12), Some(2.0)];
     let standard = [Some(0.15), Some(1.5), None];
     let fast = [Some(1.0), Some(15.0), None];

@@ -36,8 +36,8 @@ fn image_kind(dim: ImageDimension, arrayed: bool, class: ImageClass) -> Result<S
         ImageClass::Storage { format: StorageFormat::Rgba32Uint, access: StorageAccess::STORE } if arrayed => {
             Ok(SlotKind::Written(wgpu::TextureFormat::Rgba32Uint))
         }
-        ImageClass::Storage { format: StorageFormat::Rgba16Float, access: StorageAccess::STORE } if arrayed => {
-            Ok(SlotKind::Written(wgpu::TextureFormat::Rgba16Float))
+        ImageClass::Storage { format: StorageFormat::Rgba32Float, access: StorageAccess::STORE } if arrayed => {
+            Ok(SlotKind::Written(wgpu::TextureFormat::Rgba32Float))
         }
         other => Err(format!("no kernel can declare {other:?}")),
     }

@@ -19,6 +19,7 @@ use crate::{
     gpu::{AdapterChoice, Gpu, GpuError},
     plan::{Product, Work},
     scene::Light,
+    verify::trial,
 };
 
 /// A dialog that ends sooner than this without an answer was never seen.
@@ -30,7 +31,9 @@ pub async fn device(
     choice: &AdapterChoice,
     surface: &wgpu::Surface<'_>,
 ) -> Result<Gpu, GpuError> {
-    Gpu::on_instance(instance, choice, Some(surface)).await
+    let gpu = Gpu::on_instance(instance, choice, Some(surface)).await?;
+    trial(&gpu)?;
+    Ok(gpu)
 }
 
 /// A window of a size in points.

@@ -31,7 +31,7 @@ pub(crate) use layout::{add_member, shader_struct, shader_view};
 pub use overrides::{Choice, Constants, Override, OverrideValues, Overrides};
 pub(crate) use overrides::{choices, override_values, overrides};
 pub use slots::{
-    R32Float, Read, ReadWrite, Rgba16Float, Rgba32Uint, Sampler, Slot, SlotKind, Texture2d, Texture2dArray,
+    R32Float, Read, ReadWrite, Rgba32Float, Rgba32Uint, Sampler, Slot, SlotKind, Texture2d, Texture2dArray,
     TextureCube, Uint2dArray, Uniform, Written2dArray, WrittenFormat,
 };
 

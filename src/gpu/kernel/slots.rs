@@ -63,15 +63,15 @@ pub trait WrittenFormat {
     const FORMAT: wgpu::TextureFormat;
 }
 
-/// Four half floats a texel.
-pub struct Rgba16Float;
+/// Four floats a texel.
+pub struct Rgba32Float;
 /// One float a texel.
 pub struct R32Float;
 /// Four unsigned integers a texel.
 pub struct Rgba32Uint;
 
-impl WrittenFormat for Rgba16Float {
-    const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+impl WrittenFormat for Rgba32Float {
+    const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 }
 
 impl WrittenFormat for R32Float {

@@ -7,10 +7,8 @@ use bytemuck::Zeroable;
 use crate::{
     gpu::{
         device::{Gpu, GpuError},
-        kernel::{
-            Rgba16Float, Rgba32Uint, Texture2dArray, Uniform, Written2dArray, WrittenFormat, kernels, overrides,
-            shader_struct,
-        },
+        kernel::{Rgba32Float, Rgba32Uint, Uniform, Written2dArray, WrittenFormat, kernels, overrides, shader_struct},
+        passes::pair_rows::{PairRows, PairUniform},
         quadrature::{MAX_SPECTRUM, QuadratureSample, spectrum_samples},
         timing::Recorder,
         uniform_buffer::UniformBuffer,
@@ -85,17 +83,9 @@ kernels! {
         overrides table_kind: TableOverrides;
         @0 bake: Uniform<BakeUniform>;
         @1 samples: Uniform<[QuadratureSample; MAX_SPECTRUM]>;
-        @2 table: Written2dArray<Rgba16Float>;
+        @2 table: Written2dArray<Rgba32Float>;
     }
     compute bake_table;
-
-    /// Rows that were baked, and the one before, for lookups.
-    struct PairRows {
-        @0 bake: Uniform<BakeUniform>;
-        @3 baked: Texture2dArray;
-        @4 paired: Written2dArray<Rgba32Uint>;
-    }
-    compute pair_rows;
 }
 
 /// A table on the device: a layer for each primary and polarisation that it keeps apart.
@@ -135,7 +125,7 @@ impl Table {
         Self {
             axes,
             view: layers(gpu, "film table", key, Rgba32Uint::FORMAT),
-            baked: layers(gpu, "baked film table", key, Rgba16Float::FORMAT),
+            baked: layers(gpu, "baked film table", key, Rgba32Float::FORMAT),
             spectra: gpu.uniform("spectra", &spectra),
             wavelengths: samples.len() as u32,
             fades: fades(&samples, key.max_thickness_nm),
@@ -173,11 +163,10 @@ impl Table {
             wavelengths: self.wavelengths,
             pad: 0,
         };
-        let bake = &recorder.gpu.uniform("bake", &uniform);
         let kernel = BakeTable {
             FADES: self.fades,
             table_kind: TableOverrides { COLOURED: key.coloured, POLARISED: key.polarised },
-            bake,
+            bake: &recorder.gpu.uniform("bake", &uniform),
             samples: &self.spectra,
             table: &self.baked,
         };
@@ -186,11 +175,16 @@ impl Table {
             "bake_table",
             [key.columns.div_ceil(64), (rows.len() as u32).div_ceil(ROWS_PER_INVOCATION), 1],
         )?;
-        PairRows { bake, baked: &self.baked, paired: &self.view }.pair_rows(
-            recorder,
-            "bake_table",
-            [key.columns.div_ceil(64), rows.len() as u32 + 1, key.layers()],
-        )
+        // The row before these still lacks its next.
+        let pair = PairUniform {
+            columns: key.columns,
+            first_row: rows.start.saturating_sub(1),
+            end_row: rows.end,
+            last_row: key.rows - 1,
+        };
+        let pairs = pair.end_row - pair.first_row;
+        let kernel = PairRows { pair: &recorder.gpu.uniform("pair", &pair), baked: &self.baked, paired: &self.view };
+        kernel.pair_rows(recorder, "bake_table", [key.columns.div_ceil(64), pairs, key.layers()])
     }
 }
 

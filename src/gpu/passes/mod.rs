@@ -31,6 +31,7 @@ pub mod flow_trace;
 pub mod flow_velocity;
 pub mod lay_plate;
 pub mod open_hole;
+pub mod pair_rows;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod probe_colour;
 pub mod read_film;
@@ -78,6 +79,7 @@ pub fn kernels() -> Vec<Kernel> {
         flow_velocity::kernels(),
         lay_plate::kernels(),
         open_hole::kernels(),
+        pair_rows::kernels(),
         #[cfg(not(target_arch = "wasm32"))]
         probe_colour::kernels(),
         read_film::kernels(),
