@@ -33,8 +33,9 @@ fn film_through_map(direction: vec3f) -> f32 {
     return balanced(tracer_at(origin, bubble.tracer_cells), film_balance);
 }
 
-// Thickness at a point of the unit sphere.
-fn thickness_nm(place: vec3f) -> f32 {
+// Thickness at a point of the unit sphere. `is_early`: the wall is the first or second that light comes from. What later ones show is so faint that
+// their film is looked up as if cells were smaller than pixels, at a fifth of the cost.
+fn thickness_nm(place: vec3f, is_early: bool) -> f32 {
     if (ON_RING == 1u && place.z < bubble.rim_z) {
         return 0.0;
     }
@@ -42,7 +43,7 @@ fn thickness_nm(place: vec3f) -> f32 {
     var thickness_nm = bubble.thickness_nm;
     if (UNIFORM_FILM == 0u) {
         let direction = bubble.to_film * point;
-        if (MAGNIFIED == 1u) {
+        if (MAGNIFIED == 1u && is_early) {
             thickness_nm = film_through_map(direction);
         } else {
             thickness_nm = film_at(film, direction, bubble.cells);
@@ -65,8 +66,8 @@ fn with_hole(direction: vec3f, thickness_nm: f32) -> f32 {
 }
 
 // The thickness of the plain film that looks like the one at a point of the unit sphere.
-fn optical_nm(direction: vec3f) -> f32 {
-    let nm = thickness_nm(direction);
+fn optical_nm(direction: vec3f, is_early: bool) -> f32 {
+    let nm = thickness_nm(direction, is_early);
     if (SKINS == 0u) {
         return nm;
     }

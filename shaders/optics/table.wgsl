@@ -76,7 +76,7 @@ fn rounded(numbers: vec4f) -> vec4u {
 fn between_rows(texel: vec4u, part: f32) -> vec3f {
     let kept = texel & vec4u(0xfffff800u);
     let halves = texel & vec4u(0x7ffu);
-    let next = vec3u(kept.a, halves.r << 21u | halves.g << 11u, halves.b << 21u | halves.a << 11u);
+    let next = vec3u(kept.a, (halves.r << 21u) | (halves.g << 11u), (halves.b << 21u) | (halves.a << 11u));
     return mix(bitcast<vec3f>(kept.rgb), bitcast<vec3f>(next), part);
 }
 

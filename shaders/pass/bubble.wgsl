@@ -196,10 +196,10 @@ fn four_hits(path: Path, at: Followed) -> FourHits {
     let c = followed(path, b);
     let d = followed(path, c);
     let walls_nm = vec4f(
-        optical_nm(at.hop.point),
-        optical_nm(a.hop.point),
-        optical_nm(b.hop.point),
-        optical_nm(c.hop.point),
+        optical_nm(at.hop.point, false),
+        optical_nm(a.hop.point, false),
+        optical_nm(b.hop.point, false),
+        optical_nm(c.hop.point, false),
     );
     let steps = mat4x3f(a.light - at.light, b.light - a.light, c.light - b.light, d.light - c.light);
     return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), d);
@@ -213,19 +213,19 @@ fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
     var last = reflected_inside(path, at);
     let seen = outer_and_first(path, MirroredRays(front, outward, at.hop.point, last.hop.direction), is_inside);
     last.light *= seen[1];
-    var walls_nm = vec4f(0.0, optical_nm(at.hop.point), 0.0, 0.0);
+    var walls_nm = vec4f(0.0, optical_nm(at.hop.point, true), 0.0, 0.0);
     var steps = mat4x3f(vec3f(0.0), last.light - behind, vec3f(0.0), vec3f(0.0));
     if (INNER > 1u) {
         let a = last;
         let b = followed(path, a);
         last = followed(path, b);
-        walls_nm.z = optical_nm(a.hop.point);
-        walls_nm.w = optical_nm(b.hop.point);
+        walls_nm.z = optical_nm(a.hop.point, false);
+        walls_nm.w = optical_nm(b.hop.point, false);
         steps[2] = b.light - a.light;
         steps[3] = last.light - b.light;
     }
     if (!is_inside) {
-        walls_nm.x = optical_nm(front);
+        walls_nm.x = optical_nm(front, true);
         let left = left_before(path) * crossing(front.z, outward.z, outward);
         steps[0] = left * seen[0] - behind;
     }

@@ -14,6 +14,7 @@ mod far;
 mod film_model;
 mod flow;
 mod fuzz;
+mod grammar;
 mod history;
 mod interaction;
 mod lamps;
