@@ -1,7 +1,7 @@
 //! Functions in each language as one that the adapter runs, and the texture that they sample.
 
 use glam::{DVec3, Vec3};
-use soapfilm::gpu::{Gpu, passes::bake_table::table_sampler, readback::Readback};
+use soapfilm::gpu::{Gpu, readback::Readback};
 
 use super::{Desk, TABLE, films, glslang};
 
@@ -219,7 +219,12 @@ pub fn sample(gpu: &Gpu, shader: &str, layers: &[Vec<Vec3>; 3], layer: usize) ->
             texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(dimension), ..Default::default() })
         },
     );
-    let sampler = table_sampler(gpu);
+    // As the texts say: linear, and no wrapping at the ends.
+    let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        ..Default::default()
+    });
     let resources = [
         (0, wgpu::BindingResource::TextureView(&views[0])),
         (1, wgpu::BindingResource::TextureView(&views[1])),
