@@ -47,8 +47,8 @@ const FILM: Edit = edit(
 );
 const TABLE: Edit = edit(
     "optics/film_colour.wgsl",
-    "textureSampleLevel(table, table_sampler, uv, first, 0.0).rgb",
-    "vec3f(uv, uv.x * uv.y)",
+    "let red = table_colour(table, place, first);",
+    "let red = vec3f(place.part, place.part.x * place.part.y);",
 );
 const WAVELENGTHS: Edit = edit("pass/bubble.wgsl", "k < WAVELENGTHS;", "k < min(WAVELENGTHS, 1u);");
 const INNER: Edit = edit(
