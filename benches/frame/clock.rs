@@ -1,7 +1,12 @@
 //! The clock that costs are read from.
 
+use std::time::{Duration, Instant};
+
 use cpu_time::ProcessTime;
 use soapfilm::gpu::{Gpu, Renderer};
+
+/// A GPU that has waited runs slowly at first: for so long it works before it is measured.
+const WARM_UP: Duration = Duration::from_millis(300);
 
 /// What counts as the cost of some work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +34,21 @@ impl Clock {
         match self {
             Self::Process => "CPU time",
             Self::Gpu => "GPU time",
+        }
+    }
+
+    /// The median cost of some work in milliseconds, once the device is warm. The work must end with a wait for the device.
+    pub fn median_ms(self, renderer: &mut Renderer, rounds: usize, mut work: impl FnMut(&mut Renderer)) -> f64 {
+        self.warm_up(|| work(renderer));
+        median((0..rounds).map(|_| self.ms(renderer, &mut work)).collect())
+    }
+
+    /// Does some work once, and on a GPU until that is warm.
+    pub fn warm_up(self, mut work: impl FnMut()) {
+        let start = Instant::now();
+        work();
+        while self == Self::Gpu && start.elapsed() < WARM_UP {
+            work();
         }
     }
 

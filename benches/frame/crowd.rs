@@ -9,7 +9,7 @@ use soapfilm::{
 };
 
 use crate::{
-    clock::{Clock, median},
+    clock::Clock,
     draw,
     parts::{frame_ms, renderer},
 };
@@ -121,7 +121,5 @@ fn request_of(story: &Story, loaded: &LoadedScene, size: [u32; 2]) -> FrameReque
 /// The cost of a frame from the scene to the picture.
 fn planned_ms(renderer: &mut Renderer, clock: Clock, loaded: &LoadedScene, size: [u32; 2], rounds: usize) -> f64 {
     let story = Story::new(loaded.scene.clone());
-    let frame = |renderer: &mut Renderer| draw(renderer, &request_of(&story, loaded, size));
-    frame(renderer);
-    median((0..rounds).map(|_| clock.ms(renderer, frame)).collect())
+    clock.median_ms(renderer, rounds, |renderer| draw(renderer, &request_of(&story, loaded, size)))
 }

@@ -41,8 +41,7 @@ fn step(renderer: &mut Renderer, clock: Clock, cells: u32, rounds: usize) -> Ste
         frame_request_of(SIZE, false, moment, |scene| scene.bubbles[0].film.cells = cells)
     };
     // The first picture pays for tables, pipelines and the seed of the film.
-    draw(renderer, &request(0));
-    let still_ms = median((0..rounds).map(|_| clock.ms(renderer, |renderer| draw(renderer, &request(0)))).collect());
+    let still_ms = clock.median_ms(renderer, rounds, |renderer| draw(renderer, &request(0)));
     let still = renderer.counts;
     draw(renderer, &request(0));
     let of_picture = renderer.counts.dispatches - still.dispatches;

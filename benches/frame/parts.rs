@@ -106,13 +106,14 @@ pub fn renderer() -> Renderer {
 
 /// The cost of a frame that is drawn again and again.
 pub fn frame_ms(renderer: &mut Renderer, clock: Clock, request: &FrameRequest, rounds: usize) -> f64 {
-    draw(renderer, request);
-    median((0..rounds).map(|_| clock.ms(renderer, |renderer| draw(renderer, request))).collect())
+    clock.median_ms(renderer, rounds, |renderer| draw(renderer, request))
 }
 
 fn saved_ms([whole, without]: [&mut Renderer; 2], clock: Clock, request: &FrameRequest, rounds: usize) -> f64 {
-    draw(whole, request);
-    draw(without, request);
+    clock.warm_up(|| {
+        draw(whole, request);
+        draw(without, request);
+    });
     let ms = |renderer: &mut Renderer| clock.ms(renderer, |renderer| draw(renderer, request));
     median((0..rounds).map(|_| ms(whole) - ms(without)).collect())
 }

@@ -3,6 +3,7 @@
 use std::{
     io::{BufRead, BufReader},
     process::{Child, Command, Output, Stdio},
+    sync::{Mutex, PoisonError},
     thread::sleep,
     time::{Duration, Instant},
 };
@@ -171,7 +172,19 @@ fn start(arguments: &[&str], display: &str, home: &tempfile::TempDir) -> Guarded
 }
 
 /// An X server on a display number that it finds free.
+/// A server that answers, and its display. Servers that start side by side can both take the number of one that has just ended: they start one
+/// after the other, and one that cannot be reached is replaced.
 fn start_server() -> (Guarded, String) {
+    static STARTS: Mutex<()> = Mutex::new(());
+    let _start = STARTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let reached = (0..5).map(|_| start_one_server()).find(|(_, display)| {
+        let mut asked = Command::new("xdotool");
+        asked.arg("getdisplaygeometry").env("DISPLAY", display).output().unwrap().status.success()
+    });
+    reached.expect("Xvfb to answer")
+}
+
+fn start_one_server() -> (Guarded, String) {
     let mut server = Command::new("Xvfb")
         .args(["-displayfd", "1", "-screen", "0", &format!("{}x{}x24", SIZE[0], SIZE[1]), "-nolisten", "tcp"])
         .stdout(Stdio::piped())
