@@ -51,13 +51,9 @@ fn step(renderer: &mut Renderer, clock: Clock, cells: u32, rounds: usize) -> Ste
         let ms = clock.ms(renderer, |renderer| draw(renderer, &request)) - still_ms;
         let taken = (renderer.counts.cells_stepped - before.cells_stepped) as f64 / cells_of_film(cells) as f64;
         let dispatches = renderer.counts.dispatches - before.dispatches - of_picture;
-        [ms / taken, dispatches as f64 / taken]
+        (ms / taken, dispatches as f64 / taken)
     });
-    let [ms, dispatches]: [Vec<f64>; 2] = steps.fold([(); 2].map(|()| Vec::new()), |[mut ms, mut dispatches], step| {
-        ms.push(step[0]);
-        dispatches.push(step[1]);
-        [ms, dispatches]
-    });
+    let (ms, dispatches): (Vec<f64>, Vec<f64>) = steps.unzip();
     Step { ms: median(ms), dispatches: median(dispatches) }
 }
 

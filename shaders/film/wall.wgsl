@@ -33,8 +33,8 @@ fn film_through_map(direction: vec3f) -> f32 {
     return balanced(tracer_at(origin, bubble.tracer_cells), film_balance);
 }
 
-// Thickness at a point of the unit sphere. `is_early`: the wall is the first or second that light comes from. What later ones show is so faint that
-// their film is looked up as if cells were smaller than pixels, at a fifth of the cost.
+// Thickness at a point of the unit sphere. `is_early`: the wall is the front wall or the first inside. Later walls show so little that their film is
+// never looked up through the flow map, which costs far more.
 fn thickness_nm(place: vec3f, is_early: bool) -> f32 {
     if (ON_RING == 1u && place.z < bubble.rim_z) {
         return 0.0;

@@ -35,6 +35,7 @@ use crate::{
     physics::colour::Gamut,
     plan::{FrameRequest, Moment, Pace, Shot},
     scene::Scene,
+    verify::trial,
 };
 
 /// Ticks that one picture may need: a day at 60 per second takes hours; more is a mistake in the input.
@@ -66,7 +67,7 @@ impl Studio {
     /// As [`Studio::open`]; the message lists the adapters that were found.
     pub fn open_on(choice: &AdapterChoice) -> Result<Self, Error> {
         let gpu = pollster::block_on(Gpu::headless(choice))?;
-        crate::verify::trial(&gpu)?;
+        trial(&gpu)?;
         Ok(Self::on(gpu))
     }
 

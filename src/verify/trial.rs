@@ -21,12 +21,13 @@ use crate::{
 
 /// Radiance of the surroundings.
 const RADIANCE: f64 = 0.5;
-/// A film in the middle of its first order, nm, and the cosine of the angle at which it is seen.
+/// Thickness of a film in nm, and the cosine of the angle at which it is seen.
 const FILM: (f64, f64) = (300.0, 0.8);
 /// What two answers may differ by.
 const TOLERANCE: f64 = 0.01;
 
-/// Refuses an OpenGL adapter that computes or draws something else than it should. All others are conformant, or report what they cannot do.
+/// Refuses an OpenGL adapter that computes or draws something wrong. Drivers of other backends report what they
+/// cannot do.
 ///
 /// # Errors
 /// [`GpuError::NoDevice`] with what was wrong.
@@ -46,7 +47,7 @@ pub fn trial(gpu: &Gpu) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// Whether an answer is right; one that is no number is not.
+/// Whether an answer is right. NaN never is.
 fn agree(right: DVec3, found: DVec3) -> bool {
     (right - found).abs().cmplt(DVec3::splat(TOLERANCE)).all()
 }
@@ -90,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wrong_answers_and_answers_that_are_no_numbers_are_noticed() {
+    fn wrong_answers_and_nan_are_noticed() {
         let right = DVec3::splat(RADIANCE);
         assert!(agree(right, right + 0.5 * TOLERANCE));
         for found in [DVec3::splat(-0.0), DVec3::NAN, DVec3::new(RADIANCE, RADIANCE, f64::INFINITY), 1.1 * right] {

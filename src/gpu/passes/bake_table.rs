@@ -94,7 +94,7 @@ pub struct Table {
     pub axes: UniformBuffer<TableAxes>,
     /// View of all layers: two rows to a texel, see `shaders/optics/table.wgsl`.
     pub view: wgpu::TextureView,
-    /// The same as it is baked.
+    /// What is baked: a row to a texel, before rows are paired.
     baked: wgpu::TextureView,
     /// A sample for each wavelength of the light, then zeros. A uniform, because all lanes read the same sample at once: llvmpipe reads a storage
     /// buffer separately for each lane, which made the bake eight times as slow.
