@@ -1,7 +1,9 @@
 //! The environment on the device: a cube map with all its levels.
 
+use half::f16;
+
 use super::device::Gpu;
-use crate::physics::environment::CubeMap;
+use crate::physics::environment::{CubeMap, Defocused, DefocusedTile, TILES_PER_EDGE};
 
 /// An environment and how it is sampled.
 pub struct Environment {
@@ -18,20 +20,41 @@ impl Environment {
     /// Sends a cube map to the device.
     #[must_use]
     pub fn upload(gpu: &Gpu, map: &CubeMap) -> Self {
-        let environment = Self::new(gpu, map);
-        environment.write(gpu, map, [true; 6]);
+        let environment = Self::new(gpu, map.size(), map.mips().len());
+        for (number, level) in map.mips().iter().enumerate() {
+            for (face, texels) in level.faces.iter().enumerate() {
+                environment.write(gpu, [0, 0, face], number, level.size, texels);
+            }
+        }
         environment
     }
 
-    /// A black cube as large as a map.
+    /// A black cube for tiles.
     #[must_use]
-    pub fn new(gpu: &Gpu, map: &CubeMap) -> Self {
-        let width = map.size() as u32;
+    pub fn for_tiles(gpu: &Gpu, tiles: &Defocused) -> Self {
+        Self::new(gpu, tiles.size, tiles.levels)
+    }
+
+    /// Sends tiles to a cube that was made for such.
+    pub fn write_tiles(&self, gpu: &Gpu, Defocused { size, levels, tiles }: &Defocused) {
+        for DefocusedTile { tile, texels } in tiles {
+            let mut rest = texels.as_slice();
+            for level in 0..*levels {
+                let edge = size / TILES_PER_EDGE >> level;
+                let (texels, smaller) = rest.split_at(edge * edge);
+                self.write(gpu, [tile.column * edge, tile.row * edge, tile.face.layer()], level, edge, texels);
+                rest = smaller;
+            }
+        }
+    }
+
+    fn new(gpu: &Gpu, size: usize, levels: usize) -> Self {
+        let width = size as u32;
         let size = wgpu::Extent3d { width, height: width, depth_or_array_layers: 6 };
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("environment"),
             size,
-            mip_level_count: map.mips().len() as u32,
+            mip_level_count: levels as u32,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: wgpu::TextureFormat::Rgba16Float,
@@ -52,27 +75,20 @@ impl Environment {
         Self { texture, view, texel_angle: 2.0 / width as f32, sampler }
     }
 
-    /// Sends some faces of a map that is as large.
-    pub fn write(&self, gpu: &Gpu, map: &CubeMap, faces: [bool; 6]) {
-        for (number, level) in map.mips().iter().enumerate() {
-            for (face, texels) in level.faces.iter().enumerate().filter(|(face, _)| faces[*face]) {
-                write_face(gpu, &self.texture, number as u32, face as u32, bytemuck::cast_slice(texels));
-            }
-        }
+    /// Writes a square of texels, whose corner is a column, a row and a face of a level.
+    fn write(&self, gpu: &Gpu, corner: [usize; 3], level: usize, edge: usize, texels: &[[f16; 4]]) {
+        let [x, y, z] = corner.map(|place| place as u32);
+        let edge = edge as u32;
+        gpu.upload_texture(
+            wgpu::TexelCopyTextureInfo {
+                texture: &self.texture,
+                mip_level: level as u32,
+                origin: wgpu::Origin3d { x, y, z },
+                aspect: wgpu::TextureAspect::All,
+            },
+            bytemuck::cast_slice(texels),
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * edge), rows_per_image: None },
+            wgpu::Extent3d { width: edge, height: edge, depth_or_array_layers: 1 },
+        );
     }
-}
-
-fn write_face(gpu: &Gpu, texture: &wgpu::Texture, level: u32, face: u32, texels: &[u8]) {
-    let width = (texture.width() >> level).max(1);
-    gpu.upload_texture(
-        wgpu::TexelCopyTextureInfo {
-            texture,
-            mip_level: level,
-            origin: wgpu::Origin3d { x: 0, y: 0, z: face },
-            aspect: wgpu::TextureAspect::All,
-        },
-        texels,
-        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * width), rows_per_image: None },
-        wgpu::Extent3d { width, height: width, depth_or_array_layers: 1 },
-    );
 }

@@ -170,7 +170,8 @@ impl fmt::Display for Plan {
                     format!("{} wavelengths, {}, films to {} nm", key.count(), key.quality.name(), key.range_nm)
                 }
                 Pass::DefocusBackdrop { key, .. } => {
-                    format!("each point a disc of {:.2}°", 2.0 * key.half_angle_rad.to_degrees())
+                    let disc_deg = 2.0 * key.half_angle_rad.to_degrees();
+                    format!("each point a disc of {disc_deg:.2}°, tiles: {}", key.tiles.iter().count())
                 }
                 Pass::UploadPlate(key) => {
                     let ([width, height], [of_width, of_height]) = (key.size, key.plate.size());
@@ -323,14 +324,12 @@ impl Planner {
         let Some(requested) = requested else { return };
         let reason =
             present.as_ref().map_or(Reason::Missing, |_| Reason::Changed("environment, lens or what is in sight"));
-        let had = present.filter(|present| present.is_same_map(&requested)).map_or([false; 6], |present| present.faces);
-        let faces =
-            |wanted: fn(bool, bool) -> bool| std::array::from_fn(|face| wanted(requested.faces[face], had[face]));
-        let missing = DefocusKey { faces: faces(|requested, had| requested && !had), ..requested.clone() };
-        self.after.lights[light].defocused =
-            Some(DefocusKey { faces: faces(|requested, had| requested || had), ..requested.clone() });
-        if missing.faces.contains(&true) {
-            self.push(Pass::DefocusBackdrop { light, key: missing, adds: had.contains(&true) }, reason);
+        let had = present.filter(|present| present.is_same_map(&requested)).map(|present| present.tiles);
+        let had = had.unwrap_or_default();
+        let missing = DefocusKey { tiles: requested.tiles.without(had), ..requested.clone() };
+        self.after.lights[light].defocused = Some(DefocusKey { tiles: requested.tiles.and(had), ..requested });
+        if !missing.tiles.is_empty() {
+            self.push(Pass::DefocusBackdrop { light, key: missing, adds: !had.is_empty() }, reason);
         }
     }
 

@@ -16,13 +16,13 @@ pub enum Pass {
         /// The environment.
         key: EnvironmentKey,
     },
-    /// Blurs some faces of a light's environment as it is seen behind the bubbles, and sends them.
+    /// Blurs some tiles of a light's environment as it is seen behind the bubbles, and sends them.
     DefocusBackdrop {
         /// Index of the light.
         light: usize,
-        /// The environment, how far it is out of focus, and the faces.
+        /// The environment, how far it is out of focus, and the tiles.
         key: DefocusKey,
-        /// Whether there are other faces of it already, which stay.
+        /// Whether there are other tiles of it already, which stay.
         adds: bool,
     },
     /// Sends the photograph behind the bubbles.

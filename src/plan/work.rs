@@ -9,7 +9,7 @@ use super::{
 };
 use crate::physics::{
     colour::QuadratureWavelength,
-    environment::CubeMap,
+    environment::Defocused,
     film::{InitialFilm, Seed, SeedGrids},
     sphere::{CubedSphere, GridError},
 };
@@ -56,7 +56,7 @@ pub enum Work {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Product {
     /// An environment out of focus.
-    Map(CubeMap),
+    Backdrop(Defocused),
     /// Quadrature wavelengths.
     Wavelengths(Vec<QuadratureWavelength>),
     /// A film at tick 0.
@@ -83,7 +83,7 @@ impl Work {
     #[must_use]
     pub fn done(&self) -> Product {
         match self {
-            Self::Defocus(key) => Product::Map(key.map()),
+            Self::Defocus(key) => Product::Backdrop(key.made()),
             Self::Fit(key) => Product::Wavelengths(key.wavelengths()),
             Self::Seed(key) => Product::Seed(key.seed()),
         }
@@ -120,9 +120,14 @@ impl Prepared {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
     use crate::{
-        physics::{environment::Procedural, sphere::Cap},
+        physics::{
+            environment::{CubeTiles, Procedural},
+            sphere::Cap,
+        },
         plan::{EnvironmentKey, OpticsKey},
         scene::Quality,
     };
@@ -135,7 +140,9 @@ mod tests {
             Work::Defocus(DefocusKey {
                 environment: EnvironmentKey(Procedural::Park.map()),
                 half_angle_rad: 0.3,
-                faces: [true, false, false, false, false, false],
+                tiles: CubeTiles::within(
+                    &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[y, z]| DVec3::new(9.0, y, z)),
+                ),
             }),
             Work::Fit(QuadratureKey { optics, range_nm: 1500.0, quality: Quality::Fast, from_table: false }),
             Work::Seed(SeedKey {
@@ -155,7 +162,7 @@ mod tests {
             let product: Product = postcard::from_bytes(&bytes).unwrap();
             assert_eq!(postcard::to_allocvec(&product).unwrap(), bytes);
             match (product, work.done()) {
-                (Product::Map(sent), Product::Map(done)) => assert!(sent == done),
+                (Product::Backdrop(sent), Product::Backdrop(done)) => assert!(sent == done),
                 (Product::Wavelengths(sent), Product::Wavelengths(done)) => assert!(sent == done),
                 (Product::Seed(sent), Product::Seed(done)) => assert!(sent == done),
                 other => panic!("{other:?}"),

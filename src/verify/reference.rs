@@ -131,12 +131,12 @@ fn in_light(
         |key: &QuadratureKey| FilmOptics::sampled(key.optics.film.clone(), &key.optics.illuminant, samples_per_nm);
     let optics: Vec<FilmOptics> = keys().map(sampled).collect();
     let surroundings = |direction: DVec3| light.gain * lighting.environment.0.sample(turned(light, direction));
-    let out_of_focus = key.defocus(lighting).map(|key| key.map());
+    let out_of_focus = key.defocus(lighting).map(|key| key.cones());
     let behind = |direction: DVec3| match light.backdrop {
         BackdropKey::Colour(radiance) => radiance,
         BackdropKey::Environment => {
             let (environment, direction) = (&lighting.environment.0, turned(light, direction));
-            let far = out_of_focus.as_ref().unwrap_or(environment).far(direction);
+            let far = out_of_focus.as_ref().map_or_else(|| environment.far(direction), |cones| cones.mean(direction));
             light.gain * (environment.lamps_from(direction, light.defocus_rad.tan()) + far)
         }
     };

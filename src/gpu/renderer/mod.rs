@@ -182,10 +182,10 @@ impl Renderer {
                 Ok(())
             }
             Pass::DefocusBackdrop { light, key, adds } => {
-                let Product::Map(map) = self.prepared.take(&Work::Defocus(key.clone())) else { return Ok(()) };
+                let Product::Backdrop(tiles) = self.prepared.take(&Work::Defocus(key.clone())) else { return Ok(()) };
                 let present = self.light(*light).defocused.take().filter(|_| *adds);
-                let defocused = present.unwrap_or_else(|| Environment::new(&self.gpu, &map));
-                defocused.write(&self.gpu, &map, key.faces);
+                let defocused = present.unwrap_or_else(|| Environment::for_tiles(&self.gpu, &tiles));
+                defocused.write_tiles(&self.gpu, &tiles);
                 self.light(*light).defocused = Some(defocused);
                 Ok(())
             }

@@ -9,7 +9,10 @@ use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{BT2020, ColourWeights, FilmOptics, Uplift, bt2020_to_bt709};
-use crate::{parallel, physics::optics::Polarised};
+use crate::{
+    parallel,
+    physics::optics::{Polarised, SpectralWall},
+};
 
 /// One wavelength of a fitted sum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -102,6 +105,7 @@ fn training(
     candidates: &[f64],
     responses: &[DMat3],
 ) -> Vec<Row> {
+    let indices: Vec<f64> = candidates.iter().map(|nm| optics.film().index.n(*nm)).collect();
     let film = |k: usize| {
         // An additive recurrence (the generalised golden ratio of four dimensions) fills the box of films evenly.
         let part = |step: f64| (0.5 + step * (k + 1) as f64).fract();
@@ -112,7 +116,8 @@ fn training(
             QuadratureTask::Everything => MIN_COS + (1.0 - MIN_COS) * angle,
         };
         let walls_nm = [0.733891856627126, 0.6287067210378087, 0.5385972572236101].map(|step| range_nm * part(step));
-        film_rows(optics, task, cos_theta, walls_nm, candidates, responses)
+        let at_candidates = optics.film().spectral_wall(&indices, cos_theta, candidates);
+        film_rows(optics, task, cos_theta, walls_nm, &at_candidates, responses)
     };
     parallel::map(FILMS, film).into_flattened()
 }
@@ -122,14 +127,15 @@ fn film_rows(
     task: QuadratureTask,
     cos_theta: f64,
     walls_nm: [f64; 3],
-    candidates: &[f64],
+    at_candidates: &SpectralWall,
     responses: &[DMat3],
 ) -> [Row; 3] {
+    let spectra = |wall: &SpectralWall| walls_nm.map(|nm| wall.reflectances(nm));
+    let light = spectra(&optics.spectral_wall(cos_theta));
     let mut targets = [DMat3::ZERO; 3];
     let mut seen = 0.0;
     for (i, response) in responses.iter().enumerate() {
-        let wall = optics.wall(i, cos_theta);
-        let reflected = walls_nm.map(|nm| wall.reflectance(nm));
+        let reflected = light.each_ref().map(|spectrum| spectrum[i]);
         let products = products(task, reflected);
         (0..3).for_each(|k| targets[k] += *response * products[k]);
         seen += optics.weights().as_slice()[i].y * (reflected[0].mean() + reflected[1].mean());
@@ -137,11 +143,9 @@ fn film_rows(
     // CIEDE2000 goes with the change of the cube root, at the exposure M2.
     let exposure = 0.5 / optics.film().max_reflectance(cos_theta).max(1e-6);
     let scale = exposure / (exposure * seen + 0.04).powf(2.0 / 3.0);
-    let at = |nm: f64| {
-        let wall = optics.film().wall(optics.film().index.n(nm), cos_theta, nm);
-        products(task, walls_nm.map(|thickness_nm| wall.reflectance(thickness_nm)))
-    };
-    let values: Vec<[f64; 3]> = candidates.iter().map(|nm| at(*nm)).collect();
+    let candidates = spectra(at_candidates);
+    let at = |i: usize| products(task, candidates.each_ref().map(|spectrum| spectrum[i]));
+    let values: Vec<[f64; 3]> = (0..candidates[0].len()).map(at).collect();
     [0, 1, 2].map(|k| Row {
         values: values.iter().map(|products| scale * products[k]).collect(),
         targets: (targets[k] * scale).to_cols_array(),
@@ -162,6 +166,17 @@ fn products(task: QuadratureTask, [front, back, second]: [Polarised; 3]) -> [f64
     }
 }
 
+/// The sum of products, in several lanes so that compilers can turn them into vector instructions.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let (a, b) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let lanes = a.0.iter().zip(b.0).fold([0.0; LANES], |mut sums, (a, b)| {
+        (0..LANES).for_each(|lane| sums[lane] += a[lane] * b[lane]);
+        sums
+    });
+    lanes.iter().sum::<f64>() + a.1.iter().zip(b.1).map(|(a, b)| a * b).sum::<f64>()
+}
+
 /// Normal equations of the least squares over all candidates.
 struct Fit {
     size: usize,
@@ -175,14 +190,17 @@ struct Fit {
 
 impl Fit {
     fn new(rows: &[Row], size: usize) -> Self {
+        // Column by column, the sums below run over neighbours in memory.
+        let column = |value: &dyn Fn(&Row) -> f64| -> Vec<f64> { rows.iter().map(value).collect() };
+        let values: Vec<_> = (0..size).map(|i| column(&|row| row.values[i])).collect();
+        let targets: [_; TARGETS] = std::array::from_fn(|t| column(&|row| row.targets[t]));
         let gram: Vec<f64> = parallel::map(size * size, |k| {
             let (i, j) = (k / size, k % size);
-            if j < i { 0.0 } else { rows.iter().map(|row| row.values[i] * row.values[j]).sum() }
+            if j < i { 0.0 } else { dot(&values[i], &values[j]) }
         });
         let gram = (0..size * size).map(|k| gram[(k / size).min(k % size) * size + (k / size).max(k % size)]).collect();
-        let mixed: Vec<[f64; TARGETS]> = parallel::map(size, |i| {
-            std::array::from_fn(|t| rows.iter().map(|row| row.values[i] * row.targets[t]).sum())
-        });
+        let mixed: Vec<[f64; TARGETS]> =
+            parallel::map(size, |i| targets.each_ref().map(|targets| dot(&values[i], targets)));
         let white = mixed.iter().map(|mixed| [0, 1, 2].map(|c| mixed[c] + mixed[c + 3] + mixed[c + 6])).collect();
         Self { size, gram, mixed, white }
     }

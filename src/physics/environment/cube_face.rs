@@ -1,6 +1,7 @@
 //! The faces of a GPU's cube map: which direction each texel looks in.
 
 use glam::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// One face of a cube map, in the order of its array layers on the GPU.
 ///
@@ -8,7 +9,7 @@ use glam::{DVec2, DVec3};
 /// `s` to the right and `t` down, both in [−1, 1], the face and its coordinates follow from the direction's components alone.
 /// The picture on a face is therefore mirrored in a right-handed world, but a shader that samples the cube passes world
 /// directions unchanged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CubeFace {
     /// Layer 0: +x.
     PositiveX,
@@ -28,20 +29,6 @@ impl CubeFace {
     /// All faces in the order of the GPU's layers.
     pub const ALL: [Self; 6] =
         [Self::PositiveX, Self::NegativeX, Self::PositiveY, Self::NegativeY, Self::PositiveZ, Self::NegativeZ];
-
-    /// Whether a cone about a unit vector meets this face, for a half angle in radians; also true for some that pass just outside.
-    pub fn meets_cone(self, axis: DVec3, half_angle_rad: f64) -> bool {
-        let DVec3 { x, y, z: depth } = self.local(axis);
-        // A face's corners are farthest from its middle.
-        let corner = (1.0 / 3.0f64.sqrt()).acos();
-        if depth.clamp(-1.0, 1.0).acos() > corner + half_angle_rad {
-            return false;
-        }
-        // The planes through the cube's center and the face's edges.
-        [x, -x, y, -y]
-            .into_iter()
-            .all(|beside| ((beside - depth) / std::f64::consts::SQRT_2).clamp(-1.0, 1.0).asin() <= half_angle_rad)
-    }
 
     /// The face's array layer on the GPU, 0 to 5.
     pub fn layer(self) -> usize {
@@ -120,24 +107,6 @@ mod tests {
         for (face, (major, right, down)) in CubeFace::ALL.into_iter().zip(table) {
             assert_eq!(face.direction(DVec2::new(0.25, 0.5)), major + 0.25 * right + 0.5 * down, "{face:?}");
         }
-    }
-
-    #[test]
-    fn cones_meet_the_faces_of_their_directions() {
-        for axis in [DVec3::X, DVec3::new(0.6, 0.8, 0.0), DVec3::ONE.normalize(), DVec3::new(-0.48, 0.6, -0.64)] {
-            let (right, up) = axis.any_orthonormal_pair();
-            for half_angle in [0.01_f64, 0.2, 0.7] {
-                for k in 0..1000 {
-                    let (turn, share) = (f64::from(k) * 2.4, (f64::from(k) / 1000.0).sqrt());
-                    let (sin, cos) = (share * half_angle).sin_cos();
-                    let ray = cos * axis + sin * (turn.cos() * right + turn.sin() * up);
-                    assert!(CubeFace::of_direction(ray).0.meets_cone(axis, half_angle), "{axis}, {half_angle}");
-                }
-            }
-        }
-        let met =
-            |axis: DVec3, angle: f64| CubeFace::ALL.into_iter().filter(|face| face.meets_cone(axis, angle)).count();
-        assert_eq!((met(DVec3::X, 0.7), met(DVec3::X, 0.9), met(DVec3::ONE.normalize(), 0.1)), (1, 5, 3));
     }
 
     #[test]

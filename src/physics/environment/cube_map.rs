@@ -244,7 +244,7 @@ fn store_mips(mips: &mut [CubeLevel], face: CubeFace, mut texels: Vec<[f32; 3]>)
 }
 
 /// Radiances as half floats with alpha 1. Whole slices convert at once, which is much faster than number by number.
-fn halves(texels: &[[f32; 3]]) -> Vec<[f16; 4]> {
+pub(super) fn halves(texels: &[[f32; 3]]) -> Vec<[f16; 4]> {
     const PIECE: usize = 1024;
     let mut halves = vec![[f16::ONE; 4]; texels.len()];
     parallel::change(&mut halves, PIECE, |piece, halves| {

@@ -9,10 +9,12 @@
 //! its integral takes two lookups a row, whatever is in it: sun and sky alike, without noise, with their energy.
 
 use glam::{DVec2, DVec3, DVec4};
+use half::f16;
+use serde::{Deserialize, Serialize};
 
-use crate::parallel;
+use crate::{parallel, physics::bulk};
 
-use super::{CubeFace, CubeMap};
+use super::{CubeFace, CubeMap, CubeTile, CubeTiles, Repairs, TILES_PER_EDGE, cube_map::halves, mip};
 
 /// Texels of the source across half a disc, at least: rows that the disc's outline is made of.
 const SOURCE_TEXELS: f64 = 6.0;
@@ -20,26 +22,102 @@ const SOURCE_TEXELS: f64 = 6.0;
 const RESULT_TEXELS: f64 = 8.0;
 /// Texels along an edge of the result, at most.
 const MAX_SIZE: f64 = 1024.0;
+/// What the texels along an edge of the result are a multiple of: tiles can then be halved until a texel is as wide as four radii of a disc.
+const SIZE_STEP: usize = 32 * TILES_PER_EDGE;
 
-impl CubeMap {
-    /// The map, without its lamps, averaged over cones of a half angle in radians, from about a texel to 0.5: what stands behind a scene, out of focus. Only some faces are made, in
-    /// the order of [`CubeFace::ALL`]; the others are black. As large as shows no texels.
+/// What stands behind a scene, out of focus: some tiles of a cube map, as large as shows no texels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Defocused {
+    /// Texels along an edge of a face of the largest level.
+    pub size: usize,
+    /// Number of levels of each tile.
+    pub levels: usize,
+    /// The tiles that were made, in order.
+    pub tiles: Vec<DefocusedTile>,
+}
+
+/// One tile.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DefocusedTile {
+    /// Which one it is.
+    pub tile: CubeTile,
+    /// Texels of its levels one after the other, the largest first, each row by row: linear BT.2020, alpha 1.
+    #[serde(with = "bulk")]
+    pub texels: Vec<[f16; 4]>,
+}
+
+impl Defocused {
+    /// The map of an environment, without its lamps, averaged over cones of a half angle in radians, from about a texel to 0.5.
     #[must_use]
-    pub fn defocused(&self, half_angle_rad: f64, faces: [bool; 6]) -> Self {
-        let size = (2.0 * RESULT_TEXELS / half_angle_rad).clamp(16.0, MAX_SIZE);
+    pub fn new(map: &CubeMap, half_angle_rad: f64, tiles: CubeTiles) -> Self {
+        let size = (2.0 * RESULT_TEXELS / half_angle_rad).clamp(1.0, MAX_SIZE);
         // Discs of less than a texel leave the map nearly as it is.
-        let size = if half_angle_rad * (self.size() as f64) < 2.0 { self.size() as f64 } else { size };
-        let cones = Cones::new(self, half_angle_rad, faces);
-        Self::from_fn((size as usize).next_multiple_of(16), 1, |direction| cones.mean(direction))
+        let size = if half_angle_rad * (map.size() as f64) < 2.0 { map.size() as f64 } else { size };
+        let size = (size as usize).next_multiple_of(SIZE_STEP);
+        let edge = size / TILES_PER_EDGE;
+        let levels = edge.trailing_zeros() as usize + 1;
+        let cones = Cones::new(map, half_angle_rad, tiles);
+        let made = |tile| DefocusedTile { tile, texels: cones.tile(tile, edge, levels) };
+        Self { size, levels, tiles: tiles.iter().map(made).collect() }
     }
 }
 
-/// The means over all cones of one half angle.
-struct Cones {
+/// The means of an environment, without its lamps, over all cones of one half angle.
+pub struct Cones {
     cos: f64,
     sin: f64,
-    /// The faces that are made.
+    /// The faces that tiles were asked for of.
     faces: [Option<Sums>; 6],
+}
+
+impl Cones {
+    /// For a half angle in radians, from about a texel to 0.5.
+    #[must_use]
+    pub fn new(map: &CubeMap, half_angle_rad: f64, tiles: CubeTiles) -> Self {
+        let (sin, cos) = half_angle_rad.sin_cos();
+        let level = (map.size() as f64 * half_angle_rad / (2.0 * SOURCE_TEXELS)).log2().max(0.0) as usize;
+        let level = level.min(map.mips().len() - 1);
+        // From the corner of a face cones reach farthest.
+        let [_, reach] = ends(DVec3::ONE.normalize(), sin);
+        let is_seen = |face: CubeFace| tiles.iter().any(|tile| tile.face == face);
+        let faces = CubeFace::ALL.map(|face| is_seen(face).then(|| Sums::new(map, level, face, reach)));
+        Self { cos, sin, faces }
+    }
+
+    /// About a direction of any length; black on faces of which no tile was asked for.
+    #[must_use]
+    pub fn mean(&self, direction: DVec3) -> DVec3 {
+        let (face, _) = CubeFace::of_direction(direction);
+        let Some(sums) = &self.faces[face.layer()] else { return DVec3::ZERO };
+        let sum = sums.within(face.local(direction.normalize()), self.cos, self.sin);
+        sum.truncate() / sum.w
+    }
+
+    /// The texels of a tile, `edge` along its edge, and of smaller levels after them.
+    fn tile(&self, tile: CubeTile, edge: usize, levels: usize) -> Vec<[f16; 4]> {
+        let texel = |k: usize| {
+            let place = DVec2::new((k % edge) as f64 + 0.5, (k / edge) as f64 + 0.5) * (CubeTile::EDGE / edge as f64);
+            let mut texel = self.mean(tile.face.direction(tile.corner() + place)).as_vec3().to_array();
+            // Differences of sums may fall below 0 by their rounding.
+            Repairs::repair(&mut texel);
+            texel
+        };
+        let mut level = parallel::map(edge * edge, texel);
+        let mut texels = halves(&level);
+        for smaller in 1..levels {
+            level = mip::halve(&level, edge >> (smaller - 1));
+            texels.extend(halves(&level));
+        }
+        texels
+    }
+}
+
+/// Between which rows t of a face's plane, whose points are (s, t, 1), a cone lies: where the plane of the row touches it.
+fn ends(axis: DVec3, sin: f64) -> [f64; 2] {
+    let square = axis.z * axis.z - sin * sin;
+    let half = axis.y * axis.z;
+    let root = (half * half - square * (axis.y * axis.y - sin * sin)).max(0.0).sqrt();
+    [(half - root) / square, (half + root) / square]
 }
 
 /// Sums along the rows of one face, which go on beyond its edges as far as cones do.
@@ -51,34 +129,6 @@ struct Sums {
     width: usize,
     /// For each row, and before each of its texels and after the last: radiance times solid angle, and solid angle, from the row's start on.
     sums: Vec<DVec4>,
-}
-
-impl Cones {
-    fn new(map: &CubeMap, half_angle_rad: f64, made: [bool; 6]) -> Self {
-        let (sin, cos) = half_angle_rad.sin_cos();
-        let level = (map.size() as f64 * half_angle_rad / (2.0 * SOURCE_TEXELS)).log2().max(0.0) as usize;
-        let level = level.min(map.mips().len() - 1);
-        // From the corner of a face cones reach farthest.
-        let [_, reach] = ends(DVec3::ONE.normalize(), sin);
-        let faces = CubeFace::ALL.map(|face| made[face.layer()].then(|| Sums::new(map, level, face, reach)));
-        Self { cos, sin, faces }
-    }
-
-    /// About a direction of any length; black on faces that are not made.
-    fn mean(&self, direction: DVec3) -> DVec3 {
-        let (face, _) = CubeFace::of_direction(direction);
-        let Some(sums) = &self.faces[face.layer()] else { return DVec3::ZERO };
-        let sum = sums.within(face.local(direction.normalize()), self.cos, self.sin);
-        sum.truncate() / sum.w
-    }
-}
-
-/// Between which rows t of a face's plane, whose points are (s, t, 1), a cone lies: where the plane of the row touches it.
-fn ends(axis: DVec3, sin: f64) -> [f64; 2] {
-    let square = axis.z * axis.z - sin * sin;
-    let half = axis.y * axis.z;
-    let root = (half * half - square * (axis.y * axis.y - sin * sin)).max(0.0).sqrt();
-    [(half - root) / square, (half + root) / square]
 }
 
 impl Sums {
@@ -167,7 +217,7 @@ mod tests {
     fn cones_are_those_of_brute_force() {
         let map = CubeMap::from_fn(256, 1, lamps);
         for half_angle in [0.02, 0.07, 0.3, 0.5] {
-            let cones = Cones::new(&map, half_angle, [true; 6]);
+            let cones = Cones::new(&map, half_angle, CubeTiles::all());
             let (mut worst, mut brightest, mut square) = (0.0f64, 0.0f64, 0.0);
             for k in 0..400 {
                 let z = 1.0 - (f64::from(k) + 0.5) / 200.0;
@@ -196,15 +246,15 @@ mod tests {
         let lamp = |direction: DVec3| DVec3::splat(f64::from(direction.normalize().dot(DVec3::X) > 0.999_95) * 1000.0);
         let map = CubeMap::from_fn(512, 2, lamp);
         let half_angle = 0.08;
-        let blurred = map.defocused(half_angle, [true; 6]);
+        let cones = Cones::new(&map, half_angle, CubeTiles::all());
+        let blurred = CubeMap::from_fn(208, 1, |direction| cones.mean(direction));
         let (before, after) = (map.mean_radiance().y, blurred.mean_radiance().y);
         assert!((after / before - 1.0).abs() < 0.005, "{before} becomes {after}");
         // Evenly bright within, dark beyond, whatever the direction.
         let part = before * 2.0 / (1.0 - half_angle.cos());
         for k in 0..24 {
             let around = DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 24.0);
-            let at =
-                |angle: f64| blurred.sample(DVec3::new(angle.cos(), angle.sin() * around.x, angle.sin() * around.y)).y;
+            let at = |angle: f64| cones.mean(DVec3::new(angle.cos(), angle.sin() * around.x, angle.sin() * around.y)).y;
             assert!((at(0.0) / part - 1.0).abs() < 0.03 && (at(0.6 * half_angle) / part - 1.0).abs() < 0.05, "{k}");
             assert!(at(1.4 * half_angle) < 1e-3 * part, "{k}");
         }
@@ -213,10 +263,38 @@ mod tests {
     #[test]
     fn an_even_sky_stays_as_it_is() {
         for half_angle in [1e-4, 0.01, 0.5] {
-            let blurred = CubeMap::from_fn(64, 1, |_| DVec3::new(0.5, 0.25, 2.0)).defocused(half_angle, [true; 6]);
+            let sky = CubeMap::from_fn(64, 1, |_| DVec3::new(0.5, 0.25, 2.0));
+            let cones = Cones::new(&sky, half_angle, CubeTiles::all());
             for direction in [DVec3::X, DVec3::ONE, DVec3::new(-1.0, 0.99, 0.2)] {
-                assert!((blurred.sample(direction) - DVec3::new(0.5, 0.25, 2.0)).abs().max_element() < 1e-3);
+                assert!((cones.mean(direction) - DVec3::new(0.5, 0.25, 2.0)).abs().max_element() < 1e-3);
             }
         }
+    }
+
+    #[test]
+    fn tiles_hold_means_of_cones_and_halve_down_to_wide_texels() {
+        let map = CubeMap::from_fn(64, 1, lamps);
+        let half_angle = 0.1;
+        let tiles =
+            CubeTiles::within(&[DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].map(|aside| DVec3::ONE + 0.05 * aside));
+        let made = Defocused::new(&map, half_angle, tiles);
+        assert_eq!((made.size, made.levels, made.tiles.len()), (256, 7, 3));
+        let cones = Cones::new(&map, half_angle, tiles);
+        for DefocusedTile { tile, texels } in &made.tiles {
+            assert_eq!(texels.len(), (0..7).map(|level| (64 * 64) >> (2 * level)).sum::<usize>());
+            // Column 5 of row 9.
+            let place = tile.corner() + DVec2::new(5.5, 9.5) * CubeTile::EDGE / 64.0;
+            let (found, truth) = (f64::from(texels[9 * 64 + 5][1]), cones.mean(tile.face.direction(place)).y);
+            assert!((found / truth - 1.0).abs() < 1e-3, "{tile:?}: {found}, {truth}");
+            let mean = texels[..64 * 64].iter().map(|texel| f64::from(texel[1])).sum::<f64>() / 4096.0;
+            assert!((f64::from(texels[texels.len() - 1][1]) / mean - 1.0).abs() < 2e-3, "{tile:?}");
+        }
+    }
+
+    #[test]
+    fn a_thin_lens_keeps_the_size_of_the_map() {
+        let map = CubeMap::from_fn(200, 1, |_| DVec3::ONE);
+        let tiles = CubeTiles::default();
+        assert_eq!([0.006, 0.02, 0.4].map(|angle| Defocused::new(&map, angle, tiles).size), [256, 896, 128]);
     }
 }

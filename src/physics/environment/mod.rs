@@ -6,6 +6,7 @@
 
 mod cube_face;
 mod cube_map;
+mod cube_tile;
 mod defocus;
 mod equirect;
 mod lamp;
@@ -17,6 +18,8 @@ mod shape;
 
 pub use cube_face::CubeFace;
 pub use cube_map::{CubeLevel, CubeMap};
+pub use cube_tile::{CubeTile, CubeTiles, TILES_PER_EDGE};
+pub use defocus::{Cones, Defocused, DefocusedTile};
 pub use equirect::{Equirect, WrongPixelCount, direction_of_uv, uv_of_direction};
 pub use lamp::Lamp;
 pub use patch::Patch;

@@ -5,7 +5,7 @@
 //! Marbling", IEEE CG&A 32(6)), draws them out into swirls and filaments without changing how much film has which thickness.
 //! All of it is a function of direction and seed in plain IEEE arithmetic, so that it has the same bits everywhere.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, IVec3};
 
 use super::random::{Random, pcg3d};
 
@@ -18,7 +18,7 @@ const CONTRAST: f64 = 4.4;
 /// A marbled random pattern on the sphere.
 #[derive(Clone, Debug)]
 pub struct Marble {
-    seed: u32,
+    octaves: [Octave; OCTAVES.len()],
     twists: Vec<Twist>,
 }
 
@@ -26,22 +26,41 @@ impl Marble {
     /// The pattern of a seed.
     pub fn new(seed: u32) -> Self {
         let mut random = Random::new(seed, 0);
-        Self { seed, twists: (0..TWISTS).map(|_| Twist::random(&mut random)).collect() }
+        Self {
+            octaves: std::array::from_fn(|octave| Octave::new(seed, octave)),
+            twists: (0..TWISTS).map(|_| Twist::random(&mut random)).collect(),
+        }
     }
 
     /// The pattern in the direction of unit vector `x`: within (−1, 1), about 0, equally often near either end.
     pub fn value(&self, x: DVec3) -> f64 {
         let before = self.twists.iter().fold(x, |x, twist| twist.undo(x));
-        let sum: f64 = OCTAVES.iter().zip(1..).map(|(&(f, w), octave)| w * self.octave(before, f, octave)).sum();
+        let sum: f64 = self.octaves.iter().map(|octave| octave.value(before)).sum();
         let wide = CONTRAST * sum;
         wide / (1.0 + wide * wide).sqrt()
     }
+}
 
-    /// One octave, on a lattice turned against the others so that their axes do not show.
-    fn octave(&self, x: DVec3, frequency: f64, octave: u32) -> f64 {
-        let turn = (0..octave).fold(DMat3::IDENTITY, |turn, _| turn * LATTICE_TURN);
-        let [key, ..] = pcg3d([self.seed, octave, 0]);
-        gradient_noise(turn * x * frequency, key)
+/// Noise of one scale, on a lattice turned against the others so that their axes do not show.
+#[derive(Clone, Copy, Debug)]
+struct Octave {
+    frequency: f64,
+    weight: f64,
+    turn: DMat3,
+    key: u32,
+}
+
+impl Octave {
+    fn new(seed: u32, octave: usize) -> Self {
+        let (frequency, weight) = OCTAVES[octave];
+        let number = octave as u32 + 1;
+        let turn = (0..number).fold(DMat3::IDENTITY, |turn, _| turn * LATTICE_TURN);
+        let [key, ..] = pcg3d([seed, number, 0]);
+        Self { frequency, weight, turn, key }
+    }
+
+    fn value(&self, x: DVec3) -> f64 {
+        self.weight * gradient_noise(self.turn * x * self.frequency, self.key)
     }
 }
 
@@ -91,16 +110,17 @@ impl Twist {
 fn gradient_noise(p: DVec3, key: u32) -> f64 {
     let cell = p.floor();
     let t = p - cell;
+    let cell = cell.as_ivec3();
     let fade = t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
-    let slope = |corner: DVec3| gradient(cell + corner, key).dot(t - corner);
-    let edge = |y, z| lerp(slope(DVec3::new(0.0, y, z)), slope(DVec3::new(1.0, y, z)), fade.x);
-    let face = |z| lerp(edge(0.0, z), edge(1.0, z), fade.y);
-    lerp(face(0.0), face(1.0), fade.z)
+    let slope = |corner: IVec3| gradient(cell + corner, key).dot(t - corner.as_dvec3());
+    let edge = |y, z| lerp(slope(IVec3::new(0, y, z)), slope(IVec3::new(1, y, z)), fade.x);
+    let face = |z| lerp(edge(0, z), edge(1, z), fade.y);
+    lerp(face(0), face(1), fade.z)
 }
 
 /// The random gradient at a lattice point, uniform in the cube [−1, 1]³.
-fn gradient(lattice: DVec3, key: u32) -> DVec3 {
-    let [x, y, z] = lattice.to_array().map(|k| k as i32 as u32);
+fn gradient(lattice: IVec3, key: u32) -> DVec3 {
+    let [x, y, z] = lattice.as_uvec3().to_array();
     let words = pcg3d([x ^ key, y, z]);
     DVec3::from_array(words.map(|word| f64::from(word) * 2.0_f64.powi(-31) - 1.0))
 }

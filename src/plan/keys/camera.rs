@@ -25,4 +25,14 @@ impl CameraKey {
     pub fn axis(&self, size: [u32; 2]) -> DVec2 {
         0.5 * DVec2::from(size.map(f64::from)) + self.shift
     }
+
+    /// Directions through the corners of a picture of that size and of a margin around it, in order around it. The margin is in pixels.
+    #[must_use]
+    pub fn corners(&self, size: [u32; 2], margin: f64) -> [DVec3; 4] {
+        let (low, high) = (DVec2::splat(-margin), DVec2::from(size.map(f64::from)) + margin);
+        [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)].map(|corner| {
+            let offset = self.pixel_height_m * (corner - self.axis(size));
+            self.forward + offset.x * self.right - offset.y * self.up
+        })
+    }
 }

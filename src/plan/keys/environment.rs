@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::physics::environment::CubeMap;
+use crate::physics::environment::{Cones, CubeMap, CubeTiles, Defocused};
 
 /// The light around the bubbles.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -31,18 +31,24 @@ pub struct DefocusKey {
     pub environment: EnvironmentKey,
     /// Half angle of the cones that it is averaged over, in radians; above 0.
     pub half_angle_rad: f64,
-    /// The faces of its cube that are in sight, in their order on the GPU.
-    pub faces: [bool; 6],
+    /// The tiles of its cube that are in sight.
+    pub tiles: CubeTiles,
 }
 
 impl DefocusKey {
-    /// The map.
+    /// The tiles.
     #[must_use]
-    pub fn map(&self) -> CubeMap {
-        self.environment.0.defocused(self.half_angle_rad, self.faces)
+    pub fn made(&self) -> Defocused {
+        Defocused::new(&self.environment.0, self.half_angle_rad, self.tiles)
     }
 
-    /// Whether another key is of the same map, of whatever faces.
+    /// What the tiles hold, for any direction within them.
+    #[must_use]
+    pub fn cones(&self) -> Cones {
+        Cones::new(&self.environment.0, self.half_angle_rad, self.tiles)
+    }
+
+    /// Whether another key is of the same map, of whatever tiles.
     #[must_use]
     pub fn is_same_map(&self, other: &Self) -> bool {
         self.environment == other.environment && self.half_angle_rad == other.half_angle_rad

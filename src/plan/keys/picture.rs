@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec3};
 
 use super::{
     BubbleKey, CameraKey, DefocusKey, EnvironmentKey, FilmKey, LentFilm, PlateKey, QuadratureKey, SmallBubble, TableKey,
@@ -11,7 +11,7 @@ use crate::{
     parallel,
     physics::{
         colour::{Display, Gamut},
-        environment::CubeFace,
+        environment::CubeTiles,
         picture::Finish,
     },
 };
@@ -112,17 +112,20 @@ impl DrawKey {
         if light.backdrop != BackdropKey::Environment || is_sharp {
             return None;
         }
-        // From the line of sight, which a part of a picture may lie aside of, to the farthest corner, and a pixel more: faces are interpolated across
-        // their edges.
-        let reach = 0.5 * DVec2::from(self.size.map(f64::from)) + self.camera.shift.abs();
-        let half_angle = ((reach.length() + 1.0) * self.camera.pixel_height_m).atan() + light.defocus_rad;
-        let forward = DMat3::from_rotation_z(-light.rotation_rad) * self.camera.forward;
-        let meets = |face: CubeFace| {
-            face.meets_cone(forward, half_angle)
-                || self.on_bath && face.meets_cone(forward.with_z(-forward.z), half_angle)
-        };
-        let faces = CubeFace::ALL.map(meets);
-        Some(DefocusKey { environment: environment.clone(), half_angle_rad: light.defocus_rad, faces })
+        // Tiles are interpolated across their edges: by less than two pixels, or than the radius of a disc.
+        let margin = 2.0 + self.disc_pixels(light.defocus_rad);
+        let turned = DMat3::from_rotation_z(-light.rotation_rad);
+        let corners = self.camera.corners(self.size, margin).map(|corner| turned * corner);
+        let seen = CubeTiles::within(&corners);
+        let mirrored = || CubeTiles::within(&corners.map(|corner| corner.with_z(-corner.z)));
+        let tiles = if self.on_bath { seen.and(mirrored()) } else { seen };
+        Some(DefocusKey { environment: environment.clone(), half_angle_rad: light.defocus_rad, tiles })
+    }
+
+    /// The radius of a disc out of focus in pixels, where the picture shows it largest: in its corners.
+    fn disc_pixels(&self, defocus_rad: f64) -> f64 {
+        let farthest = self.camera.corners(self.size, 0.0).map(DVec3::length_squared).into_iter().fold(1.0, f64::max);
+        defocus_rad * farthest / self.camera.pixel_height_m
     }
 
     /// All lights, the scene's own first.

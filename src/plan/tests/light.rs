@@ -1,6 +1,7 @@
 //! What lights and materials need, and the backdrop out of focus.
 
 use super::*;
+use crate::physics::environment::CubeFace;
 
 #[test]
 fn each_light_has_what_it_needs_and_loses_nothing_to_another() {
@@ -22,7 +23,7 @@ fn each_light_has_what_it_needs_and_loses_nothing_to_another() {
 }
 
 #[test]
-fn a_lens_blurs_the_faces_in_sight_once() {
+fn a_lens_blurs_the_tiles_in_sight_once() {
     let mut scene = uniform_scene();
     scene.view.backdrop = Backdrop::Environment;
     (scene.camera.azimuth_deg, scene.camera.elevation_deg) = (0.0, 0.0);
@@ -33,23 +34,23 @@ fn a_lens_blurs_the_faces_in_sight_once() {
     let made = |from: &GpuState, scene: &Scene| -> (Vec<(usize, bool)>, GpuState) {
         let plan = plan(&request(scene, &resources, &shot(0, Pace::Whole)).unwrap(), from);
         let blurred = plan.steps.iter().filter_map(|(pass, _)| match pass {
-            Pass::DefocusBackdrop { key, adds, .. } => Some((key.faces.iter().filter(|face| **face).count(), *adds)),
+            Pass::DefocusBackdrop { key, adds, .. } => Some((key.tiles.iter().count(), *adds)),
             _ => None,
         });
         (blurred.collect(), plan.after)
     };
     let (none, start) = made(&GpuState::default(), &sharp);
     let (first, seen) = made(&start, &scene);
-    assert_eq!((none, first), (vec![], vec![(1, false)]));
-    // Another face comes into sight, and none goes.
+    assert_eq!((none, first), (vec![], vec![(8, false)]));
+    // Other tiles come into sight, and none goes.
     scene.camera.azimuth_deg = 30.0;
     let (second, seen) = made(&seen, &scene);
     scene.camera.azimuth_deg = 0.0;
     let (third, seen) = made(&seen, &scene);
-    assert_eq!((second, third), (vec![(1, true)], vec![]));
+    assert_eq!((second, third), (vec![(2, true)], vec![]));
     scene.lens.aperture_mm = 5.0;
     let (other, seen) = made(&seen, &scene);
-    assert_eq!((other, made(&seen, &sharp).0), (vec![(1, false)], vec![]));
+    assert_eq!((other, made(&seen, &sharp).0), (vec![(8, false)], vec![]));
     assert!(made(&seen, &sharp).1.lights[0].defocused.is_none());
     // Discs narrower than a texel.
     scene.lens.aperture_mm = 1e-6;
@@ -57,7 +58,7 @@ fn a_lens_blurs_the_faces_in_sight_once() {
 }
 
 #[test]
-fn a_part_of_a_picture_asks_for_the_faces_that_it_shows() {
+fn a_part_of_a_picture_asks_for_the_tiles_that_it_shows() {
     let mut scene = uniform_scene();
     scene.view.backdrop = Backdrop::Environment;
     (scene.camera.azimuth_deg, scene.camera.elevation_deg, scene.camera.fov_y_deg) = (30.0, 0.0, 30.0);
@@ -65,10 +66,13 @@ fn a_part_of_a_picture_asks_for_the_faces_that_it_shows() {
     let surroundings = Arc::new(CubeMap::from_fn(256, 1, |direction| direction.abs()));
     let resources = Resources { environment: surroundings, ..resources() };
     let whole = request(&scene, &resources, &shot(0, Pace::Whole)).unwrap().picture.draw;
-    let faces = |draw: &DrawKey| draw.defocus(&draw.lighting).map(|key| key.faces.iter().filter(|face| **face).count());
-    assert_eq!(faces(&whole), Some(2));
-    let tiles = [0, 32].map(|x| whole.cut(&(x..x + 32), &(0..36)));
-    assert!(tiles.iter().any(|tile| faces(tile) == Some(2)), "the face that the whole picture sees at its edge");
+    let tiles = |draw: &DrawKey| draw.defocus(&draw.lighting).map(|key| key.tiles).unwrap();
+    let faces = |face: CubeFace| tiles(&whole).iter().any(|tile| tile.face == face);
+    assert_eq!(CubeFace::ALL.into_iter().filter(|face| faces(*face)).count(), 2);
+    let parts = [0, 32].map(|x| tiles(&whole.cut(&(x..x + 32), &(0..36))));
+    let counts = [tiles(&whole), parts[0], parts[1]].map(|tiles| tiles.iter().count());
+    assert!(tiles(&whole).without(parts[0].and(parts[1])).is_empty(), "{counts:?}");
+    assert!(counts[0] < 12 && counts[1] < counts[0] && counts[2] < counts[0], "{counts:?}");
 }
 
 #[test]
