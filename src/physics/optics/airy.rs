@@ -113,12 +113,11 @@ pub struct SpectralIncidence {
 impl SpectralIncidence {
     /// The light that meets a film at `cos_theta`, from the film's index at each wavelength in nm.
     pub fn new(indices: &[f64], wavelengths_nm: &[f64], cos_theta: f64) -> Self {
-        let incidence = |(n, nm): (&f64, &f64)| {
-            let incidence = Incidence::new(*n, cos_theta);
-            (incidence.face, incidence.order(1.0, *nm))
-        };
-        let (faces, orders_per_nm) = indices.iter().zip(wavelengths_nm).map(incidence).unzip();
-        Self { faces, orders_per_nm }
+        let order = |(n, nm): (&f64, &f64)| 2.0 * n_cos_refracted(*n, cos_theta) / nm;
+        Self {
+            faces: indices.iter().map(|n| amplitudes(*n, cos_theta)).collect(),
+            orders_per_nm: indices.iter().zip(wavelengths_nm).map(order).collect(),
+        }
     }
 
     /// As [`Incidence::reflectance`], at each wavelength.
