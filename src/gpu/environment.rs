@@ -40,7 +40,7 @@ impl Environment {
         for DefocusedTile { tile, texels } in tiles {
             let mut rest = texels.as_slice();
             for level in 0..*levels {
-                let edge = size / TILES_PER_EDGE >> level;
+                let edge = (size / TILES_PER_EDGE) >> level;
                 let (texels, smaller) = rest.split_at(edge * edge);
                 self.write(gpu, [tile.column * edge, tile.row * edge, tile.face.layer()], level, edge, texels);
                 rest = smaller;

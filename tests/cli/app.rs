@@ -40,7 +40,7 @@ fn a_film_is_stirred_and_a_bubble_is_moved() {
     let still = screen.settled("a film at rest while time runs", |shot| is_plain(shot, PANELS));
 
     screen.press("2");
-    let go = |screen: &Screen, x: i32| screen.act(&["mousemove", &x.to_string(), "400"]);
+    let go = |screen: &Screen, x: i32| screen.point_at([x, 400]);
     go(&screen, 540);
     screen.act(&["mousedown", "1"]);
     // To and fro until it is seen: a busy machine may let little film time pass.
@@ -101,7 +101,7 @@ fn a_camera_follows_the_pointer_and_generators_have_a_panel() {
     let mut screen = Screen::open(&["app", scene.to_str().unwrap()]);
     screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 1.0).then_some(()));
     screen.press("space");
-    let go = |screen: &Screen, x: i32| screen.act(&["mousemove", &x.to_string(), "400"]);
+    let go = |screen: &Screen, x: i32| screen.point_at([x, 400]);
     go(&screen, 480);
     sleep(Duration::from_secs(2));
     let before = screen.shot();
@@ -115,7 +115,7 @@ fn a_camera_follows_the_pointer_and_generators_have_a_panel() {
     // The title of the panel, which folds it away.
     let (title, panel) = ([1020, 184], [980, 195, 290, 450]);
     let open = screen.shot();
-    screen.act(&["mousemove", &title[0].to_string(), &title[1].to_string()]);
+    screen.point_at(title);
     screen.act(&["click", "1"]);
     screen.wait_for("a folded panel", |screen| (difference(panel, &open, &screen.shot()) > 2.0).then_some(()));
     screen.press("ctrl+q");
@@ -170,7 +170,7 @@ fn a_window_shows_a_bubble_obeys_and_rests() {
     screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 8.0).then_some(()));
 
     screen.press("space");
-    screen.act(&["mousemove", "500", "400"]);
+    screen.point_at([500, 400]);
     let paused = screen.settled("a paused picture", |_| true);
 
     // On a busy machine the last of the work may come after the picture.

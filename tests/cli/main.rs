@@ -18,6 +18,8 @@ mod sequence;
 mod streams;
 #[path = "../support/mod.rs"]
 mod support;
+#[cfg(target_os = "linux")]
+mod tour;
 mod video;
 
 use std::{

@@ -35,7 +35,7 @@ pub struct Screen {
     program: Guarded,
     window: String,
     _server: Guarded,
-    /// Where the program keeps settings and unsaved work: not where its user does.
+    /// Where the program runs, and keeps settings and unsaved work: not where its user does.
     home: tempfile::TempDir,
 }
 
@@ -91,12 +91,15 @@ impl Screen {
         self.act(&["key", key]);
     }
 
+    pub fn point_at(&self, [x, y]: [i32; 2]) {
+        self.act(&["mousemove", &x.to_string(), &y.to_string()]);
+    }
+
     pub fn drag(&self, from: [i32; 2], by: [i32; 2]) {
-        let go = |x: i32, y: i32| self.act(&["mousemove", &x.to_string(), &y.to_string()]);
-        go(from[0], from[1]);
+        self.point_at(from);
         self.act(&["mousedown", "1"]);
         for step in 1..=8 {
-            go(from[0] + by[0] * step / 8, from[1] + by[1] * step / 8);
+            self.point_at([from[0] + by[0] * step / 8, from[1] + by[1] * step / 8]);
         }
         self.act(&["mouseup", "1"]);
     }
@@ -162,6 +165,7 @@ impl Screen {
 fn start(arguments: &[&str], display: &str, home: &tempfile::TempDir) -> Guarded {
     let program = Command::new(env!("CARGO_BIN_EXE_soapfilm"))
         .args(arguments)
+        .current_dir(home.path())
         .env("DISPLAY", display)
         .env("XDG_CONFIG_HOME", home.path())
         .env("XDG_STATE_HOME", home.path())
@@ -171,7 +175,6 @@ fn start(arguments: &[&str], display: &str, home: &tempfile::TempDir) -> Guarded
     Guarded(program.unwrap())
 }
 
-/// An X server on a display number that it finds free.
 /// A server that answers, and its display. Servers that start side by side can both take the number of one that has just ended: they start one
 /// after the other, and one that cannot be reached is replaced.
 fn start_server() -> (Guarded, String) {
@@ -184,6 +187,7 @@ fn start_server() -> (Guarded, String) {
     reached.expect("Xvfb to answer")
 }
 
+/// A server on a display number that it finds free.
 fn start_one_server() -> (Guarded, String) {
     let mut server = Command::new("Xvfb")
         .args(["-displayfd", "1", "-screen", "0", &format!("{}x{}x24", SIZE[0], SIZE[1]), "-nolisten", "tcp"])
