@@ -1,4 +1,5 @@
-//! A walk through the real window, as a newcomer might take it: measure, stir, undo, compare, export. With `SOAPFILM_TOUR=FILE.png` it is filmed.
+//! A walk through the real window, as a newcomer might take it: measure, stir, undo, compare, export. With `SOAPFILM_TOUR=FILE.png` it is
+//! filmed, as `./dev tour` does.
 
 use std::{path::PathBuf, thread::sleep, time::Duration};
 
@@ -49,7 +50,7 @@ impl Film {
         }
         for _ in 0..frames {
             self.frames.push(smaller(&screen.shot()));
-            sleep(Duration::from_millis(120));
+            sleep(Duration::from_millis(250));
         }
     }
 
@@ -58,7 +59,7 @@ impl Film {
         let video = Video {
             format: VideoFormat::Apng,
             size: first.dimensions().into(),
-            rate: "5".parse().unwrap(),
+            rate: "3".parse().unwrap(),
             frames: self.frames.len() as u32,
             gamut: Gamut::Srgb,
             has_alpha: false,
@@ -87,28 +88,28 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
     std::fs::write(&scene, SCENE).unwrap();
     let mut film = Film::wanted();
     let mut screen = Screen::open(&["app", scene.to_str().unwrap()]);
-    film.watch(&screen, 6);
+    film.watch(&screen, 2);
     screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 8.0).then_some(()));
-    film.watch(&screen, 8);
+    film.watch(&screen, 4);
 
     // The numbers under the pointer, and then those that a click keeps.
     screen.press("space");
     screen.press("6");
     for x in [380, 440, 500, 560] {
         screen.point_at([x, 360]);
-        film.watch(&screen, 3);
+        film.watch(&screen, 1);
     }
     let before = screen.shot();
     screen.act(&["click", "1"]);
     screen.wait_for("a probe that stays", |screen| (difference(PROBE, &before, &screen.shot()) > 5.0).then_some(()));
-    film.watch(&screen, 10);
+    film.watch(&screen, 5);
     screen.press("Escape");
 
     // The picture as it is, kept to compare with.
     let before = screen.shot();
     screen.press("k");
     screen.wait_for("a split", |screen| (difference(SPLIT, &before, &screen.shot()) > 3.0).then_some(()));
-    film.watch(&screen, 6);
+    film.watch(&screen, 4);
 
     screen.press("2");
     screen.press("space");
@@ -123,7 +124,7 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
         (difference(right_of_the_split, &kept, &screen.shot()) > 2.0).then_some(())
     });
     screen.act(&["mouseup", "1"]);
-    film.watch(&screen, 10);
+    film.watch(&screen, 6);
     screen.press("space");
     screen.wait_for("an edited scene", |screen| screen.title().ends_with("(edited)").then_some(()));
     let stirred = screen.settled("a stirred film that stands", |_| true);
@@ -134,19 +135,19 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
         (difference(right_of_the_split, &stirred, &screen.shot()) > 1.0).then_some(())
     });
     screen.wait_for("a scene as it was", |screen| (!screen.title().ends_with("(edited)")).then_some(()));
-    film.watch(&screen, 8);
+    film.watch(&screen, 5);
 
     let before = screen.shot();
     screen.press("ctrl+e");
     screen.wait_for("a dialog", |screen| (difference(PANELS, &before, &screen.shot()) > 5.0).then_some(()));
-    film.watch(&screen, 10);
+    film.watch(&screen, 5);
     screen.point_at([405, 563]);
     screen.act(&["click", "1"]);
     // Beside the scene, and by its name.
     let exported = folder.path().join("tour.png");
     let picture = screen.wait_for("the exported picture", |_| image::open(&exported).ok());
     assert_eq!((picture.width(), picture.height()), (972, 730), "as large as the window shows it");
-    film.watch(&screen, 8);
+    film.watch(&screen, 5);
     film.save();
     screen.press("ctrl+q");
     screen.ends_well();

@@ -225,7 +225,7 @@ impl View {
         [first_tick, earliest_tick]: [u64; 2],
         due: &mut Due,
     ) -> bool {
-        model.drawing = false;
+        (model.drawing, model.has_picture) = (false, true);
         let is_late = std::mem::take(&mut self.pictures.is_late);
         if is_late || !plan.complete {
             due.after(Duration::ZERO);

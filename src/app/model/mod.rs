@@ -112,6 +112,8 @@ pub struct Model {
     pub shows_help: bool,
     /// What is being loaded.
     pub loading: Option<String>,
+    /// Whether a picture is shown, be it of an earlier scene.
+    pub has_picture: bool,
     /// Whether the picture takes so long to draw that people are told.
     pub drawing: bool,
     /// Ticks that the films are behind the clock.
@@ -176,6 +178,7 @@ impl Model {
             shows_gallery: false,
             shows_help: false,
             loading: None,
+            has_picture: false,
             drawing: false,
             behind_ticks: 0,
             messages,

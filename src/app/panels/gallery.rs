@@ -90,16 +90,29 @@ fn card(ui: &mut Ui, name: &str, sentence: &str, picture: Option<&TextureHandle>
 
 /// The pictures, loaded a few at a time once they are first shown.
 fn pictures(ctx: &Context) -> Pictures {
-    let id = Id::unique("preset pictures");
-    let mut pictures = ctx.data(|data| data.get_temp::<Pictures>(id)).unwrap_or_default();
-    let missing = preset_names().filter(|name| !pictures.contains_key(name));
-    let come = |name: &'static str| Some((name, decoded(ctx, name, &thumbnail(name)?)));
-    let new: Vec<_> = missing.filter_map(come).take(PER_FRAME).collect();
-    Arc::make_mut(&mut pictures).extend(new);
+    let pictures = loaded(ctx, preset_names());
     if pictures.len() < preset_names().count() {
         ctx.request_repaint_after(LOOK);
     }
-    ctx.data_mut(|data| data.insert_temp(id, pictures.clone()));
+    pictures
+}
+
+/// The picture of a preset, once it is there; other scenes have none.
+pub fn picture(ctx: &Context, name: &str) -> Option<TextureHandle> {
+    loaded(ctx, preset_names().filter(|preset| *preset == name)).get(name).cloned().flatten()
+}
+
+/// All pictures so far, and a few more of those that are asked for.
+fn loaded(ctx: &Context, names: impl Iterator<Item = &'static str>) -> Pictures {
+    let id = Id::unique("preset pictures");
+    let mut pictures = ctx.data(|data| data.get_temp::<Pictures>(id)).unwrap_or_default();
+    let missing = names.filter(|name| !pictures.contains_key(name));
+    let come = |name: &'static str| Some((name, decoded(ctx, name, &thumbnail(name)?)));
+    let new: Vec<_> = missing.filter_map(come).take(PER_FRAME).collect();
+    if !new.is_empty() {
+        Arc::make_mut(&mut pictures).extend(new);
+        ctx.data_mut(|data| data.insert_temp(id, pictures.clone()));
+    }
     pictures
 }
 

@@ -2,11 +2,12 @@
 
 use egui::{
     CentralPanel, Color32, Context, Frame, InputState, LayerId, PointerButton, Rect, Response, Sense, Stroke, Ui, Vec2,
+    pos2,
 };
 use glam::DVec2;
 
 use super::{
-    Picture, gizmo,
+    Picture, gallery, gizmo,
     places::{at, place},
 };
 use crate::app::{
@@ -25,6 +26,9 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
         .frame(Frame::NONE)
         .show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
+            if !model.has_picture && !model.stands_alone {
+                placeholder(ui, rect, &model.name);
+            }
             let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
             let (fingers, held) = (fingers(ui, &response), is_held(ui, &response));
             let mut gesture = gesture(ui, &response, follow_deg, fingers, held);
@@ -38,6 +42,14 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
             }
         })
         .inner
+}
+
+/// Shows the gallery's small picture of a preset while the first one is drawn, as high as that will be.
+fn placeholder(ui: &Ui, rect: Rect, name: &str) {
+    let Some(picture) = gallery::picture(ui.ctx(), name) else { return };
+    let size = picture.size_vec2() * (rect.height() / picture.size_vec2().y);
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    ui.painter_at(rect).image(picture.id(), Rect::from_center_size(rect.center(), size), whole, Color32::WHITE);
 }
 
 /// How many fingers hold the picture; a mouse is one.
