@@ -14,11 +14,15 @@ use crate::screen::{PANELS, Screen, colourfulness, difference, tools_are_there};
 /// Where the film of the tour goes, if one is wanted.
 const TOUR: &str = "SOAPFILM_TOUR";
 
+/// A film on which nothing acts, so that what moves was stirred.
 const SCENE: &str = "version = 1
 [[bubble]]
 film.state = \"rest\"
 film.thickness_nm = 580
 film.cells = 64
+[motion]
+strength = 0
+gravity_m_s2 = [0, 0, 0]
 [light]
 environment = \"windows\"
 [view]
@@ -121,7 +125,7 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
         for step in 0..8 {
             screen.point_at([560 + 20 * (step % 5), 260 + 25 * step]);
         }
-        (difference(right_of_the_split, &kept, &screen.shot()) > 2.0).then_some(())
+        (difference(right_of_the_split, &kept, &screen.shot()) > 1.0).then_some(())
     });
     screen.act(&["mouseup", "1"]);
     film.watch(&screen, 6);
@@ -132,7 +136,7 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
 
     screen.press("ctrl+z");
     screen.wait_for("a film that was not stirred", |screen| {
-        (difference(right_of_the_split, &stirred, &screen.shot()) > 1.0).then_some(())
+        (difference(right_of_the_split, &stirred, &screen.shot()) > 0.5).then_some(())
     });
     screen.wait_for("a scene as it was", |screen| (!screen.title().ends_with("(edited)")).then_some(()));
     film.watch(&screen, 5);

@@ -8,6 +8,12 @@ use crate::app::model::Model;
 const HINTS: &str =
     "Drag to turn, scroll to zoom. 2 stirs the film, 6 measures it. Space pauses, Ctrl+Z undoes, F1 shows all keys.";
 
+/// The lower edge of the picture, or of what is left of it above the hints.
+pub fn floor(ctx: &Context, picture: Rect, model: &Model) -> f32 {
+    let hints = ctx.memory(|memory| memory.area_rect(Id::unique("hints"))).filter(|_| !model.settings.knows_hints);
+    hints.map_or(picture.bottom(), |hints| hints.top())
+}
+
 /// Shows the hints over the lower edge of the picture.
 pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
     if model.settings.knows_hints {

@@ -13,17 +13,21 @@ use crate::physics::colour::chromaticity_xy;
 
 /// Shows what the probe has found, over the picture.
 pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
-    let place = ctx.pointer_hover_pos().filter(|place| picture.contains(*place));
-    if let (Some(reading), Some(place)) = (&model.probe.hover, place) {
-        // On the side where there is room.
-        let to_left = place.x > picture.center().x;
-        let (pivot, away) = if to_left { (Align2::RIGHT_TOP, -16.0) } else { (Align2::LEFT_TOP, 16.0) };
-        let area = Area::new(Id::unique("probe card")).fixed_pos(place + vec2(away, 16.0)).pivot(pivot);
-        area.interactable(false)
-            .constrain_to(picture)
-            .show(ctx, |ui| Frame::popup(ui.style()).show(ui, |ui| numbers(ui, reading)));
-    }
     pinned(ctx, picture, model);
+    let place = ctx.pointer_hover_pos().filter(|place| picture.contains(*place));
+    let (Some(reading), Some(place)) = (&model.probe.hover, place) else { return };
+    let id = Id::unique("probe card");
+    let [card, window] = [id, Id::unique("probe")].map(|id| ctx.memory(|memory| memory.area_rect(id)));
+    let window = window.filter(|_| model.probe.pinned.is_some());
+    let size = card.map_or(vec2(0.0, 0.0), |card| card.size());
+    // On the side where there is room.
+    let on_left = Rect::from_min_size(place + vec2(-16.0 - size.x, 16.0), size);
+    let to_left = place.x > picture.center().x && !window.is_some_and(|window| window.intersects(on_left));
+    let (pivot, away) = if to_left { (Align2::RIGHT_TOP, -16.0) } else { (Align2::LEFT_TOP, 16.0) };
+    let area = Area::new(id).fixed_pos(place + vec2(away, 16.0)).pivot(pivot);
+    area.interactable(false)
+        .constrain_to(picture)
+        .show(ctx, |ui| Frame::popup(ui.style()).show(ui, |ui| numbers(ui, reading)));
 }
 
 /// The numbers of each wall, in columns.
