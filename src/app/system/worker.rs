@@ -11,7 +11,10 @@ use web_sys::{MessageEvent, Worker};
 use super::spawn;
 use crate::{
     input::{self, LightNamed, MadeEnvironment},
-    physics::{bulk, environment::CubeMap},
+    physics::{
+        bulk,
+        environment::{CubeMap, CubeTiles},
+    },
     plan::{DefocusKey, EnvironmentKey, Work},
 };
 
@@ -25,7 +28,7 @@ pub enum Task {
     /// Work is to be done: a [`Product`](crate::plan::Product).
     Work(Work),
     /// The environment that was made last, if it has this id, is to be put out of focus: a [`Product`](crate::plan::Product).
-    Defocus(u64, f64, [bool; 6]),
+    Defocus(u64, f64, CubeTiles),
 }
 
 impl Task {
@@ -33,7 +36,7 @@ impl Task {
     pub fn of(work: &Work) -> Self {
         match work {
             Work::Defocus(key) if PAGE.with_borrow(|page| page.made == Some(key.environment.0.id())) => {
-                Self::Defocus(key.environment.0.id(), key.half_angle_rad, key.faces)
+                Self::Defocus(key.environment.0.id(), key.half_angle_rad, key.tiles)
             }
             work => Self::Work(work.clone()),
         }
@@ -142,10 +145,10 @@ pub fn done(message: &[u8]) -> Vec<u8> {
             postcard::to_allocvec(&made)
         }),
         Task::Work(work) => postcard::to_allocvec(&work.done()),
-        Task::Defocus(id, half_angle_rad, faces) => {
+        Task::Defocus(id, half_angle_rad, tiles) => {
             let made = MADE.with_borrow(|made| made.clone()).filter(|made| made.id() == id);
             made.map_or(Ok(Vec::new()), |made| {
-                let key = DefocusKey { environment: EnvironmentKey(made), half_angle_rad, faces };
+                let key = DefocusKey { environment: EnvironmentKey(made), half_angle_rad, tiles };
                 postcard::to_allocvec(&Work::Defocus(key).done())
             })
         }
