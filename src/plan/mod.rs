@@ -327,7 +327,7 @@ impl Planner {
         let had = present.filter(|present| present.is_same_map(&requested)).map(|present| present.tiles);
         let had = had.unwrap_or_default();
         let missing = DefocusKey { tiles: requested.tiles.without(had), ..requested.clone() };
-        self.after.lights[light].defocused = Some(DefocusKey { tiles: requested.tiles.and(had), ..requested });
+        self.after.lights[light].defocused = Some(DefocusKey { tiles: requested.tiles.union(had), ..requested });
         if !missing.tiles.is_empty() {
             self.push(Pass::DefocusBackdrop { light, key: missing, adds: !had.is_empty() }, reason);
         }

@@ -31,6 +31,8 @@ quality = \"fast\"
 dither = false
 ";
 
+/// Most of the picture: what lies between the tools and the hints.
+const PICTURE: [u32; 4] = [0, 60, 960, 600];
 /// Where the probe's numbers stand.
 const PROBE: [u32; 4] = [15, 90, 340, 220];
 /// The line between the two sides of a comparison.
@@ -98,6 +100,7 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
 
     // The numbers under the pointer, and then those that a click keeps.
     screen.press("space");
+    let plain = screen.settled("a paused picture", |_| true);
     screen.press("6");
     for x in [380, 440, 500, 560] {
         screen.point_at([x, 360]);
@@ -108,16 +111,14 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
     screen.wait_for("a probe that stays", |screen| (difference(PROBE, &before, &screen.shot()) > 5.0).then_some(()));
     film.watch(&screen, 5);
     screen.press("Escape");
+    screen.press("2");
+    screen.settled("a picture without the probe", |shot| difference(PICTURE, &plain, shot) < 0.01);
 
     // The picture as it is, kept to compare with.
-    let before = screen.shot();
     screen.press("k");
-    screen.wait_for("a split", |screen| (difference(SPLIT, &before, &screen.shot()) > 3.0).then_some(()));
+    let kept = screen.settled("a split", |shot| difference(SPLIT, &plain, shot) > 3.0);
     film.watch(&screen, 4);
-
-    screen.press("2");
     screen.press("space");
-    let kept = screen.shot();
     let right_of_the_split = [500, 200, 240, 400];
     screen.point_at([560, 260]);
     screen.act(&["mousedown", "1"]);

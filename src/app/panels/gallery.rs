@@ -140,4 +140,11 @@ mod tests {
             assert_eq!(size, Some((192, 120)), "{name}: run ./dev thumbnails");
         }
     }
+
+    #[test]
+    fn presets_have_a_picture_to_stand_in_and_other_scenes_have_none() {
+        let ctx = Context::default();
+        assert_eq!(picture(&ctx, "windows").map(|picture| picture.size()), Some([192, 120]));
+        assert!(picture(&ctx, "windows.toml").is_none());
+    }
 }

@@ -1,6 +1,6 @@
 //! One line that says what to do; it goes away for good once it was read.
 
-use egui::{Align2, Area, Context, Frame, Id, Rect, vec2};
+use egui::{Align2, Area, Context, Frame, Id, LayerId, Order, Rect, vec2};
 
 use crate::app::model::Model;
 
@@ -9,9 +9,13 @@ const HINTS: &str =
     "Drag to turn, scroll to zoom. 2 stirs the film, 6 measures it. Space pauses, Ctrl+Z undoes, F1 shows all keys.";
 
 /// The lower edge of the picture, or of what is left of it above the hints.
-pub fn floor(ctx: &Context, picture: Rect, model: &Model) -> f32 {
-    let hints = ctx.memory(|memory| memory.area_rect(Id::unique("hints"))).filter(|_| !model.settings.knows_hints);
-    hints.map_or(picture.bottom(), |hints| hints.top())
+pub fn floor(ctx: &Context, picture: Rect) -> f32 {
+    let hints = Id::unique("hints");
+    let shown = ctx.memory(|memory| {
+        let is_visible = memory.areas().is_visible(&LayerId::new(Order::Middle, hints));
+        memory.area_rect(hints).filter(|_| is_visible)
+    });
+    shown.map_or(picture.bottom(), |hints| hints.top())
 }
 
 /// Shows the hints over the lower edge of the picture.

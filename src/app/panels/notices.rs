@@ -22,7 +22,7 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
     if messages.is_empty() && busy.is_none() {
         return;
     }
-    let corner = pos2(picture.left() + 12.0, hints::floor(ctx, picture, model) - 12.0);
+    let corner = pos2(picture.left() + 12.0, hints::floor(ctx, picture) - 12.0);
     let mut dismissed = None;
     Area::new(Id::unique("notices")).fixed_pos(corner).pivot(Align2::LEFT_BOTTOM).show(ctx, |ui| {
         ui.set_max_width((picture.width() - 24.0).clamp(120.0, 560.0));

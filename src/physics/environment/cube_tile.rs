@@ -83,7 +83,7 @@ impl CubeTiles {
 
     /// Those of either set.
     #[must_use]
-    pub fn and(self, other: Self) -> Self {
+    pub fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
@@ -146,8 +146,8 @@ mod tests {
     #[test]
     fn sets_add_and_subtract() {
         let [near, far] = [DVec3::X, DVec3::NEG_X].map(|axis| CubeTiles::within(&pyramid(axis, 0.3)));
-        assert_eq!(near.and(far).without(far), near);
-        assert_eq!(near.and(near), near);
+        assert_eq!(near.union(far).without(far), near);
+        assert_eq!(near.union(near), near);
         assert!(near.without(near).is_empty() && CubeTiles::default().is_empty() && !near.is_empty());
         assert_eq!(CubeTiles::all().iter().count(), 96);
         assert_eq!(CubeTiles::all().without(near).iter().count(), 96 - near.iter().count());

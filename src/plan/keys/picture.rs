@@ -118,7 +118,7 @@ impl DrawKey {
         let corners = self.camera.corners(self.size, margin).map(|corner| turned * corner);
         let seen = CubeTiles::within(&corners);
         let mirrored = || CubeTiles::within(&corners.map(|corner| corner.with_z(-corner.z)));
-        let tiles = if self.on_bath { seen.and(mirrored()) } else { seen };
+        let tiles = if self.on_bath { seen.union(mirrored()) } else { seen };
         Some(DefocusKey { environment: environment.clone(), half_angle_rad: light.defocus_rad, tiles })
     }
 

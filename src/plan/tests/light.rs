@@ -71,7 +71,7 @@ fn a_part_of_a_picture_asks_for_the_tiles_that_it_shows() {
     assert_eq!(CubeFace::ALL.into_iter().filter(|face| faces(*face)).count(), 2);
     let parts = [0, 32].map(|x| tiles(&whole.cut(&(x..x + 32), &(0..36))));
     let counts = [tiles(&whole), parts[0], parts[1]].map(|tiles| tiles.iter().count());
-    assert!(tiles(&whole).without(parts[0].and(parts[1])).is_empty(), "{counts:?}");
+    assert!(tiles(&whole).without(parts[0].union(parts[1])).is_empty(), "{counts:?}");
     assert!(counts[0] < 12 && counts[1] < counts[0] && counts[2] < counts[0], "{counts:?}");
 }
 

@@ -59,6 +59,42 @@ fn each_plot_of_a_pin_can_be_seen_and_saved() {
     window.get_by_label(&format!("front wall: u' {:.4}, v' {:.4}", 4.0 * x / over, 9.0 * y / over));
 }
 
+/// Where a part of the window stands.
+fn area(window: &Harness<'static, State>, name: &str) -> egui::Rect {
+    window.ctx.memory(|memory| memory.area_rect(egui::Id::unique(name))).expect("it is shown")
+}
+
+#[test]
+fn the_card_at_the_pointer_keeps_clear_of_a_pin() {
+    let mut window = pinned(vec2(1280.0, 1000.0));
+    press(&mut window, Modifiers::NONE, Key::Num6);
+    let middle = window.state().picture.unwrap().rect.center();
+    for aside in [10.0, -10.0] {
+        window.hover_at(middle + vec2(aside, -200.0));
+        window.run();
+        window.state_mut().model.probe.answer(Some(reading()), &[], true);
+        window.run();
+        window.run();
+        assert!(!area(&window, "probe card").intersects(area(&window, "probe")), "{aside}");
+    }
+    window.state_mut().model.probe.pinned = None;
+    window.hover_at(middle + vec2(10.0, -200.0));
+    window.run();
+    window.run();
+    assert!(area(&window, "probe card").right() < middle.x + 10.0, "without a pin it stands on the left");
+}
+
+#[test]
+fn messages_stand_above_the_hints() {
+    let mut model = model();
+    model.clock.running = false;
+    model.messages.problem("a file is damaged, and what there is to say of it takes the width of the window");
+    let mut window = harness(model, vec2(640.0, 480.0));
+    window.run();
+    window.run();
+    assert!(area(&window, "notices").bottom() < area(&window, "hints").top());
+}
+
 #[test]
 fn a_pin_fits_a_small_window() {
     let mut window = pinned(vec2(640.0, 480.0));
