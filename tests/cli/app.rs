@@ -50,7 +50,7 @@ fn a_film_is_stirred_and_a_bubble_is_moved() {
     });
     screen.act(&["mouseup", "1"]);
     screen.press("space");
-    let stirred = screen.settled("a stirred film that stands", |shot| difference(MIDDLE, &still, shot) > 2.0);
+    let stirred = screen.rested("a stirred film that stands", |shot| difference(MIDDLE, &still, shot) > 2.0);
     assert!(difference([0, 100, 60, 600], &still, &stirred) < 0.01, "the camera stands");
 
     screen.press("space");
@@ -175,7 +175,7 @@ fn a_window_shows_a_bubble_obeys_and_rests() {
 
     screen.press("space");
     screen.point_at([500, 400]);
-    let paused = screen.settled("a paused picture", |_| true);
+    let paused = screen.rested("a paused picture", |_| true);
 
     // On a busy machine the last of the work may come after the picture.
     screen.wait_for("a window at rest", |screen| {
@@ -185,19 +185,19 @@ fn a_window_shows_a_bubble_obeys_and_rests() {
     });
 
     screen.drag([500, 400], [200, 60]);
-    let turned = screen.settled("a view that a drag has turned", |shot| difference(MIDDLE, &paused, shot) > 2.0);
+    let turned = screen.rested("a view that a drag has turned", |shot| difference(MIDDLE, &paused, shot) > 2.0);
     assert!(screen.title().ends_with("(edited)"));
 
     screen.press("h");
-    screen.settled("a picture without panels", |shot| difference(PANELS, &turned, shot) > 2.0);
+    screen.rested("a picture without panels", |shot| difference(PANELS, &turned, shot) > 2.0);
     screen.press("h");
-    screen.settled("the panels' return", |shot| difference(PANELS, &turned, shot) < 1.0);
+    screen.rested("the panels' return", |shot| difference(PANELS, &turned, shot) < 1.0);
 
     for (width, height) in [(200, 150), (1, 1), (1280, 800)] {
         screen.resize(width, height);
         sleep(Duration::from_millis(400));
     }
-    screen.settled("the picture as it was, at its size", |shot| difference(MIDDLE, &turned, shot) < 1.0);
+    screen.rested("the picture as it was, at its size", |shot| difference(MIDDLE, &turned, shot) < 1.0);
 
     // Debug builds can lose their device at a key.
     if cfg!(debug_assertions) {

@@ -15,6 +15,9 @@ use crate::support::{REQUIRE_WINDOW, has_tools};
 /// What a software rasteriser may take for a picture on a machine that is busy with other tests.
 const PATIENCE: Duration = Duration::from_secs(240);
 
+/// Processor time that a program at rest may take while it is watched for 0.6 s, in hundredths of a second.
+const IDLE_JIFFIES: u64 = 6;
+
 /// Size of the virtual screen, pixels.
 const SIZE: [u32; 2] = [1280, 800];
 
@@ -125,7 +128,11 @@ impl Screen {
             if let Some(found) = look(self) {
                 return found;
             }
-            assert!(start.elapsed() < PATIENCE, "{what} did not come");
+            if start.elapsed() > PATIENCE {
+                let seen = concat!(env!("CARGO_TARGET_TMPDIR"), "/screen.png");
+                self.shot().save(seen).unwrap();
+                panic!("{what} did not come; what the screen shows instead is in {seen}");
+            }
             sleep(Duration::from_millis(200));
         }
     }
@@ -133,11 +140,21 @@ impl Screen {
     /// The screen once it shows a bubble and what is looked for, and nothing moves any more. A window may answer late, so that a screen that stands
     /// still may be the one before.
     pub fn settled(&mut self, what: &str, is_there: impl Fn(&RgbImage) -> bool) -> RgbImage {
+        self.still(what, is_there, u64::MAX)
+    }
+
+    /// As [`Self::settled`], and the program does nothing any more: on a busy machine a coarse picture may stand for long before the fine one.
+    pub fn rested(&mut self, what: &str, is_there: impl Fn(&RgbImage) -> bool) -> RgbImage {
+        self.still(what, is_there, IDLE_JIFFIES)
+    }
+
+    fn still(&mut self, what: &str, is_there: impl Fn(&RgbImage) -> bool, most_jiffies: u64) -> RgbImage {
         self.wait_for(what, |screen| {
-            let first = screen.shot();
+            let (first, before) = (screen.shot(), screen.jiffies());
             sleep(Duration::from_millis(600));
-            let second = screen.shot();
-            (colourfulness(&second) > 8.0 && first == second && is_there(&second)).then_some(second)
+            let (second, jiffies) = (screen.shot(), screen.jiffies() - before);
+            let stands = colourfulness(&second) > 8.0 && first == second && jiffies <= most_jiffies;
+            (stands && is_there(&second)).then_some(second)
         })
     }
 

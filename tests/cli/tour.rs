@@ -31,8 +31,6 @@ quality = \"fast\"
 dither = false
 ";
 
-/// Most of the picture: what lies between the tools and the hints.
-const PICTURE: [u32; 4] = [0, 60, 960, 600];
 /// Where the probe's numbers stand.
 const PROBE: [u32; 4] = [15, 90, 340, 220];
 /// The line between the two sides of a comparison.
@@ -100,7 +98,6 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
 
     // The numbers under the pointer, and then those that a click keeps.
     screen.press("space");
-    let plain = screen.settled("a paused picture", |_| true);
     screen.press("6");
     for x in [380, 440, 500, 560] {
         screen.point_at([x, 360]);
@@ -110,13 +107,14 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
     screen.act(&["click", "1"]);
     screen.wait_for("a probe that stays", |screen| (difference(PROBE, &before, &screen.shot()) > 5.0).then_some(()));
     film.watch(&screen, 5);
+    let pinned = screen.shot();
     screen.press("Escape");
     screen.press("2");
-    screen.settled("a picture without the probe", |shot| difference(PICTURE, &plain, shot) < 0.01);
+    let plain = screen.rested("a picture without the probe", |shot| difference(PROBE, &pinned, shot) > 5.0);
 
     // The picture as it is, kept to compare with.
     screen.press("k");
-    let kept = screen.settled("a split", |shot| difference(SPLIT, &plain, shot) > 3.0);
+    let kept = screen.rested("a split", |shot| difference(SPLIT, &plain, shot) > 3.0);
     film.watch(&screen, 4);
     screen.press("space");
     let right_of_the_split = [500, 200, 240, 400];
@@ -132,7 +130,7 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
     film.watch(&screen, 6);
     screen.press("space");
     screen.wait_for("an edited scene", |screen| screen.title().ends_with("(edited)").then_some(()));
-    let stirred = screen.settled("a stirred film that stands", |_| true);
+    let stirred = screen.rested("a stirred film that stands", |_| true);
     assert!(difference([250, 200, 220, 400], &kept, &stirred) < 0.1, "the kept picture stands on the left");
 
     screen.press("ctrl+z");
