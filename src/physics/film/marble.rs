@@ -42,12 +42,12 @@ impl Marble {
 }
 
 /// Noise of one scale, on a lattice turned against the others so that their axes do not show.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Octave {
     frequency: f64,
     weight: f64,
     turn: DMat3,
-    key: u32,
+    lattice: Lattice,
 }
 
 impl Octave {
@@ -56,11 +56,11 @@ impl Octave {
         let number = octave as u32 + 1;
         let turn = (0..number).fold(DMat3::IDENTITY, |turn, _| turn * LATTICE_TURN);
         let [key, ..] = pcg3d([seed, number, 0]);
-        Self { frequency, weight, turn, key }
+        Self { frequency, weight, turn, lattice: Lattice::new(frequency, key) }
     }
 
     fn value(&self, x: DVec3) -> f64 {
-        self.weight * gradient_noise(self.turn * x * self.frequency, self.key)
+        self.weight * self.lattice.noise(self.turn * x * self.frequency)
     }
 }
 
@@ -106,16 +106,41 @@ impl Twist {
     }
 }
 
-/// Gradient noise: zero at the points of the unit lattice, smooth between them, mostly within ±0.5.
-fn gradient_noise(p: DVec3, key: u32) -> f64 {
-    let cell = p.floor();
-    let t = p - cell;
-    let cell = cell.as_ivec3();
-    let fade = t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
-    let slope = |corner: IVec3| gradient(cell + corner, key).dot(t - corner.as_dvec3());
-    let edge = |y, z| lerp(slope(IVec3::new(0, y, z)), slope(IVec3::new(1, y, z)), fade.x);
-    let face = |z| lerp(edge(0, z), edge(1, z), fade.y);
-    lerp(face(0), face(1), fade.z)
+/// Gradient noise about the origin. Its gradients are kept: a film has far more cells than its lattice has points.
+#[derive(Clone, Debug)]
+struct Lattice {
+    /// The last point along each axis, in both directions.
+    reach: i32,
+    /// Gradients at all points, x first.
+    gradients: Vec<DVec3>,
+}
+
+impl Lattice {
+    /// For places up to a distance from the origin.
+    fn new(distance: f64, key: u32) -> Self {
+        let reach = distance.ceil() as i32;
+        let axis = || -reach..=reach;
+        let points = axis().flat_map(|z| axis().flat_map(move |y| axis().map(move |x| IVec3::new(x, y, z))));
+        Self { reach, gradients: points.map(|point| gradient(point, key)).collect() }
+    }
+
+    fn gradient(&self, point: IVec3) -> DVec3 {
+        let from_first = (point + self.reach).as_uvec3();
+        let side = 2 * self.reach as u32 + 1;
+        self.gradients[((from_first.z * side + from_first.y) * side + from_first.x) as usize]
+    }
+
+    /// Zero at the points of the lattice, smooth between them, mostly within ±0.5.
+    fn noise(&self, p: DVec3) -> f64 {
+        // A length that rounding has made a little greater must not lead beyond the last cell.
+        let cell = p.floor().as_ivec3().clamp(IVec3::splat(-self.reach), IVec3::splat(self.reach - 1));
+        let t = p - cell.as_dvec3();
+        let fade = t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+        let slope = |corner: IVec3| self.gradient(cell + corner).dot(t - corner.as_dvec3());
+        let edge = |y, z| lerp(slope(IVec3::new(0, y, z)), slope(IVec3::new(1, y, z)), fade.x);
+        let face = |z| lerp(edge(0, z), edge(1, z), fade.y);
+        lerp(face(0), face(1), fade.z)
+    }
 }
 
 /// The random gradient at a lattice point, uniform in the cube [−1, 1]³.
