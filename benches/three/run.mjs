@@ -2,7 +2,7 @@
 //
 // SOAPFILM is the command-line program. CHROMIUM and PLAYWRIGHT name the browser and the folder where npm has put playwright-core and three.
 // Both draw 1280 x 720 pixels by the same driver in turn, Mesa's lavapipe and Chromium's SwiftShader, which draw by the CPU. What counts is
-// CPU time, all threads together: the program's process, and of Chromium the process that draws.
+// CPU time, all threads together: the program's process, and of Chromium the process that draws. PICTURES names a folder for what the page draws.
 
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, realpathSync, rmSync, writeFileSync } from "node:fs";
