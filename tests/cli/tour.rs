@@ -1,7 +1,11 @@
 //! A walk through the real window, as a newcomer might take it: measure, stir, undo, compare, export. With `SOAPFILM_TOUR=FILE.png` it is
 //! filmed, as `./dev tour` does.
 
-use std::{path::PathBuf, thread::sleep, time::Duration};
+use std::{
+    path::{Path, PathBuf},
+    thread::sleep,
+    time::Duration,
+};
 
 use image::{RgbImage, RgbaImage, imageops};
 use soapfilm::{
@@ -35,6 +39,8 @@ dither = false
 const PROBE: [u32; 4] = [15, 90, 340, 220];
 /// The line between the two sides of a comparison.
 const SPLIT: [u32; 4] = [480, 100, 14, 550];
+/// The middle of its right side.
+const RIGHT_OF_THE_SPLIT: [u32; 4] = [500, 200, 240, 400];
 
 /// Frames of the screen, half as large.
 struct Film {
@@ -95,63 +101,76 @@ fn a_newcomer_measures_stirs_undoes_compares_and_exports() {
     film.watch(&screen, 2);
     screen.wait_for("a colourful picture", |screen| (colourfulness(&screen.shot()) > 8.0).then_some(()));
     film.watch(&screen, 4);
+    let plain = measure(&mut screen, &mut film);
+    let stirred = compare_with_a_stir(&mut screen, &mut film, &plain);
+    undo(&mut screen, &mut film, &stirred);
+    export(&mut screen, &mut film, folder.path());
+    film.save();
+    screen.press("ctrl+q");
+    screen.ends_well();
+}
 
-    // The numbers under the pointer, and then those that a click keeps.
+/// The numbers under the pointer, and then those that a click keeps; the screen after it, without them.
+fn measure(screen: &mut Screen, film: &mut Film) -> RgbImage {
     screen.press("space");
     screen.press("6");
     for x in [380, 440, 500, 560] {
         screen.point_at([x, 360]);
-        film.watch(&screen, 1);
+        film.watch(screen, 1);
     }
     let before = screen.shot();
     screen.act(&["click", "1"]);
     screen.wait_for("a probe that stays", |screen| (difference(PROBE, &before, &screen.shot()) > 5.0).then_some(()));
-    film.watch(&screen, 5);
+    film.watch(screen, 5);
     let pinned = screen.shot();
     screen.press("Escape");
     screen.press("2");
-    let plain = screen.rested("a picture without the probe", |shot| difference(PROBE, &pinned, shot) > 5.0);
+    screen.rested("a picture without the probe", |shot| difference(PROBE, &pinned, shot) > 5.0)
+}
 
-    // The picture as it is, kept to compare with.
+/// The picture as it is, kept beside the film that is stirred; the screen with both.
+fn compare_with_a_stir(screen: &mut Screen, film: &mut Film, plain: &RgbImage) -> RgbImage {
     screen.press("k");
-    let kept = screen.rested("a split", |shot| difference(SPLIT, &plain, shot) > 3.0);
-    film.watch(&screen, 4);
+    let kept = screen.rested("a split", |shot| difference(SPLIT, plain, shot) > 3.0);
+    film.watch(screen, 4);
     screen.press("space");
-    let right_of_the_split = [500, 200, 240, 400];
     screen.point_at([560, 260]);
     screen.act(&["mousedown", "1"]);
     screen.wait_for("a stirred film", |screen| {
         for step in 0..8 {
             screen.point_at([560 + 20 * (step % 5), 260 + 25 * step]);
         }
-        (difference(right_of_the_split, &kept, &screen.shot()) > 1.0).then_some(())
+        (difference(RIGHT_OF_THE_SPLIT, &kept, &screen.shot()) > 1.0).then_some(())
     });
     screen.act(&["mouseup", "1"]);
-    film.watch(&screen, 6);
+    film.watch(screen, 6);
     screen.press("space");
     screen.wait_for("an edited scene", |screen| screen.title().ends_with("(edited)").then_some(()));
     let stirred = screen.rested("a stirred film that stands", |_| true);
     assert!(difference([250, 200, 220, 400], &kept, &stirred) < 0.1, "the kept picture stands on the left");
+    stirred
+}
 
+/// The stir, taken back.
+fn undo(screen: &mut Screen, film: &mut Film, stirred: &RgbImage) {
     screen.press("ctrl+z");
     screen.wait_for("a film that was not stirred", |screen| {
-        (difference(right_of_the_split, &stirred, &screen.shot()) > 0.5).then_some(())
+        (difference(RIGHT_OF_THE_SPLIT, stirred, &screen.shot()) > 0.5).then_some(())
     });
     screen.wait_for("a scene as it was", |screen| (!screen.title().ends_with("(edited)")).then_some(()));
-    film.watch(&screen, 5);
+    film.watch(screen, 5);
+}
 
+/// The picture in a file beside the scene, and by its name.
+fn export(screen: &mut Screen, film: &mut Film, folder: &Path) {
     let before = screen.shot();
     screen.press("ctrl+e");
     screen.wait_for("a dialog", |screen| (difference(PANELS, &before, &screen.shot()) > 5.0).then_some(()));
-    film.watch(&screen, 5);
+    film.watch(screen, 5);
     screen.point_at([405, 563]);
     screen.act(&["click", "1"]);
-    // Beside the scene, and by its name.
-    let exported = folder.path().join("tour.png");
+    let exported = folder.join("tour.png");
     let picture = screen.wait_for("the exported picture", |_| image::open(&exported).ok());
     assert_eq!((picture.width(), picture.height()), (972, 730), "as large as the window shows it");
-    film.watch(&screen, 5);
-    film.save();
-    screen.press("ctrl+q");
-    screen.ends_well();
+    film.watch(screen, 5);
 }
