@@ -43,10 +43,12 @@ struct Care {
     deep_cos: f64,
     /// How many there.
     deep_reflections: u32,
-    /// How many within [`LIMB_PIXELS`] of the limb.
+    /// How many in the ring at the limb.
     limb_reflections: u32,
     /// Samples of a pixel there.
     limb_samples: LimbSamples,
+    /// The limb's ring, of [`LIMB_PIXELS`] at least, begins where a reflection turns by this angle from pixel to pixel, in radians.
+    limb_turn_rad: f64,
 }
 
 /// Where samples are at the limb.
@@ -61,15 +63,19 @@ enum LimbSamples {
 /// Lookups of the surroundings in a reflection, at most. Pixels span more of them in the plane of incidence than across it: twice as much at a
 /// cosine of incidence of 0.7, and eight times at 0.35.
 const ENVIRONMENT_TAPS: u32 = 4;
-/// Width of the outermost ring, in pixels: beyond it the cosine of incidence changes by less than a fifth from pixel to pixel.
+/// Width of the outermost ring, in pixels, at least: beyond it the cosine of incidence changes by less than a fifth from pixel to pixel.
 const LIMB_PIXELS: f64 = 3.0;
+/// Contrast of the surroundings from which light is hard: black before it shows what is wrong with the edges of lamps, and with what films reflect
+/// several times. Cloth and sky have 3; windows of a dark room and trees before the sky have 200, and more samples there would not bring them nearer
+/// to the truth; lamps before black velvet have a thousand.
+const HARD_CONTRAST: f64 = 300.0;
 /// How far outside the outline a pixel may have its center and still be crossed by it, in pixels.
 const MARGIN_PIXELS: f64 = 1.0;
 
 impl Care {
     /// Denser films mirror more at every angle: what water leaves near the outline, they leave further inside.
-    fn of(quality: Quality, film: &FilmMaterial) -> Self {
-        let mut care = Self::of_water(quality);
+    fn of(quality: Quality, film: &FilmMaterial, contrast: f64) -> Self {
+        let mut care = if contrast < HARD_CONTRAST { Self::of_water(quality) } else { Self::in_hard_light(quality) };
         if film.reference_index() > QuadratureKey::MAX_FACTOR_INDEX {
             care.middle_reflections = 3;
         }
@@ -85,7 +91,14 @@ impl Care {
 
     /// So many inner reflections in the middle, beyond an angle of incidence, and at the limb.
     fn following([middle, deep, limb]: [u32; 3], deep_cos: f64, limb_samples: LimbSamples) -> Self {
-        Self { middle_reflections: middle, deep_cos, deep_reflections: deep, limb_reflections: limb, limb_samples }
+        Self {
+            middle_reflections: middle,
+            deep_cos,
+            deep_reflections: deep,
+            limb_reflections: limb,
+            limb_samples,
+            limb_turn_rad: std::f64::consts::PI,
+        }
     }
 
     fn of_water(quality: Quality) -> Self {
@@ -94,6 +107,24 @@ impl Care {
             Quality::Standard => Self::following([3, 7, 7], 0.35, LimbSamples::Line(4)),
             Quality::Spectral => Self::following([3, 7, 11], 0.7, LimbSamples::Grid(4)),
         }
+    }
+
+    /// For half of a frame's cost more, half of the error at the limb: see `verify picture`.
+    fn in_hard_light(quality: Quality) -> Self {
+        let care = Self::of_water(quality);
+        match quality {
+            Quality::Fast => Self { limb_turn_rad: 0.05, ..care },
+            Quality::Standard => {
+                Self { limb_reflections: 11, limb_samples: LimbSamples::Line(8), limb_turn_rad: 0.05, ..care }
+            }
+            Quality::Spectral => Self { limb_samples: LimbSamples::Grid(6), limb_turn_rad: 0.035, ..care },
+        }
+    }
+
+    /// Width of the ring at the limb of a bubble, whose radius is given, in pixels. A reflection turns by twice as much as the wall: by 2 / (r cos θ)
+    /// from pixel to pixel, where cos² θ is 2 / r for each pixel from the limb.
+    fn limb_pixels(&self, radius_pixels: f64) -> f64 {
+        LIMB_PIXELS.max(2.0 / (self.limb_turn_rad.powi(2) * radius_pixels))
     }
 }
 
@@ -127,10 +158,16 @@ fn pixel_rad(camera: &CameraKey, bubble: &BubbleKey) -> f64 {
     camera.pixel_height_m * reach(bubble.stretch) * reach(bubble.stretch.inverse())
 }
 
-/// The rings of a bubble, from the middle outwards.
+/// The rings of a bubble, from the middle outwards, in surroundings of a contrast.
 #[must_use]
-pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality, film: &FilmMaterial) -> Vec<Ring> {
-    let care = Care::of(quality, film);
+pub fn rings(
+    camera: &CameraKey,
+    bubble: &BubbleKey,
+    quality: Quality,
+    film: &FilmMaterial,
+    contrast: f64,
+) -> Vec<Ring> {
+    let care = Care::of(quality, film, contrast);
     let deep_sin = (1.0 - care.deep_cos * care.deep_cos).sqrt();
     let Some(limb_rad) = limb_rad(camera, bubble) else {
         let is_deep = eye_radii(camera, bubble) > deep_sin;
@@ -140,7 +177,7 @@ pub fn rings(camera: &CameraKey, bubble: &BubbleKey, quality: Quality, film: &Fi
         )];
     };
     let pixel_rad = pixel_rad(camera, bubble);
-    let ring_rad = (limb_rad - LIMB_PIXELS * pixel_rad).max(0.0);
+    let ring_rad = (limb_rad - care.limb_pixels(limb_rad / pixel_rad) * pixel_rad).max(0.0);
     let deep_rad = (deep_sin * limb_rad.sin()).asin().min(ring_rad);
     let inner = |edges_rad: [f64; 2], inner_reflections: u32| Ring {
         edges_rad: Some(edges_rad),
@@ -237,7 +274,7 @@ mod tests {
         for quality in [Quality::Fast, Quality::Standard, Quality::Spectral] {
             let rings_of = |stretch| {
                 let (camera, bubble) = seen(stretch);
-                rings(&camera, &bubble, quality, &FilmMaterial::default())
+                rings(&camera, &bubble, quality, &FilmMaterial::default(), 3.0)
             };
             let stretched = rings_of(DMat3::from_diagonal(DVec3::new(1.01, 1.0, 1.0)));
             assert!(stretched.iter().all(|ring| !ring.in_line && ring.environment_taps == 1));
@@ -255,13 +292,30 @@ mod tests {
 
     #[test]
     fn denser_films_are_followed_for_longer_at_more_angles() {
-        let care = |quality, index| Care::of(quality, &FilmMaterial::from(FilmIndex::Constant(index)));
+        let care = |quality, index| Care::of(quality, &FilmMaterial::from(FilmIndex::Constant(index)), 3.0);
         for quality in [Quality::Fast, Quality::Standard, Quality::Spectral] {
-            let water = Care::of(quality, &FilmMaterial::default());
+            let water = Care::of(quality, &FilmMaterial::default(), 3.0);
             assert_eq!(water.deep_cos, Care::of_water(quality).deep_cos);
             let deep_cos = [1.0, 1.333, 1.6, 1.9, 2.4, 4.0].map(|index| care(quality, index).deep_cos);
             assert!(deep_cos.is_sorted(), "{deep_cos:?}");
             assert!(care(quality, 4.0).deep_reflections > water.deep_reflections);
+        }
+    }
+
+    #[test]
+    fn hard_light_takes_more_of_everything_at_the_limb_the_smaller_the_bubble_the_farther_inside() {
+        let (camera, bubble) = seen(DMat3::IDENTITY);
+        let limb = |quality, contrast| {
+            let rings = rings(&camera, &bubble, quality, &FilmMaterial::default(), contrast);
+            rings.last().copied().expect("a limb")
+        };
+        for quality in [Quality::Fast, Quality::Standard, Quality::Spectral] {
+            let [soft, hard] = [3.0, 3000.0].map(|contrast| limb(quality, contrast));
+            let begin = |ring: Ring| ring.edges_rad.expect("a ring")[0];
+            assert!(hard.samples >= soft.samples && hard.inner_reflections >= soft.inner_reflections);
+            assert!(begin(hard) < begin(soft), "{quality:?}");
+            let care = Care::in_hard_light(quality);
+            assert!(care.limb_pixels(50.0) > care.limb_pixels(100.0) && care.limb_pixels(2000.0) == LIMB_PIXELS);
         }
     }
 }

@@ -6,6 +6,7 @@ mod crowd;
 mod extremes;
 mod flow;
 mod free_film;
+mod hard_light;
 pub mod interaction;
 mod optics;
 mod phenomena;
@@ -119,7 +120,7 @@ impl Part {
     fn effort(self) -> (u64, u64) {
         match self {
             Self::Optics => (85, 130),
-            Self::Picture => (14, 310),
+            Self::Picture => (44, 400),
             Self::Crowd => (32, 200),
             Self::Transport => (45, 60),
             Self::Flow => (35, 160),
@@ -158,7 +159,9 @@ impl Run<'_> {
         let started = Instant::now();
         match part {
             Part::Optics => optics::run(self),
-            Part::Picture => antialiasing::run(self).and_then(|()| picture::run(self)),
+            Part::Picture => {
+                antialiasing::run(self).and_then(|()| picture::run(self)).and_then(|()| hard_light::run(self))
+            }
             Part::Crowd => crowd::run(self),
             Part::Transport => transport::run(self),
             Part::Flow => flow::run(self),

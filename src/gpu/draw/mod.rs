@@ -232,7 +232,7 @@ impl DrawPass {
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
             let first_other = shared.others.first[place];
-            for ring in bubble_rings(key, bubble, colours.films) {
+            for ring in bubble_rings(key, lighting, bubble) {
                 let vertices = if ring.edges_rad.is_some() { 2 * (SIDES + 1) } else { 3 };
                 let drawn = Drawn { bubble, placed, first_other, ring: &ring, colours: &colours, film: &film, hole };
                 pass.layers[placed.layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
@@ -349,9 +349,10 @@ pub fn pixels_shaded(key: &DrawKey) -> u64 {
     key.size.map(u64::from).iter().product::<u64>() + bubbles
 }
 
-fn bubble_rings(key: &DrawKey, bubble: &BubbleKey, FilmColours { quadrature, .. }: &FilmColours) -> Vec<Ring> {
-    match key.yardstick {
-        true => vec![disc(&key.camera, bubble)],
-        false => rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film),
+fn bubble_rings(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey) -> Vec<Ring> {
+    if key.yardstick {
+        return vec![disc(&key.camera, bubble)];
     }
+    let quadrature = &lighting.films[bubble.material].quadrature;
+    rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film, lighting.environment.0.contrast())
 }

@@ -9,7 +9,7 @@ use crate::{
         device::{Gpu, GpuError},
         kernel::{Rgba32Float, Rgba32Uint, Uniform, Written2dArray, WrittenFormat, kernels, overrides, shader_struct},
         passes::pair_rows::{PairRows, PairUniform},
-        quadrature::{MAX_SPECTRUM, QuadratureSample, spectrum_samples},
+        quadrature::{MAX_SPECTRUM, QuadratureSample, coarse_spectrum_samples, spectrum_samples},
         timing::Recorder,
         uniform_buffer::UniformBuffer,
     },
@@ -118,7 +118,9 @@ impl Table {
     #[must_use]
     pub fn new(gpu: &Gpu, key: &TableKey) -> Self {
         let axes = gpu.uniform("table axes", &TableAxes::of(key));
-        let samples = spectrum_samples(&key.optics);
+        let fine = spectrum_samples(&key.optics);
+        let fades = fades(&fine, key.max_thickness_nm);
+        let samples = if fades { fine } else { coarse_spectrum_samples(&key.optics) };
         let mut spectra = [QuadratureSample::zeroed(); MAX_SPECTRUM];
         // No light has more: see `MAX_SPECTRUM`.
         spectra[..samples.len()].copy_from_slice(&samples);
@@ -128,7 +130,7 @@ impl Table {
             baked: layers(gpu, "baked film table", key, Rgba32Float::FORMAT),
             spectra: gpu.uniform("spectra", &spectra),
             wavelengths: samples.len() as u32,
-            fades: fades(&samples, key.max_thickness_nm),
+            fades,
         }
     }
 

@@ -116,7 +116,7 @@ overrides! {
         /// Whether the film is looked up through its flow map.
         override MAGNIFIED: bool;
         /// Samples along each side of a pixel, or in all where they stand in a line.
-        override SAMPLES: u32 in [1, 4];
+        override SAMPLES: u32 in [1, 4, 8];
         /// Whether the samples stand in a line.
         override IN_LINE: bool;
         /// Lookups of the surroundings in a reflection, at most.

@@ -44,6 +44,7 @@ pub struct CubeMap {
     lamps: Vec<Lamp>,
     id: u64,
     neutral: bool,
+    contrast: f64,
     repairs: Repairs,
 }
 
@@ -60,8 +61,8 @@ impl CubeMap {
             repairs = repairs + fill_face(&mut texels, face, size, supersampling, &radiance);
             store_mips(&mut mips, face, texels);
         }
-        let (id, neutral) = (content_id(&mips[0]), mips[0].is_neutral());
-        Self { mips, lamps: Vec::new(), id, neutral, repairs }
+        let (id, neutral, contrast) = (content_id(&mips[0]), mips[0].is_neutral(), contrast(&mips));
+        Self { mips, lamps: Vec::new(), id, neutral, contrast, repairs }
     }
 
     /// The same radiance from every direction.
@@ -115,6 +116,12 @@ impl CubeMap {
     /// Whether all of it is grey, but for the rounding of half floats.
     pub fn is_neutral(&self) -> bool {
         self.neutral
+    }
+
+    /// How many times as bright as the rest its bright parts are: the radiance that a two hundredth of its texels exceeds over their geometric
+    /// mean, without the lamps. An overcast sky has 3, lamps in a dark room have hundreds or thousands.
+    pub fn contrast(&self) -> f64 {
+        self.contrast
     }
 
     /// What had to be repaired: pixels of the panorama, or texels where the map was made from a formula.
@@ -184,6 +191,24 @@ impl CubeLevel {
         };
         self.faces.iter().flatten().all(grey)
     }
+}
+
+/// See [`CubeMap::contrast`].
+fn contrast(mips: &[CubeLevel]) -> f64 {
+    // Parts a degree wide.
+    const SIZE: usize = 64;
+    // Black counts as this part of what is bright: it would have no logarithm.
+    const DARKEST: f64 = 1e-5;
+    let Some(level) = mips.iter().find(|level| level.size <= SIZE) else { return 1.0 };
+    let texels = (0..6).flat_map(|layer| (0..level.size * level.size).map(move |k| (layer, k)));
+    let mut radiances: Vec<f64> = texels.map(|(layer, k)| level.radiance(layer, k).max_element()).collect();
+    radiances.sort_by(f64::total_cmp);
+    let bright = radiances[(radiances.len() - 1) * 995 / 1000];
+    if bright == 0.0 {
+        return 1.0;
+    }
+    let logarithms: f64 = radiances.iter().map(|radiance| (radiance / bright).max(DARKEST).ln()).sum();
+    (-logarithms / radiances.len() as f64).exp()
 }
 
 /// Texels for a panorama: at a face's center a texel of size s spans 2/s radians, a pixel of width w spans 2π/w.

@@ -135,3 +135,19 @@ fn panoramas_get_matching_sizes() {
         assert_eq!(size_for_panorama(width), size, "width {width}");
     }
 }
+
+#[test]
+fn contrast_tells_lamps_in_the_dark_from_cloth() {
+    use super::super::Procedural;
+
+    assert_eq!(CubeMap::constant(DVec3::ONE).contrast(), 1.0);
+    assert_eq!(CubeMap::constant(DVec3::ZERO).contrast(), 1.0);
+    let contrast = |environment: Procedural| environment.map().contrast();
+    assert!(contrast(Procedural::Tent) < 10.0);
+    for environment in [Procedural::Windows, Procedural::Park, Procedural::Studio] {
+        assert!((100.0..300.0).contains(&contrast(environment)), "{environment:?}: {}", contrast(environment));
+    }
+    // Half of a sphere is a hundred times as bright as the rest: ten times as bright as the geometric mean.
+    let map = CubeMap::from_fn(128, 1, |direction| DVec3::splat(if direction.z > 0.0 { 100.0 } else { 1.0 }));
+    assert!((map.contrast() - 10.0).abs() < 0.1, "{}", map.contrast());
+}
