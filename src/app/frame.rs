@@ -132,7 +132,9 @@ impl View {
         let moves = self.draw_picture(model, first_tick, &mut due);
         self.read_back(model, files, &mut due);
         self.stage.painter.update_textures(&self.stage.gpu, &mut output.full.textures_delta);
-        let painted = self.paint(&mut output, size, moves);
+        // The panels of the first redraw do not have their sizes yet.
+        let painted =
+            if self.pictures.is_first_redraw() { Painted::Done } else { self.paint(&mut output, size, moves) };
         self.schedule(model, painted, moves, &mut due);
         due.at
     }

@@ -24,8 +24,9 @@ const PANELS_FIRST: u32 = 2;
 const PATIENCE: Duration = Duration::from_millis(50);
 /// Time after which people are told that a picture is being drawn.
 const SILENCE: Duration = Duration::from_millis(250);
-/// Time between two redraws of panels on which something moves while a picture is drawn: a software rasteriser draws both.
-const MEANWHILE: Duration = Duration::from_millis(200);
+/// Time between two redraws of panels on which something moves while a picture is drawn: a software rasteriser draws both, and takes a fifth as long
+/// for the panels as for the picture.
+const MEANWHILE: Duration = Duration::from_millis(400);
 /// Time that a picture rests after it failed: nothing is gained by failing at every frame.
 const REST: Duration = Duration::from_secs(1);
 
@@ -99,6 +100,11 @@ impl Pictures {
             forgotten: false,
             rests_until: None,
         }
+    }
+
+    /// Whether the window has been redrawn once so far.
+    pub fn is_first_redraw(&self) -> bool {
+        self.redraws == 1
     }
 
     /// Draws the next picture anew, because its shaders are others.

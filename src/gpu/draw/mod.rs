@@ -354,5 +354,7 @@ fn bubble_rings(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey) -> Vec<R
         return vec![disc(&key.camera, bubble)];
     }
     let quadrature = &lighting.films[bubble.material].quadrature;
-    rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film, lighting.environment.0.contrast())
+    // Of the scene's own light: beside it, lights of other illuminants are dark everywhere but in their places.
+    let contrast = key.lighting.environment.0.contrast();
+    rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film, contrast)
 }
