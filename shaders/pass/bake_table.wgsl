@@ -1,4 +1,4 @@
-// Bakes the lookup table of what single walls reflect: for each texel the spectral sum over all wavelengths of the light, divided by the
+// Bakes the lookup table of what single walls reflect: for each texel the sum over the light's spectrum, divided by the
 // greatest reflectance at its angle so that interpolation and rounding spend their precision where the eye does. Layers: what is seen of
 // white light, or of each primary; of s and p light together, or first of s and then of p.
 
@@ -18,7 +18,7 @@ struct Bake {
     first_row: u32,
     // Phase, in radians, by which fringes may move from one sample of the spectrum to the next without losing contrast.
     resolved_step: f32,
-    // Number of samples in use, one for each wavelength of the light; the rest are zero.
+    // Number of samples in use; the rest are zero.
     wavelengths: u32,
 }
 

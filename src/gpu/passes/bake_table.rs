@@ -1,4 +1,4 @@
-//! Bakes the lookup table (√cosθ × path in the film → what is seen of light that one wall reflects) from all wavelengths.
+//! Bakes the lookup table (√cosθ × path in the film → what is seen of light that one wall reflects) from the light's spectrum.
 
 use std::f64::consts::TAU;
 
@@ -96,7 +96,7 @@ pub struct Table {
     pub view: wgpu::TextureView,
     /// What is baked: a row to a texel, before rows are paired.
     baked: wgpu::TextureView,
-    /// A sample for each wavelength of the light, then zeros. A uniform, because all lanes read the same sample at once: llvmpipe reads a storage
+    /// Samples of the light's spectrum, then zeros. A uniform, because all lanes read the same sample at once: llvmpipe reads a storage
     /// buffer separately for each lane, which made the bake eight times as slow.
     spectra: UniformBuffer<[QuadratureSample; MAX_SPECTRUM]>,
     wavelengths: u32,
