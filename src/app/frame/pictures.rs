@@ -24,6 +24,8 @@ const PANELS_FIRST: u32 = 2;
 const PATIENCE: Duration = Duration::from_millis(50);
 /// Time after which people are told that a picture is being drawn.
 const SILENCE: Duration = Duration::from_millis(250);
+/// That time while a film runs: a sign that came and went with each picture of it would flicker.
+const SILENCE_IN_MOTION: Duration = Duration::from_secs(1);
 /// Time between two redraws of panels on which something moves while a picture is drawn: a software rasteriser draws both, and takes a fifth as long
 /// for the panels as for the picture.
 const MEANWHILE: Duration = Duration::from_millis(400);
@@ -212,7 +214,9 @@ impl View {
             // Time stands until its picture is there.
             _ => model.clock.hold(0, first_tick),
         }
-        let told = self.pictures.begun.as_ref().map(|begun| begun.since + SILENCE);
+        let runs = model.clock.running && model.has_picture;
+        let silence = if runs { SILENCE_IN_MOTION } else { SILENCE };
+        let told = self.pictures.begun.as_ref().map(|begun| begun.since + silence);
         let is_told = told.is_none_or(|told| due.now >= told);
         if is_told && !std::mem::replace(&mut model.drawing, true) {
             due.after(Duration::ZERO);

@@ -9,6 +9,9 @@ use crate::app::{
 };
 
 const PROBLEM: Color32 = Color32::from_rgb(214, 118, 96);
+/// Seconds of work after which a sign moves beside its name. Sooner there is nothing to wonder about, and a software rasteriser that draws a moving
+/// sign has less time for the work.
+const PATIENCE_S: f64 = 1.0;
 
 /// Shows messages and work in progress.
 pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
@@ -19,6 +22,7 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
     }
     let busy = model.loading.as_ref().map(|what| format!("Loading {what}"));
     let busy = busy.or(model.drawing.then(|| "Drawing the picture".to_owned()));
+    let busy_s = seconds_of(ctx, busy.is_some(), now_s);
     if messages.is_empty() && busy.is_none() {
         return;
     }
@@ -34,8 +38,12 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
         if let Some(busy) = busy {
             Frame::popup(ui.style()).show(ui, |ui| {
                 ui.horizontal(|ui| {
-                    ui.spinner();
                     ui.label(busy);
+                    if busy_s >= PATIENCE_S {
+                        ui.spinner();
+                    } else {
+                        ctx.request_repaint_after_secs((PATIENCE_S - busy_s) as f32);
+                    }
                 });
             });
         }
@@ -43,6 +51,19 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
     if let Some(index) = dismissed {
         model.messages.dismiss(index);
     }
+}
+
+/// For how many seconds something has been so.
+fn seconds_of(ctx: &Context, is_so: bool, now_s: f64) -> f64 {
+    let id = Id::unique("busy since");
+    ctx.data_mut(|data| {
+        if is_so {
+            now_s - *data.get_temp_mut_or(id, now_s)
+        } else {
+            data.remove::<f64>(id);
+            0.0
+        }
+    })
 }
 
 /// One message; returns whether it was dismissed.

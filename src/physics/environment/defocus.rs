@@ -163,6 +163,7 @@ impl Sums {
         let (top, bottom) = (top.clamp(0.0, last), bottom.clamp(0.0, last));
         // The interval of a row, (s, t, 1) · axis = cos |(s, t, 1)|, solved for s.
         let square = cos * cos - axis.x * axis.x;
+        let per_square = self.per_unit / square;
         let mut sum = DVec4::ZERO;
         for row in top as usize..(bottom.ceil() as usize).min(self.width) {
             let (start, end) = (top.max(row as f64), bottom.min((row + 1) as f64));
@@ -170,13 +171,14 @@ impl Sums {
             let across = t * axis.y + axis.z;
             let half = axis.x * across;
             let root = (half * half - square * (cos * cos * (t * t + 1.0) - across * across)).max(0.0).sqrt();
-            let [left, right] = [half - root, half + root].map(|s| s / square * self.per_unit + self.middle);
+            let [left, right] = [half - root, half + root].map(|s| s * per_square + self.middle);
             sum += (end - start) * (self.until(row, right) - self.until(row, left));
         }
         sum
     }
 
     /// The sum of a row from its start to a place, in texels.
+    #[inline]
     fn until(&self, row: usize, place: f64) -> DVec4 {
         let place = place.clamp(0.0, self.width as f64);
         let texel = (place as usize).min(self.width - 1);

@@ -66,7 +66,8 @@ struct Values {
 impl Values {
     fn new(sphere: CubedSphere, cap: Option<Cap>, value: &(impl Fn(DVec3) -> f64 + Sync)) -> Self {
         let folded = |x| cap.map_or(x, |cap| cap.folded(x));
-        let values = parallel::map(sphere.padded_len(), |index| value(folded(sphere.padded_direction(index))));
+        let direction = sphere.padded_directions();
+        let values = parallel::map(sphere.padded_len(), |index| value(folded(direction(index))));
         let areas = cap.map_or_else(|| sphere.areas(), |cap| cap.areas(sphere));
         let film_area = if cap.is_some() { areas.iter().sum() } else { 4.0 * std::f64::consts::PI };
         let place = |cell: usize| {

@@ -147,6 +147,17 @@ impl CubedSphere {
         self.direction(PanelPoint { panel: row / width, x, y })
     }
 
+    /// [`Self::padded_direction`] as a function, with what many directions share computed once.
+    pub fn padded_directions(self) -> impl Fn(usize) -> DVec3 + Sync {
+        let width = self.padded_width();
+        let tangents: Vec<f64> = (0..width).map(|k| self.tangent(k as f64 - HALO as f64)).collect();
+        move |index| {
+            let row = index / width;
+            let [f, r, u] = PANELS[row / width];
+            (f + tangents[index % width] * r + tangents[row % width] * u).normalize()
+        }
+    }
+
     /// Tangent of the angle from the panel's middle at a fractional cell coordinate.
     fn tangent(self, coordinate: f64) -> f64 {
         ((coordinate + 0.5) * self.cell_angle() - FRAC_PI_4).tan()
@@ -245,5 +256,12 @@ mod tests {
             prop_assert_eq!(found.panel, panel);
             prop_assert!((found.x - i as f64).abs() < 1e-10 && (found.y - j as f64).abs() < 1e-10);
         }
+    }
+
+    #[test]
+    fn directions_by_shared_tangents_have_the_same_bits() {
+        let grid = CubedSphere::new(9).unwrap();
+        let direction = grid.padded_directions();
+        assert!((0..grid.padded_len()).all(|index| direction(index) == grid.padded_direction(index)));
     }
 }
