@@ -51,18 +51,6 @@ impl From<&QuadratureWavelength> for QuadratureSample {
 /// The length of `array<QuadratureSample, ...>` in the table's bake.
 pub(super) const MAX_SPECTRUM: usize = 512;
 
-/// All wavelengths of a light: one for each nanometre, or a built-in light's few lines.
-pub(super) fn spectrum_samples(key: &OpticsKey) -> Vec<QuadratureSample> {
-    let Spectrum { continuous, lines } = Spectrum::of(key);
-    samples(&continuous, 1.0).chain(samples(&lines, 0.0)).collect()
-}
-
-/// The same light by half as many samples, for films whose fringes they resolve.
-pub(super) fn coarse_spectrum_samples(key: &OpticsKey) -> Vec<QuadratureSample> {
-    let Spectrum { continuous, lines } = Spectrum::of(key);
-    samples(&every_other(&continuous, &key.film.index), COARSE_STEP_NM as f32).chain(samples(&lines, 0.0)).collect()
-}
-
 /// Distance of the samples of [`every_other`], in nm.
 const COARSE_STEP_NM: f64 = 2.0;
 
@@ -86,15 +74,17 @@ fn every_other(continuous: &[QuadratureWavelength], index: &FilmIndex) -> Vec<Qu
     responses.into_iter().enumerate().map(wavelength).filter(|sample| sample.response != DMat3::ZERO).collect()
 }
 
-/// A light's wavelengths.
-struct Spectrum {
+/// All wavelengths of a light.
+pub(super) struct Spectrum<'a> {
     /// One for each nanometre with power.
     continuous: Vec<QuadratureWavelength>,
     lines: Vec<QuadratureWavelength>,
+    film: &'a FilmIndex,
 }
 
-impl Spectrum {
-    fn of(key: &OpticsKey) -> Self {
+impl<'a> Spectrum<'a> {
+    /// The wavelengths of a film's light.
+    pub fn of(key: &'a OpticsKey) -> Self {
         let optics = key.spectra();
         let wavelengths =
             responses(optics.weights()).into_iter().enumerate().map(|(k, response)| QuadratureWavelength {
@@ -106,7 +96,18 @@ impl Spectrum {
         // The lines come last.
         let lines = key.illuminant.lines().iter().filter(|line| line.power > 0.0).count();
         let lines = continuous.split_off(continuous.len() - lines);
-        Self { continuous, lines }
+        Self { continuous, lines, film: &key.film.index }
+    }
+
+    /// A sample for each nanometre, and for each line.
+    pub fn samples(&self) -> Vec<QuadratureSample> {
+        samples(&self.continuous, 1.0).chain(samples(&self.lines, 0.0)).collect()
+    }
+
+    /// The same light by half as many samples, for films whose fringes they resolve.
+    pub fn coarse_samples(&self) -> Vec<QuadratureSample> {
+        let coarse = every_other(&self.continuous, self.film);
+        samples(&coarse, COARSE_STEP_NM as f32).chain(samples(&self.lines, 0.0)).collect()
     }
 }
 
@@ -214,7 +215,7 @@ mod tests {
     fn every_light_has_room() {
         for light in BUILT_IN {
             let illuminant = Arc::new(Illuminant::from(light));
-            let samples = spectrum_samples(&OpticsKey { illuminant, film: FilmIndex::Water.into() });
+            let samples = Spectrum::of(&OpticsKey { illuminant, film: FilmIndex::Water.into() }).samples();
             assert!((1..=MAX_SPECTRUM).contains(&samples.len()), "{}: {}", light.name, samples.len());
         }
     }

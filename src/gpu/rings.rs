@@ -47,7 +47,7 @@ struct Care {
     limb_reflections: u32,
     /// Samples of a pixel there.
     limb_samples: LimbSamples,
-    /// The limb's ring, of [`LIMB_PIXELS`] at least, begins where a reflection turns by this angle from pixel to pixel, in radians.
+    /// The ring begins where a reflection turns by this angle from pixel to pixel, in radians; if that is infinite, [`LIMB_PIXELS`] from the limb.
     limb_turn_rad: f64,
 }
 
@@ -97,7 +97,7 @@ impl Care {
             deep_reflections: deep,
             limb_reflections: limb,
             limb_samples,
-            limb_turn_rad: std::f64::consts::PI,
+            limb_turn_rad: f64::INFINITY,
         }
     }
 

@@ -72,7 +72,7 @@ impl Check {
 pub enum Part {
     /// Colours of films, against the spectral sum in f64.
     Optics,
-    /// Whole pictures in coloured light, against the f64 picture; pictures of one sample per pixel, against those of many.
+    /// Whole pictures in coloured light and in hard light, against the f64 picture; pictures of one sample per pixel, against those of many.
     Picture,
     /// Bubbles seen through and in one another, against the f64 picture.
     Crowd,

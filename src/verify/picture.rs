@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::{Extent, Run, random::Random, reference};
 use crate::{
@@ -170,10 +170,6 @@ pub(super) fn colour_differences(truth: &[DVec3], seen: &[DVec3]) -> Vec<f64> {
 
 /// Whether a pixel's middle shows a bubble.
 fn is_covered(key: &DrawKey, pixel: usize) -> bool {
-    let [column, row] = [pixel % SIZE[0] as usize, pixel / SIZE[0] as usize].map(|k| k as f64 + 0.5);
-    let ray = reference::camera(&key.camera).ray(SIZE, DVec2::new(column, row));
-    key.bubbles.iter().any(|bubble| {
-        let offset = bubble.center_m - key.camera.eye_m;
-        offset.reject_from_normalized(ray).length() < bubble.radius_m
-    })
+    let place = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]];
+    key.bubbles.iter().any(|bubble| reference::distance_from_middle(key, bubble, place) < 1.0)
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 #[cfg(not(target_arch = "wasm32"))]
 use crate::{
@@ -186,6 +186,13 @@ pub fn camera(key: &CameraKey) -> PictureCamera {
         up: key.up,
         pixel_height_m: key.pixel_height_m,
     }
+}
+
+/// Distance of what a pixel's middle shows from a bubble's center, across the line of sight and over the radius: 1 on a round bubble's outline.
+#[must_use]
+pub fn distance_from_middle(key: &DrawKey, bubble: &BubbleKey, pixel: [u32; 2]) -> f64 {
+    let ray = camera(&key.camera).ray(key.size, DVec2::from_array(pixel.map(|k| f64::from(k) + 0.5)));
+    (bubble.center_m - key.camera.eye_m).reject_from_normalized(ray).length() / bubble.radius_m
 }
 
 /// A world direction in the frame of the environment, which is turned about the vertical.

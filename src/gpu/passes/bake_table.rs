@@ -9,7 +9,7 @@ use crate::{
         device::{Gpu, GpuError},
         kernel::{Rgba32Float, Rgba32Uint, Uniform, Written2dArray, WrittenFormat, kernels, overrides, shader_struct},
         passes::pair_rows::{PairRows, PairUniform},
-        quadrature::{MAX_SPECTRUM, QuadratureSample, coarse_spectrum_samples, spectrum_samples},
+        quadrature::{MAX_SPECTRUM, QuadratureSample, Spectrum},
         timing::Recorder,
         uniform_buffer::UniformBuffer,
     },
@@ -118,9 +118,10 @@ impl Table {
     #[must_use]
     pub fn new(gpu: &Gpu, key: &TableKey) -> Self {
         let axes = gpu.uniform("table axes", &TableAxes::of(key));
-        let fine = spectrum_samples(&key.optics);
+        let spectrum = Spectrum::of(&key.optics);
+        let fine = spectrum.samples();
         let fades = fades(&fine, key.max_thickness_nm);
-        let samples = if fades { fine } else { coarse_spectrum_samples(&key.optics) };
+        let samples = if fades { fine } else { spectrum.coarse_samples() };
         let mut spectra = [QuadratureSample::zeroed(); MAX_SPECTRUM];
         // No light has more: see `MAX_SPECTRUM`.
         spectra[..samples.len()].copy_from_slice(&samples);

@@ -37,7 +37,8 @@ impl<T: FieldValue> PaddedField<T> {
     /// The field that samples a function of direction at the cell centers, halo included: they are places on the sphere like
     /// any other.
     pub fn sample(grid: CubedSphere, value: impl Fn(DVec3) -> T + Sync) -> Self {
-        Self { grid, values: parallel::map(grid.padded_len(), |index| value(grid.padded_direction(index))) }
+        let direction = grid.padded_directions();
+        Self { grid, values: parallel::map(grid.padded_len(), |index| value(direction(index))) }
     }
 
     /// The field that samples a function of direction at the cells alone, with its halo interpolated from them: what fields are like that only
