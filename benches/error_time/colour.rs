@@ -14,7 +14,7 @@ use soapfilm::{
         colour::{BT2020, Gamut, Illuminant, QuadratureTask, Walls, m2_delta_e, seen_light},
         optics::FilmMaterial,
     },
-    plan::{Moment, OpticsKey, Pace, QuadratureKey, Shot, TableKey, request},
+    plan::{Moment, OpticsKey, Pace, QuadratureKey, Rendering, Shot, TableKey, request},
     scene::Quality,
 };
 
@@ -181,11 +181,11 @@ fn frame_over_mirror(renderer: &mut Renderer, quality: Quality, frames: usize) -
         moment: Moment::default(),
         full_precision: false,
         gamut: Gamut::Srgb,
-        yardstick: false,
         pace: Pace::Whole,
     };
     let bubble = request(&loaded.scene, &loaded.resources, &shot)?;
-    let mirror = request(&loaded.scene, &loaded.resources, &Shot { yardstick: true, ..shot })?;
+    let mut mirror = bubble.clone();
+    mirror.picture.draw.rendering = Rendering::Yardstick;
     let mut times = [Vec::new(), Vec::new()];
     for round in 0..frames + 2 {
         for (request, times) in [&bubble, &mirror].into_iter().zip(&mut times) {

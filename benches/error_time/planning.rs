@@ -51,14 +51,8 @@ fn scenes(quiet: &Scene) -> [Scene; 3] {
 /// CPU time of a frame from a tick on, µs, and CPU time to reach that tick, ms.
 fn planned(story: &Story, resources: &Resources, from: u64, frames: u64) -> anyhow::Result<[f64; 2]> {
     let frame = |tick, pace, state: &GpuState| {
-        let shot = Shot {
-            size: [1280, 720],
-            moment: Moment::tick(tick),
-            full_precision: false,
-            gamut: Gamut::Srgb,
-            yardstick: false,
-            pace,
-        };
+        let shot =
+            Shot { size: [1280, 720], moment: Moment::tick(tick), full_precision: false, gamut: Gamut::Srgb, pace };
         let request = story.request(resources, &shot).map_err(|fault| GpuError::Refused(fault.to_string()))?;
         Ok(plan(&request, state).after)
     };

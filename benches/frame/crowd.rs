@@ -107,14 +107,7 @@ fn request(loaded: &LoadedScene, size: [u32; 2]) -> FrameRequest {
 }
 
 fn request_of(story: &Story, loaded: &LoadedScene, size: [u32; 2]) -> FrameRequest {
-    let shot = Shot {
-        size,
-        moment: Moment::default(),
-        full_precision: false,
-        gamut: Gamut::Srgb,
-        yardstick: false,
-        pace: Pace::Whole,
-    };
+    let shot = Shot { size, moment: Moment::default(), full_precision: false, gamut: Gamut::Srgb, pace: Pace::Whole };
     story.request(&loaded.resources, &shot).expect("a scene that can be drawn")
 }
 

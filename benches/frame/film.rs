@@ -38,7 +38,7 @@ struct Step {
 fn step(renderer: &mut Renderer, clock: Clock, cells: u32, rounds: usize) -> Step {
     let request = |round: usize| {
         let moment = Moment { tick: TICKS * (round as u64 + 1), fraction: 0.0 };
-        frame_request_of(SIZE, false, moment, |scene| scene.bubbles[0].film.cells = cells)
+        frame_request_of(SIZE, moment, |scene| scene.bubbles[0].film.cells = cells)
     };
     // The first picture pays for tables, pipelines and the seed of the film.
     let still_ms = clock.median_ms(renderer, rounds, |renderer| draw(renderer, &request(0)));

@@ -13,7 +13,7 @@ use soapfilm::{
     gpu::{AdapterChoice, Gpu, Renderer},
     input::load_scene,
     physics::colour::Gamut,
-    plan::{FrameRequest, GpuState, Moment, Pace, Plan, Shot, plan, request},
+    plan::{FrameRequest, GpuState, Moment, Pace, Plan, Rendering, Shot, plan, request},
     scene::Scene,
 };
 
@@ -32,7 +32,9 @@ fn frame(criterion: &mut Criterion) {
     let mut renderer = Renderer::new(gpu);
     let is_smoke = std::env::args().any(|argument| argument == "--test");
     for size in if is_smoke { SMOKE.to_vec() } else { SIZES.to_vec() } {
-        let (bubble, mirror) = (frame_request(size, false), frame_request(size, true));
+        let bubble = frame_request(size);
+        let mut mirror = bubble.clone();
+        mirror.picture.draw.rendering = Rendering::Yardstick;
         draw(&mut renderer, &bubble);
         draw(&mut renderer, &mirror);
         let mut group = criterion.benchmark_group(format!("{}x{}", size[0], size[1]));
@@ -55,15 +57,15 @@ fn frame(criterion: &mut Criterion) {
 }
 
 /// The preset `tent` a few ticks in, so that every pass has something to do, a whole step and the part of one included.
-fn frame_request(size: [u32; 2], yardstick: bool) -> FrameRequest {
-    frame_request_of(size, yardstick, Moment { tick: 2, fraction: 0.5 }, |_| ())
+fn frame_request(size: [u32; 2]) -> FrameRequest {
+    frame_request_of(size, Moment { tick: 2, fraction: 0.5 }, |_| ())
 }
 
 /// The preset `tent` with a change, at a moment.
-fn frame_request_of(size: [u32; 2], yardstick: bool, moment: Moment, change: impl FnOnce(&mut Scene)) -> FrameRequest {
+fn frame_request_of(size: [u32; 2], moment: Moment, change: impl FnOnce(&mut Scene)) -> FrameRequest {
     let mut loaded = load_scene("tent").expect("the preset");
     change(&mut loaded.scene);
-    let shot = Shot { size, moment, full_precision: false, gamut: Gamut::Srgb, yardstick, pace: Pace::Whole };
+    let shot = Shot { size, moment, full_precision: false, gamut: Gamut::Srgb, pace: Pace::Whole };
     request(&loaded.scene, &loaded.resources, &shot).expect("a scene that can be drawn")
 }
 

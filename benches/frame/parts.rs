@@ -125,14 +125,14 @@ fn frames(size: [u32; 2]) -> Vec<(String, FrameRequest)> {
             scene.bubbles.clear();
             scene.view.backdrop = backdrop;
         };
-        frame_request_of(size, false, Moment::default(), change)
+        frame_request_of(size, Moment::default(), change)
     };
     let mut frames = vec![
         ("one colour, no bubble".to_owned(), empty(Backdrop::Radiance([0.2; 3]))),
         ("the environment, no bubble".to_owned(), empty(Backdrop::Environment)),
         (
             "a mirror sphere".to_owned(),
-            frame_request_of(size, true, Moment::default(), |scene| scene.camera.distance_m = DISTANCE_M),
+            frame_request_of(size, Moment::default(), |scene| scene.camera.distance_m = DISTANCE_M),
         ),
     ];
     frames.extend(Quality::ALL.map(|quality| (format!("a bubble, {}", quality.name()), bubble(size, quality))));
@@ -140,7 +140,7 @@ fn frames(size: [u32; 2]) -> Vec<(String, FrameRequest)> {
 }
 
 fn bubble(size: [u32; 2], quality: Quality) -> FrameRequest {
-    frame_request_of(size, false, Moment::default(), |scene| {
+    frame_request_of(size, Moment::default(), |scene| {
         scene.camera.distance_m = DISTANCE_M;
         scene.view.quality = quality;
     })

@@ -58,7 +58,7 @@ pub fn request_in(model: &Model, size: [u32; 2], quality: Quality) -> Result<Fra
 
 fn shot(model: &Model, size: [u32; 2], full_precision: bool) -> Shot {
     let moment = model.clock.moment(&model.scene.motion);
-    Shot { size, moment, full_precision, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole }
+    Shot { size, moment, full_precision, gamut: Gamut::Srgb, pace: Pace::Whole }
 }
 
 /// What a picture of the model says of itself.

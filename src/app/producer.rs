@@ -77,7 +77,6 @@ mod tests {
             moment: Moment { tick: 0, fraction: 0.0 },
             full_precision: false,
             gamut: Gamut::Srgb,
-            yardstick: false,
             pace: Pace::Frame,
         };
         let plan = plan(&model.scene.request(&model.resources, &shot).unwrap(), &GpuState::default());

@@ -101,8 +101,7 @@ mod tests {
         let mut scene = load_scene("furnace").unwrap();
         scene.scene.lens = Lens { glare: 0.2, vignetting_ev: 1.0, grain: 0.1, ..Lens::default() };
         let (size, moment) = ([40, 30], Moment::default());
-        let shot =
-            Shot { size, moment, full_precision: false, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
+        let shot = Shot { size, moment, full_precision: false, gamut: Gamut::Srgb, pace: Pace::Whole };
         let key = scene.request(&shot).unwrap().picture;
         let (mut last, mut parts) = (Vec::new(), Vec::new());
         let tell = |progress: Progress| {

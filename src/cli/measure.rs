@@ -11,7 +11,7 @@ use crate::{
         timing::{Counts, PassTime},
     },
     output::{tell, write_text},
-    plan::FrameRequest,
+    plan::{FrameRequest, Rendering},
 };
 
 /// What the first frame did, bakes included.
@@ -47,7 +47,7 @@ const WARM_UP: u32 = 3;
 /// that both see the same machine.
 pub fn frames(renderer: &mut Renderer, request: &FrameRequest, repeats: u32, yardstick: bool) -> anyhow::Result<Cost> {
     let mut plain = request.clone();
-    plain.picture.draw.yardstick = true;
+    plain.picture.draw.rendering = Rendering::Yardstick;
     let (mut cpu, mut wall, mut yard) = (Vec::new(), Vec::new(), Vec::new());
     for round in 0..if repeats > 0 { repeats + WARM_UP } else { 0 } {
         let (cpu_ms, wall_ms) = frame(renderer, request)?;

@@ -329,7 +329,6 @@ mod tests {
             moment: Moment::default(),
             full_precision: false,
             gamut: Gamut::Srgb,
-            yardstick: false,
             pace: Pace::Whole,
         };
         let key = request(&scene, &resources, &shot).unwrap().picture.draw;

@@ -223,6 +223,15 @@ fn environment_taps(bubble: &BubbleKey) -> u32 {
     if is_sampled_in_line(bubble) { ENVIRONMENT_TAPS } else { 1 }
 }
 
+/// The ring of the middle, widened until it nearly meets the outline: for a preview.
+#[must_use]
+pub fn middle_everywhere(camera: &CameraKey, bubble: &BubbleKey, middle: Ring) -> Ring {
+    // The polygon that the ring is drawn as reaches beyond its edge, and rays there must still meet the bubble.
+    let edge_rad = |limb_rad: f64| limb_rad - pixel_rad(camera, bubble);
+    let edges_rad = limb_rad(camera, bubble).map(edge_rad).filter(|edge| *edge > 0.0).map(|edge| [0.0, edge]);
+    Ring { edges_rad: edges_rad.or(middle.edges_rad), ..middle }
+}
+
 /// The one ring that covers all of a bubble: for the yardstick.
 #[must_use]
 pub fn disc(camera: &CameraKey, bubble: &BubbleKey) -> Ring {

@@ -29,8 +29,8 @@ use fields::StepBudget;
 pub use keys::{
     BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary,
     FilmColours, FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey,
-    Opening, OpticsKey, PlateKey, QuadratureKey, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev, range_nm,
-    remaining_nm,
+    Opening, OpticsKey, PlateKey, QuadratureKey, Rendering, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev,
+    range_nm, remaining_nm,
 };
 pub use lender::film_owners;
 pub use pass::{Pass, Reason};

@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LensSample,
-    LentFilm, LightKey, Lighting, Moment, OpticsKey, PlateKey, QuadratureKey, Shot, Story, TableKey, TonemapKey,
+    LentFilm, LightKey, Lighting, Moment, OpticsKey, PlateKey, QuadratureKey, Rendering, Shot, Story, TableKey,
+    TonemapKey,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
@@ -145,7 +146,7 @@ impl Story {
             size: shot.size,
             full_precision: shot.full_precision,
             exposed_ev: if shot.full_precision { 0 } else { exposed_ev(scene.view.exposure_ev) },
-            yardstick: shot.yardstick,
+            rendering: Rendering::Full,
             camera,
             lighting: lighting(&own, light),
             spectral_lights: resources

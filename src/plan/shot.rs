@@ -47,8 +47,6 @@ pub struct Shot {
     pub full_precision: bool,
     /// Colours that the display, or the file, has.
     pub gamut: Gamut,
-    /// Whether films are replaced by the yardstick of the frame's cost.
-    pub yardstick: bool,
     /// How much work may be done at once.
     pub pace: Pace,
 }

@@ -148,7 +148,7 @@ impl Studio {
 
 /// What a picture of a scene needs.
 fn shot(loaded: &LoadedScene, size: [u32; 2], moment: Moment, full_precision: bool) -> Result<FrameRequest, Error> {
-    let shot = Shot { size, moment, full_precision, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
+    let shot = Shot { size, moment, full_precision, gamut: Gamut::Srgb, pace: Pace::Whole };
     Ok(loaded.request(&shot)?)
 }
 

@@ -208,8 +208,7 @@ mod tests {
         let settings: Vec<_> = settings.iter().map(|setting| setting.parse().unwrap()).collect();
         let scene = load_scene_with("bands", &settings).unwrap();
         let moment = Moment { tick: 60, ..Moment::default() };
-        let shot =
-            Shot { size: SIZE, moment, full_precision: false, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
+        let shot = Shot { size: SIZE, moment, full_precision: false, gamut: Gamut::Srgb, pace: Pace::Whole };
         scene.request(&shot).unwrap().picture.draw
     }
 

@@ -97,7 +97,6 @@ fn shot(scene: &Scene, resources: &Resources, size: [u32; 2]) -> Result<FrameReq
         moment: Moment::of_time(TIME_S, scene.motion.tick_s),
         full_precision: true,
         gamut: Gamut::Srgb,
-        yardstick: false,
         pace: Pace::Whole,
     };
     request(scene, resources, &shot).map_err(|error| GpuError::Refused(error.to_string()))

@@ -133,14 +133,7 @@ fn random_scene(seed: usize) -> Result<(Scene, Resources), GpuError> {
 }
 
 pub(super) fn frame_request(scene: &Scene, resources: &Resources, size: [u32; 2]) -> Result<FrameRequest, GpuError> {
-    let shot = Shot {
-        size,
-        moment: Moment::default(),
-        full_precision: true,
-        gamut: Gamut::Srgb,
-        yardstick: false,
-        pace: Pace::Whole,
-    };
+    let shot = Shot { size, moment: Moment::default(), full_precision: true, gamut: Gamut::Srgb, pace: Pace::Whole };
     request(scene, resources, &shot).map_err(|error| GpuError::Refused(error.to_string()))
 }
 

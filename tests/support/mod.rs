@@ -135,7 +135,7 @@ pub fn load(preset: &str) -> LoadedScene {
 /// What a still picture of a scene needs, all at once and in f32.
 pub fn still(loaded: &LoadedScene, size: [u32; 2], time_s: f64) -> FrameRequest {
     let moment = Moment::of_time(time_s, loaded.scene.motion.tick_s);
-    let shot = Shot { size, moment, full_precision: true, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
+    let shot = Shot { size, moment, full_precision: true, gamut: Gamut::Srgb, pace: Pace::Whole };
     request(&loaded.scene, &loaded.resources, &shot).unwrap()
 }
 

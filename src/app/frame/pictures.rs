@@ -15,7 +15,7 @@ use crate::{
     },
     output::Metadata,
     physics::colour::Gamut,
-    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Shot, plan},
+    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Rendering, Shot, plan},
 };
 
 /// Redraws of the panels alone that come before the first picture: they know their sizes from the second one on.
@@ -34,8 +34,8 @@ const REST: Duration = Duration::from_secs(1);
 
 /// What a picture is drawn for.
 pub(super) enum Purpose {
-    /// It is shown.
-    Show,
+    /// It is shown. It is of this one of the scenes that were opened.
+    Show(u64),
     /// It is saved as a file: radiance, or what people see.
     Save {
         /// Whether the file holds radiance.
@@ -68,7 +68,7 @@ pub(super) struct Pictures {
     /// Those that are drawn before the next one that is shown.
     asked: VecDeque<(FrameRequest, Purpose)>,
     /// The one that waits for what the producer computes.
-    waiting: Option<FrameRequest>,
+    waiting: Option<(FrameRequest, Purpose)>,
     begun: Option<Begun>,
     /// Whether the picture that comes next was asked for by an earlier redraw: the model may be another one since.
     is_late: bool,
@@ -134,7 +134,10 @@ impl View {
                 Drawn::Yes(drawn) => {
                     let (Begun { request, purpose, earliest_tick, .. }, finished) = *drawn;
                     match purpose {
-                        Purpose::Show => return self.show(model, request, &finished, [first_tick, earliest_tick], due),
+                        Purpose::Show(scene) => {
+                            model.pictured = Some(scene);
+                            return self.show(model, request, &finished, [first_tick, earliest_tick], due);
+                        }
                         purpose => self.hand_out(&request, purpose, due),
                     }
                 }
@@ -147,7 +150,7 @@ impl View {
                     due.after(Duration::ZERO);
                     model.drawing = false;
                     match purpose {
-                        Purpose::Show => {
+                        Purpose::Show(_) => {
                             model.messages.problem(&text);
                             self.progress = Progress::Failed(text);
                             self.pictures.rests_until = Some(due.now + REST);
@@ -177,18 +180,18 @@ impl View {
                     pictures.waiting = waiting;
                     asked
                 }
-                (None, Some(waiting)) => (waiting, Purpose::Show),
+                (None, Some(waiting)) => waiting,
                 (None, None) => match request(model, self.picture_size) {
-                    Ok(request) => (request, Purpose::Show),
-                    Err(text) => return Drawn::Failed(Purpose::Show, text),
+                    Ok(request) => (request, Purpose::Show(model.opened)),
+                    Err(text) => return Drawn::Failed(Purpose::Show(model.opened), text),
                 },
             };
             if std::mem::take(&mut pictures.forgotten) {
                 renderer.forget_picture();
             }
             let plan = plan(&request, renderer.state());
-            if matches!(purpose, Purpose::Show) && !pictures.producer.prepare(&plan, &mut renderer.prepared) {
-                pictures.waiting = Some(request);
+            if matches!(purpose, Purpose::Show(_)) && !pictures.producer.prepare(&plan, &mut renderer.prepared) {
+                pictures.waiting = Some((request, purpose));
                 return Drawn::Waits;
             }
             let earliest_tick = first_tick.saturating_sub(std::mem::take(&mut pictures.late_ticks));
@@ -214,7 +217,7 @@ impl View {
             // Time stands until its picture is there.
             _ => model.clock.hold(0, first_tick),
         }
-        let runs = model.clock.running && model.has_picture;
+        let runs = model.clock.running && model.pictured.is_some();
         let silence = if runs { SILENCE_IN_MOTION } else { SILENCE };
         let told = self.pictures.begun.as_ref().map(|begun| begun.since + silence);
         let is_told = told.is_none_or(|told| due.now >= told);
@@ -235,9 +238,10 @@ impl View {
         [first_tick, earliest_tick]: [u64; 2],
         due: &mut Due,
     ) -> bool {
-        (model.drawing, model.has_picture) = (false, true);
+        model.drawing = false;
         let is_late = std::mem::take(&mut self.pictures.is_late);
-        if is_late || !plan.complete {
+        let is_done = is_done(&request, plan, model.clock.running);
+        if is_late || !plan.complete || !is_done {
             due.after(Duration::ZERO);
         }
         let Some(renderer) = self.stage.drawing.renderer() else { return false };
@@ -251,8 +255,7 @@ impl View {
         if !plan.is_empty() {
             model.costs.add(*ms, renderer.counts);
         }
-        let is_done = is_done(&request, plan, model.clock.running) && model.behind_ticks == 0;
-        self.progress = if is_done { Progress::Done } else { Progress::Under };
+        self.progress = if is_done && model.behind_ticks == 0 { Progress::Done } else { Progress::Under };
         self.shown = Some(request.picture);
         !plan.is_empty()
     }
@@ -262,7 +265,7 @@ impl View {
         let Some(renderer) = self.stage.drawing.renderer() else { return };
         let size = request.picture.draw.size;
         match purpose {
-            Purpose::Show => {}
+            Purpose::Show(_) => {}
             Purpose::Save { radiance, path, metadata } => {
                 let readback = if radiance { renderer.read_radiance() } else { renderer.read_picture() };
                 self.captures.extend(readback.map(|readback| Capture { readback, size, radiance, path, metadata }));
@@ -286,22 +289,29 @@ impl View {
     }
 }
 
-/// What the picture of the model needs now.
+/// What the picture of the model needs now. A scene that nothing is seen of yet begins with a preview.
 fn request(model: &Model, size: [u32; 2]) -> Result<FrameRequest, String> {
     let shot = Shot {
         size,
         moment: model.clock.moment(&model.scene.motion),
         full_precision: false,
         gamut: Gamut::Srgb,
-        yardstick: false,
         pace: Pace::Frame,
     };
-    model.scene.request_from(&model.scene.camera, &model.resources, &shot).map_err(|error| error.to_string())
+    let mut request =
+        model.scene.request_from(&model.scene.camera, &model.resources, &shot).map_err(|error| error.to_string())?;
+    if !model.is_pictured() {
+        request.picture = request.picture.preview().unwrap_or(request.picture);
+    }
+    Ok(request)
 }
 
-/// Whether a picture is the requested one after a plan. Films that cannot keep up with a running clock make it no other picture: it stands still
-/// until they have come.
+/// Whether a picture is the requested one after a plan, and no preview of it. Films that cannot keep up with a running clock make it no other
+/// picture: it stands still until they have come.
 fn is_done(request: &FrameRequest, plan: &Plan, runs: bool) -> bool {
+    if request.picture.draw.rendering == Rendering::Preview {
+        return false;
+    }
     let made = plan.after.picture.as_ref();
     plan.complete || runs && made.is_some_and(|made| made.draw.lights().eq(request.picture.draw.lights()))
 }

@@ -112,8 +112,10 @@ pub struct Model {
     pub shows_help: bool,
     /// What is being loaded.
     pub loading: Option<String>,
-    /// Whether a picture is shown, be it of an earlier scene.
-    pub has_picture: bool,
+    /// How many scenes were opened.
+    pub opened: u64,
+    /// Which of them the picture shows, if there is a picture.
+    pub pictured: Option<u64>,
     /// Whether the picture takes so long to draw that people are told.
     pub drawing: bool,
     /// Ticks that the films are behind the clock.
@@ -178,7 +180,8 @@ impl Model {
             shows_gallery: false,
             shows_help: false,
             loading: None,
-            has_picture: false,
+            opened: 1,
+            pictured: None,
             drawing: false,
             behind_ticks: 0,
             messages,
@@ -196,6 +199,7 @@ impl Model {
     pub fn adopt(&mut self, mut loaded: LoadedScene) {
         settle_detail(&mut loaded.scene);
         warn(&mut self.messages, &loaded);
+        self.opened += 1;
         self.scene = Story::new(loaded.scene);
         self.resources = loaded.resources;
         self.file = file_of(&loaded.name);
@@ -216,6 +220,12 @@ impl Model {
         // What the hand held is gone.
         (self.hand, self.gizmo) = (Hand::default(), None);
         self.loading = None;
+    }
+
+    /// Whether the picture shows the scene, be it as it was a moment ago.
+    #[must_use]
+    pub fn is_pictured(&self) -> bool {
+        self.pictured == Some(self.opened)
     }
 
     /// Shows a scene that an earlier window left without saving it.

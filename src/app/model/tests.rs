@@ -8,7 +8,10 @@ use crate::{
 
 /// The preset without an environment to compute.
 pub fn model() -> Model {
-    Model::new(load_scene("furnace").unwrap())
+    let mut model = Model::new(load_scene("furnace").unwrap());
+    // Time begins with the first picture.
+    model.pictured = Some(model.opened);
+    model
 }
 
 #[test]

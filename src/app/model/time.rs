@@ -7,11 +7,12 @@ use crate::app::{edit::Edit, time_line::Mark};
 const LONGEST_TURN_S: f64 = 0.1;
 
 impl Model {
-    /// Lets wall time pass, unless the films are behind the clock.
+    /// Lets wall time pass, unless the films are behind the clock. It begins with the first picture: nobody misses the beginning, and shaders that
+    /// move films can wait until then.
     pub fn advance(&mut self, wall_s: f64) {
         self.turn_table(wall_s);
         let motion = &self.scene.motion;
-        if self.behind_ticks == 0 {
+        if self.behind_ticks == 0 && self.is_pictured() {
             self.clock.advance(wall_s, motion);
         }
         let time_s = self.clock.time_s(motion);

@@ -26,7 +26,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
         .frame(Frame::NONE)
         .show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
-            if !model.has_picture && !model.stands_alone {
+            if model.pictured.is_none() && !model.stands_alone {
                 placeholder(ui, rect, &model.name);
             }
             let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());

@@ -120,7 +120,6 @@ impl Painter {
             moment,
             full_precision: self.format == Format::Exr || !self.options.is_plain(),
             gamut: self.options.gamut,
-            yardstick: false,
             pace: Pace::Whole,
         };
         let request = self.story.request_through(lens, &self.loaded.resources, &shot);

@@ -17,13 +17,13 @@ use super::{
         open_hole::OpenHole,
     },
     quadrature::Quadrature,
-    rings::{Ring, SIDES, disc, rings},
+    rings::{Ring, SIDES, disc, middle_everywhere, rings},
     shown_film::{NoFilm, Shown},
     target::Target,
     timing::Recorder,
     uniform_buffer::UniformBuffer,
 };
-use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting};
+use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting, Rendering};
 use small::SmallDraw;
 pub use values::view_uniform;
 use values::{
@@ -332,7 +332,7 @@ impl Shared<'_> {
             lamps: &light.lamps,
         };
         let format = radiance_format(key.full_precision);
-        match (key.yardstick, ring.edges_rad) {
+        match (key.rendering == Rendering::Yardstick, ring.edges_rad) {
             (false, Some(_)) => shade.ring(gpu, format),
             (false, None) => shade.everywhere(gpu, format),
             (true, Some(_)) => ShadeMirror::in_place_of(&shade).ring(gpu, format),
@@ -350,11 +350,13 @@ pub fn pixels_shaded(key: &DrawKey) -> u64 {
 }
 
 fn bubble_rings(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey) -> Vec<Ring> {
-    if key.yardstick {
-        return vec![disc(&key.camera, bubble)];
-    }
     let quadrature = &lighting.films[bubble.material].quadrature;
     // Of the scene's own light: beside it, lights of other illuminants are dark everywhere but in their places.
     let contrast = key.lighting.environment.0.contrast();
-    rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film, contrast)
+    let rings = rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film, contrast);
+    match key.rendering {
+        Rendering::Full => rings,
+        Rendering::Preview => vec![middle_everywhere(&key.camera, bubble, rings[0])],
+        Rendering::Yardstick => vec![disc(&key.camera, bubble)],
+    }
 }

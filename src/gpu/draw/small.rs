@@ -1,15 +1,18 @@
 //! Small bubbles of one layer and one material: which tiles show which of them.
 
 use super::{Colours, Shared, values::max_small_samples};
-use crate::gpu::{
-    composition::{PixelRect, PlacedSmall},
-    device::{Gpu, GpuError},
-    formats::radiance_format,
-    kernel::Drawable,
-    passes::{
-        bake_table::TableOverrides,
-        small_bubbles::{SmallBubbles, SmallTile, TILE},
+use crate::{
+    gpu::{
+        composition::{PixelRect, PlacedSmall},
+        device::{Gpu, GpuError},
+        formats::radiance_format,
+        kernel::Drawable,
+        passes::{
+            bake_table::TableOverrides,
+            small_bubbles::{SmallBubbles, SmallTile, TILE},
+        },
     },
+    plan::Rendering,
 };
 
 /// The bubbles of each tile of a picture, as the shader reads them.
@@ -94,7 +97,7 @@ impl Shared<'_> {
         let small = SmallBubbles {
             SAMPLES: max_small_samples(key, films.quadrature.quality, lists.most()),
             FULL_PRECISION: key.full_precision,
-            YARDSTICK: key.yardstick,
+            YARDSTICK: key.rendering == Rendering::Yardstick,
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: self.lighting.light.polariser.is_some() },
             lit: self.light.lit,
             view: &self.view,

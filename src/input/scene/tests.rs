@@ -66,7 +66,6 @@ fn a_scene_that_cannot_be_drawn_is_refused_by_line_and_key() {
         moment: Default::default(),
         full_precision: false,
         gamut: Default::default(),
-        yardstick: false,
         pace: crate::plan::Pace::Whole,
     };
     let (folder, path) = desk("[camera]\nelevation_deg = -9\n[[bubble]]\nboundary = \"bath\"");

@@ -18,7 +18,7 @@ pub use camera::CameraKey;
 pub use environment::{DefocusKey, EnvironmentKey};
 pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};
 pub use optics::{OpticsKey, QuadratureKey, TableKey, range_nm};
-pub use picture::{BackdropKey, DrawKey, FilmColours, LightKey, Lighting, TonemapKey, exposed_ev};
+pub use picture::{BackdropKey, DrawKey, FilmColours, LightKey, Lighting, Rendering, TonemapKey, exposed_ev};
 pub use plate::PlateKey;
 pub use rest::RestingFilm;
 

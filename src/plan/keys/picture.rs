@@ -44,6 +44,18 @@ pub struct LightKey {
     pub defocus_rad: f64,
 }
 
+/// How bubbles are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rendering {
+    /// As accurately as the scene's quality asks for.
+    #[default]
+    Full,
+    /// With the shaders of the middle alone, without what is special near the limb: what a window shows while the other shaders are compiled.
+    Preview,
+    /// Each is a sphere with one lookup of the environment: the yardstick of a frame's cost.
+    Yardstick,
+}
+
 /// The linear picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawKey {
@@ -53,8 +65,8 @@ pub struct DrawKey {
     pub full_precision: bool,
     /// Stops by which the linear picture is exposed already, so that half floats hold what will be seen; see [`exposed_ev`].
     pub exposed_ev: i32,
-    /// Whether each film is replaced by a sphere with one environment lookup: the yardstick of the frame's cost.
-    pub yardstick: bool,
+    /// How the bubbles are drawn.
+    pub rendering: Rendering,
     /// The camera.
     pub camera: CameraKey,
     /// The scene's own light.
@@ -222,6 +234,23 @@ pub struct TonemapKey {
 }
 
 impl TonemapKey {
+    /// A preview of the picture, half as wide and half as high. It needs a few of the picture's shaders and no other ones, so that it comes much
+    /// sooner where shaders are compiled first. There is none of small bubbles and before plates, whose shaders follow from the picture's size.
+    #[must_use]
+    pub fn preview(&self) -> Option<Self> {
+        if !self.draw.small.is_empty() || self.draw.plate.is_some() {
+            return None;
+        }
+        let mut preview = self.clone();
+        let draw = &mut preview.draw;
+        draw.rendering = Rendering::Preview;
+        draw.size = draw.size.map(|pixels| pixels.div_ceil(2));
+        let scale = f64::from(self.draw.size[1]) / f64::from(draw.size[1]);
+        draw.camera.pixel_height_m *= scale;
+        draw.camera.shift /= scale;
+        Some(preview)
+    }
+
     /// How a display shows the linear picture, without what a lens does to it.
     #[must_use]
     pub fn display(&self) -> Display {

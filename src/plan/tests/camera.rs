@@ -122,3 +122,17 @@ fn through_the_edge_of_a_lens_the_focus_stays_and_what_is_behind_it_moves() {
     let expected = DVec2::new(offset_m.x, -offset_m.y) * (1.0 / 0.5 - 1.0) / middle.camera.pixel_height_m;
     assert!(moved.distance(expected) < 1e-9, "{moved} {expected}");
 }
+
+#[test]
+fn a_preview_shows_the_same_with_half_as_many_pixels_a_side_and_has_its_films_ready_for_the_picture() {
+    let whole = frame_request(&stirred_scene(), 0, Pace::Whole);
+    let preview = FrameRequest { picture: whole.picture.preview().unwrap(), ..whole.clone() };
+    let (draw, full) = (&preview.picture.draw, &whole.picture.draw);
+    assert_eq!((draw.rendering, draw.size), (Rendering::Preview, [32, 18]));
+    assert_eq!(draw.camera.corners(draw.size, 0.0), full.camera.corners(full.size, 0.0));
+    assert_eq!(draw.bubbles, full.bubbles, "the shaders follow from them");
+    let first = plan(&preview, &GpuState::default());
+    let second = plan(&whole, &first.after);
+    assert!(names(&first).contains(&"seed_field"), "{first}");
+    assert_eq!(names(&second), ["draw", "tonemap"], "{second}");
+}

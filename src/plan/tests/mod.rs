@@ -42,14 +42,7 @@ fn resources() -> Resources {
 }
 
 fn shot(tick: u64, pace: Pace) -> Shot {
-    Shot {
-        size: [64, 36],
-        moment: Moment::tick(tick),
-        full_precision: false,
-        gamut: Gamut::Srgb,
-        yardstick: false,
-        pace,
-    }
+    Shot { size: [64, 36], moment: Moment::tick(tick), full_precision: false, gamut: Gamut::Srgb, pace }
 }
 
 fn frame_request(scene: &Scene, tick: u64, pace: Pace) -> FrameRequest {

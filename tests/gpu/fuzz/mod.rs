@@ -134,8 +134,7 @@ fn load(scene: &Scene) -> LoadedScene {
 /// The picture at a moment, or at an earlier one where films would take too long to get there.
 fn frame_request(loaded: &LoadedScene, mut moment: Moment) -> Result<FrameRequest, Fault> {
     loop {
-        let shot =
-            Shot { size: SIZE, moment, full_precision: true, gamut: Gamut::Srgb, yardstick: false, pace: Pace::Whole };
+        let shot = Shot { size: SIZE, moment, full_precision: true, gamut: Gamut::Srgb, pace: Pace::Whole };
         let request = request(&loaded.scene, &loaded.resources, &shot)?;
         if moment.tick == 0 || is_cheap(&request) {
             return Ok(request);

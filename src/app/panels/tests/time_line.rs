@@ -79,6 +79,17 @@ fn a_jump_ahead_shows_its_progress_and_can_be_stopped() {
 }
 
 #[test]
+fn time_begins_with_the_first_picture() {
+    let mut model = model();
+    model.pictured = None;
+    model.advance(0.4);
+    assert_eq!(model.clock.tick, 0);
+    model.pictured = Some(model.opened);
+    model.advance(0.4);
+    assert!(model.clock.tick > 20, "{}", model.clock.tick);
+}
+
+#[test]
 fn a_loop_begins_again_at_its_length() {
     let mut model = model();
     (model.time_line.loops, model.time_line.length_s) = (true, 1.0);
