@@ -32,8 +32,7 @@ pub mod renderer;
 pub mod rings;
 pub mod shaders;
 pub mod shown_film;
-#[cfg(not(target_arch = "wasm32"))]
-mod specialise;
+pub mod specialise;
 pub mod target;
 pub mod timing;
 #[cfg(not(target_arch = "wasm32"))]

@@ -1,9 +1,7 @@
 //! Pipelines, made on first use and kept: a pass, an entry point, the constants it was specialised for, and the target's format.
 //!
-//! Outside browsers, shaders get their constants here and not from the driver: see `specialise.rs`.
+//! Shaders get their constants here and not from the driver: see `specialise.rs`.
 
-#[cfg(not(target_arch = "wasm32"))]
-use std::borrow::Cow;
 use std::{
     collections::HashMap,
     sync::{
@@ -12,11 +10,10 @@ use std::{
     },
 };
 
-#[cfg(not(target_arch = "wasm32"))]
-use super::specialise::specialised;
 use super::{
     late_errors::LateErrors,
     shaders::{Composed, Library, ShaderError},
+    specialise::{Specialised, specialised},
 };
 use crate::physics::sphere::HALO;
 
@@ -55,14 +52,14 @@ pub struct Ready<P> {
     /// The pipeline.
     pub pipeline: P,
     layout: wgpu::BindGroupLayout,
-    /// Numbers of the bindings that its constants leave a use for; all, if nothing is known of that.
-    bindings: Option<Vec<u32>>,
+    /// Numbers of the bindings that its constants leave a use for.
+    bindings: Vec<u32>,
 }
 
 impl<P> Ready<P> {
     /// Binds resources by their numbers, but for those that the pipeline has no use for.
     pub fn bind(&self, device: &wgpu::Device, resources: &[(u32, wgpu::BindingResource<'_>)]) -> wgpu::BindGroup {
-        let is_used = |number: &u32| self.bindings.as_ref().is_none_or(|bindings| bindings.contains(number));
+        let is_used = |number: &u32| self.bindings.contains(number);
         let entry = |(binding, resource): &(u32, _)| wgpu::BindGroupEntry {
             binding: *binding,
             resource: wgpu::BindingResource::clone(resource),
@@ -171,7 +168,7 @@ fn make_compute(
         layout: None,
         module: &shader.module,
         entry_point: Some(key.entry),
-        compilation_options: shader.options(),
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
         cache: None,
     });
     let layout = pipeline.get_bind_group_layout(0);
@@ -193,7 +190,7 @@ fn make_render(
         vertex: wgpu::VertexState {
             module: &vertex.module,
             entry_point: Some(key.vertex),
-            compilation_options: vertex.options(),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState { topology: wgpu::PrimitiveTopology::TriangleStrip, ..Default::default() },
@@ -202,7 +199,7 @@ fn make_render(
         fragment: Some(wgpu::FragmentState {
             module: &fragment.module,
             entry_point: Some(key.fragment),
-            compilation_options: fragment.options(),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[Some(key.format.into())],
         }),
         multiview_mask: None,
@@ -242,22 +239,14 @@ struct PassSource<'a> {
     device: &'a wgpu::Device,
     pass: &'static str,
     composed: Composed,
-    constants: Vec<(&'static str, f64)>,
+    constants: Vec<(&'static str, u32)>,
 }
 
 /// The shader of one stage of a pipeline.
 struct StageShader {
     module: wgpu::ShaderModule,
-    /// Constants that are left to the driver.
-    constants: Vec<(&'static str, f64)>,
     /// As in [`Ready`].
-    bindings: Option<Vec<u32>>,
-}
-
-impl StageShader {
-    fn options(&self) -> wgpu::PipelineCompilationOptions<'_> {
-        wgpu::PipelineCompilationOptions { constants: &self.constants, ..Default::default() }
-    }
+    bindings: Vec<u32>,
 }
 
 impl<'a> PassSource<'a> {
@@ -270,26 +259,15 @@ impl<'a> PassSource<'a> {
         let composed = library.compose(pass)?;
         // Shared constants only where the text declares them: an unknown name would be refused.
         let shared = SHARED_CONSTANTS.iter().filter(|(name, _)| composed.declares(name));
-        let constants = constants.iter().chain(shared).map(|(name, value)| (*name, f64::from(*value))).collect();
+        let constants = constants.iter().chain(shared).copied().collect();
         Ok(Self { device, pass, composed, constants })
     }
 
-    fn module(&self, source: wgpu::ShaderSource<'_>) -> wgpu::ShaderModule {
-        self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(self.pass), source })
-    }
-
-    #[cfg(not(target_arch = "wasm32"))]
     fn stage(&self, entry: &str) -> Result<StageShader, ShaderError> {
-        let shader = specialised(&self.composed, entry, &self.constants)?;
-        let module = self.module(wgpu::ShaderSource::Naga(Cow::Owned(shader.module)));
-        Ok(StageShader { module, constants: Vec::new(), bindings: Some(shader.bindings) })
-    }
-
-    /// Browsers compile the text themselves.
-    #[cfg(target_arch = "wasm32")]
-    fn stage(&self, _: &str) -> Result<StageShader, ShaderError> {
-        let module = self.module(wgpu::ShaderSource::Wgsl(self.composed.wgsl.as_str().into()));
-        Ok(StageShader { module, constants: self.constants.clone(), bindings: None })
+        let Specialised { wgsl, bindings } = specialised(&self.composed, entry, &self.constants)?;
+        let source = wgpu::ShaderSource::Wgsl(wgsl.into());
+        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(self.pass), source });
+        Ok(StageShader { module, bindings })
     }
 
     /// A pipeline, if nothing was refused since error scopes were opened. What the compiler or the driver refuses comes back as an error, here
@@ -301,7 +279,7 @@ impl<'a> PassSource<'a> {
         shaders: [StageShader; STAGES],
         (pipeline, layout): (P, wgpu::BindGroupLayout),
     ) -> Result<Ready<P>, ShaderError> {
-        let bindings = shaders.iter().map(|shader| shader.bindings.clone()).collect::<Option<Vec<_>>>();
+        let bindings = shaders.iter().flat_map(|shader| shader.bindings.iter().copied()).collect();
         let (Self { pass, composed, .. }, errors) = (self, scopes.close());
         let answer = async move {
             let error = errors.await?;
@@ -313,7 +291,7 @@ impl<'a> PassSource<'a> {
         };
         match late.ask(Box::pin(answer)) {
             Some(error) => Err(error),
-            None => Ok(Ready { pipeline, layout, bindings: bindings.map(|stages| stages.concat()) }),
+            None => Ok(Ready { pipeline, layout, bindings }),
         }
     }
 }

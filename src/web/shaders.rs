@@ -7,13 +7,15 @@ use crate::gpu::{
     passes::kernels,
     pipelines::SHARED_CONSTANTS,
     shaders::{Composed, Library},
+    specialise::specialised,
 };
 
-/// A kernel's shader.
+/// A kernel's shaders.
 #[wasm_bindgen]
 pub struct Shader {
-    kernel: Kernel,
     composed: Composed,
+    /// Entry points, each with values for its constants.
+    variants: Vec<(&'static str, Vec<(&'static str, u32)>)>,
 }
 
 #[wasm_bindgen]
@@ -23,34 +25,43 @@ impl Shader {
     /// # Errors
     /// A pass imports what there is not.
     pub fn all() -> Result<Vec<Shader>, JsError> {
-        let shader = |kernel: Kernel| Ok(Shader { composed: Library::Embedded.compose(kernel.pass)?, kernel });
-        kernels().into_iter().map(shader).collect()
+        kernels().iter().map(|kernel| Ok(Self::of(kernel, Library::Embedded.compose(kernel.pass)?))).collect()
     }
 
-    /// Its WGSL.
+    fn of(kernel: &Kernel, composed: Composed) -> Self {
+        let declares = |name: &str| composed.declares(name);
+        let shared: Vec<_> = SHARED_CONSTANTS.iter().copied().filter(|(name, _)| declares(name)).collect();
+        let entries = kernel.entries.names();
+        let mut variants = Vec::new();
+        for constants in kernel.specialisations(declares) {
+            let constants: Vec<_> = constants.into_iter().chain(shared.iter().copied()).collect();
+            variants.extend(entries.iter().map(|entry| (*entry, constants.clone())));
+        }
+        Self { composed, variants }
+    }
+
+    /// Its variants: entry points and values for their constants, in words.
     #[wasm_bindgen(getter)]
     #[must_use]
-    pub fn text(&self) -> String {
-        self.composed.wgsl.clone()
+    pub fn variants(&self) -> Vec<String> {
+        let words = |constants: &[(&str, u32)]| {
+            constants.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(" ")
+        };
+        self.variants.iter().map(|(entry, constants)| format!("{entry} {}", words(constants))).collect()
+    }
+
+    /// The WGSL of a variant.
+    ///
+    /// # Errors
+    /// A constant has no value.
+    pub fn text(&self, variant: usize) -> Result<String, JsError> {
+        let (entry, constants) = &self.variants[variant];
+        Ok(specialised(&self.composed, entry, constants)?.wgsl)
     }
 
     /// The file and line behind a line of the text, counted from 1.
     #[must_use]
     pub fn place(&self, line: usize) -> String {
         self.composed.place(line)
-    }
-
-    /// Values for its constants, a line for each specialisation: `NAME=1 OTHER=0`.
-    #[wasm_bindgen(getter)]
-    #[must_use]
-    pub fn specialisations(&self) -> Vec<String> {
-        let declares = |name: &str| self.composed.declares(name);
-        let shared = SHARED_CONSTANTS.iter().copied().filter(|(name, _)| declares(name));
-        let every = self.kernel.specialisations(declares).into_iter();
-        let line = |constants: std::collections::BTreeMap<&'static str, u32>| {
-            let words = constants.into_iter().chain(shared.clone()).map(|(name, value)| format!("{name}={value}"));
-            words.collect::<Vec<_>>().join(" ")
-        };
-        every.map(line).collect()
     }
 }

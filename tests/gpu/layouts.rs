@@ -144,12 +144,9 @@ fn override_faults(module: &Module, kernel: &Kernel) -> Vec<String> {
 
 /// Entry points of a pass that no kernel declares.
 fn undeclared(module: &Module, kernels: &[Kernel]) -> Vec<String> {
-    let declares = |kernel: &Kernel, name: &str| match &kernel.entries {
-        Entries::Compute(entries) => entries.contains(&name),
-        Entries::Draw { vertices, fragment } => vertices.contains(&name) || *fragment == name,
-    };
+    let declared: BTreeSet<&str> = kernels.iter().flat_map(|kernel| kernel.entries.names()).collect();
     let entries = module.entry_points.iter().map(|entry| entry.name.clone());
-    entries.filter(|entry| !kernels.iter().any(|kernel| declares(kernel, entry))).collect()
+    entries.filter(|entry| !declared.contains(entry.as_str())).collect()
 }
 
 #[test]

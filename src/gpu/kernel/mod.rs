@@ -97,6 +97,17 @@ pub enum Entries {
     },
 }
 
+impl Entries {
+    /// Names of all of them.
+    #[must_use]
+    pub fn names(&self) -> Vec<&'static str> {
+        match self {
+            Self::Compute(names) => names.clone(),
+            Self::Draw { vertices, fragment } => vertices.iter().copied().chain([*fragment]).collect(),
+        }
+    }
+}
+
 /// A binding of a kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Binding {
