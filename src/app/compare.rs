@@ -9,6 +9,9 @@ use std::sync::{
 use super::colour_map::viridis;
 use crate::{scene::Quality, studio::difference};
 
+/// Memory that earlier pictures may take, bytes.
+const MEMORY_BYTES: usize = 256 << 20;
+
 /// The CIEDE2000 that the brightest colour of a map stands for.
 pub const MAP_SCALE: f64 = 5.0;
 /// Pixels of a picture.
@@ -77,6 +80,10 @@ pub type Named = (Pixels, String);
 pub struct Compare {
     /// A.
     pub kept: Option<Named>,
+    /// All pictures that were A since the comparison began, the oldest first, as far as memory allows.
+    pub memory: Vec<Named>,
+    /// The place of A among them.
+    pub at: usize,
     /// B, unless it is the picture as it is shown.
     pub other: Option<Named>,
     /// Part of the picture's width that shows A.
@@ -95,16 +102,42 @@ impl Compare {
     /// Keeps a picture as A.
     pub fn keep(&mut self, pixels: Pixels, name: String) {
         self.stop.store(true, Ordering::Relaxed);
-        *self = Self { kept: Some((pixels, name)), split: 0.5, ..Self::default() };
+        let split = if self.kept.is_some() { self.split } else { 0.5 };
+        *self = Self { memory: std::mem::take(&mut self.memory), split, ..Self::default() };
+        self.remember((pixels, name));
+    }
+
+    /// Makes a picture A, and the latest of all.
+    fn remember(&mut self, picture: Named) {
+        let bytes = |(pixels, _): &Named| pixels.rgba.len();
+        self.memory.push(picture.clone());
+        while self.memory.len() > 1 && self.memory.iter().map(bytes).sum::<usize>() > MEMORY_BYTES {
+            self.memory.remove(0);
+        }
+        self.at = self.memory.len() - 1;
+        self.kept = Some(picture);
+    }
+
+    /// Makes an earlier or a later picture A.
+    pub fn flip(&mut self, places: isize) {
+        let last = self.memory.len().saturating_sub(1);
+        self.at = self.at.saturating_add_signed(places).min(last);
+        self.kept = self.memory.get(self.at).cloned();
+        self.map = None;
     }
 
     /// Puts a picture on a side; what was measured of the two no longer holds.
     pub fn put(&mut self, side: Side, pixels: Pixels, name: String) {
         self.map = None;
-        *(match side {
-            Side::A => &mut self.kept,
-            Side::B => &mut self.other,
-        }) = Some((pixels, name));
+        match side {
+            Side::B => self.other = Some((pixels, name)),
+            // A reference picture comes again and again, each time finer.
+            Side::A if self.kept.as_ref().is_some_and(|(_, known)| *known == name) => {
+                self.memory.remove(self.at);
+                self.remember((pixels, name));
+            }
+            Side::A => self.remember((pixels, name)),
+        }
     }
 
     /// Forgets both pictures.
@@ -126,9 +159,36 @@ impl Compare {
 mod tests {
     use super::*;
 
+    fn pixels(grey: u8) -> Pixels {
+        Pixels { size: [2, 1], rgba: Arc::new(vec![grey, grey, grey, 255, 9, 9, 9, 255]) }
+    }
+
+    #[test]
+    fn earlier_pictures_are_flipped_through() {
+        let mut compare = Compare::default();
+        let name = |compare: &Compare| compare.kept.clone().unwrap().1;
+        for (grey, name) in [(1, "one"), (2, "two"), (3, "three")] {
+            compare.keep(pixels(grey), name.to_owned());
+        }
+        assert_eq!((name(&compare), compare.memory.len()), ("three".to_owned(), 3));
+        compare.flip(-2);
+        assert_eq!(name(&compare), "one");
+        compare.flip(-1);
+        assert_eq!(name(&compare), "one", "there is none before it");
+        compare.flip(1);
+        assert_eq!((name(&compare), compare.at), ("two".to_owned(), 1));
+        compare.put(Side::A, pixels(4), "reference".to_owned());
+        compare.put(Side::A, pixels(5), "reference".to_owned());
+        assert_eq!((compare.memory.len(), compare.at), (4, 3), "a finer picture takes the place of the coarser one");
+        let whole = Pixels { size: [1, 1], rgba: Arc::new(vec![0; MEMORY_BYTES]) };
+        compare.keep(whole, "large".to_owned());
+        assert_eq!((compare.memory.len(), name(&compare)), (1, "large".to_owned()));
+        compare.close();
+        assert!(compare.memory.is_empty() && compare.kept.is_none());
+    }
+
     #[test]
     fn a_map_has_the_colours_of_its_scale() {
-        let pixels = |grey: u8| Pixels { size: [2, 1], rgba: Arc::new(vec![grey, grey, grey, 255, 9, 9, 9, 255]) };
         let map = Map::new(&pixels(0), &pixels(255));
         assert_eq!(map.pixels.rgba[..3], viridis(1.0));
         assert_eq!(map.pixels.rgba[4..7], viridis(0.0));

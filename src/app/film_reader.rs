@@ -11,7 +11,7 @@ use web_time::Instant;
 use crate::{
     gpu::{GpuError, Renderer, readback::Readback},
     physics::sphere::{CubedSphere, HaloTable, PaddedField},
-    plan::{DrawKey, FieldKey, Moment},
+    plan::{DrawKey, FieldKey, FilmKey, Moment},
     studio::FilmsRead,
 };
 
@@ -53,15 +53,17 @@ impl FilmReader {
     }
 
     /// The moment of a film that was read.
-    pub fn moment(&self, film: usize) -> Option<Moment> {
+    fn moment(&self, film: usize) -> Option<Moment> {
         self.read.get(&film).map(|(_, moment)| *moment)
     }
 
-    /// The moment that the thickness of a film is of, at a moment of the clock.
-    pub fn time(&self, renderer: &Renderer, film: usize, clock: Moment) -> Moment {
+    /// The moment that the thickness of a film in a picture is of, at a moment of the clock.
+    pub fn time(&self, renderer: &Renderer, draw: &DrawKey, film: usize, clock: Moment) -> Moment {
+        // The device may still hold the field of a film that was opened before.
+        let has_field = draw.films().any(|(index, key)| index == film && matches!(key, FilmKey::Field(_)));
         let field = renderer.state().fields.get(film).and_then(Option::as_ref);
         // A film at rest, or without a field, is what it was; only evaporation goes on.
-        let moves = field.is_some_and(|field| field.rest.is_none());
+        let moves = has_field && field.is_some_and(|field| field.rest.is_none());
         self.moment(film).filter(|_| moves).unwrap_or(clock)
     }
 

@@ -3,7 +3,7 @@
 use egui::{Event, RawInput};
 
 /// Takes what came between two frames apart, so that each part has at most one press, or release of a button, with what came before it. Whoever samples the state
-/// of a button once a part then sees every press, at its place.
+/// of a button once a part then sees every press, at its place, and every move up to a release while the button is still held.
 #[must_use]
 pub fn one_by_one(mut input: RawInput) -> Vec<RawInput> {
     let mut events = std::mem::take(&mut input.events);
@@ -12,7 +12,28 @@ pub fn one_by_one(mut input: RawInput) -> Vec<RawInput> {
     if events.is_empty() {
         return vec![input];
     }
-    events.split_inclusive(ends_part).map(|events| part(&mut input, events.to_vec())).collect()
+    let mut parts: Vec<RawInput> = Vec::new();
+    for events in events.split_inclusive(ends_part) {
+        let (before, release) = events.split_at(if is_after_moves(events) { events.len() - 1 } else { 0 });
+        let some = [before, release].into_iter().filter(|events| !events.is_empty());
+        parts.extend(some.map(|events| part(&mut input, events.to_vec())));
+    }
+    parts
+}
+
+/// Whether events end with a release that follows moves.
+fn is_after_moves(events: &[Event]) -> bool {
+    let is_move = |event: &Event| match event {
+        Event::PointerMoved(_) => true,
+        Event::Touch { phase, .. } => *phase == egui::TouchPhase::Move,
+        _ => false,
+    };
+    let is_release = |event: &Event| match event {
+        Event::PointerButton { pressed, .. } => !pressed,
+        Event::Touch { phase, .. } => *phase == egui::TouchPhase::End,
+        _ => false,
+    };
+    events.last().is_some_and(is_release) && events.iter().any(is_move)
 }
 
 /// Browsers name a device for each finger, and egui zooms by the fingers of one device.
@@ -83,6 +104,29 @@ mod tests {
         assert_eq!(parts.iter().map(|part| part.events.len()).collect::<Vec<_>>(), [3, 1]);
         assert_eq!(parts.into_iter().flat_map(|part| part.events).collect::<Vec<_>>(), events);
         assert_eq!(one_by_one(RawInput::default()).len(), 1, "a frame without input is a frame");
+    }
+
+    #[test]
+    fn a_drag_goes_as_far_as_the_pointer_did() {
+        let ctx = Context::default();
+        let mut dragged = egui::Vec2::ZERO;
+        let moved = |y: f32| Event::PointerMoved(pos2(50.0, y));
+        let frames = [
+            vec![moved(10.0)],
+            vec![button(pos2(50.0, 10.0), true)],
+            vec![moved(30.0)],
+            vec![moved(60.0), moved(90.0), button(pos2(50.0, 90.0), false)],
+        ];
+        for events in frames {
+            for part in one_by_one(RawInput { events, ..RawInput::default() }) {
+                let output = ctx.run_ui(part, |ui| {
+                    let rect = egui::Rect::from_min_max(pos2(0.0, 0.0), pos2(100.0, 100.0));
+                    dragged += ui.interact(rect, egui::Id::unique("area"), Sense::drag()).drag_delta();
+                });
+                output.drop_without_applying_deltas();
+            }
+        }
+        assert_eq!(dragged.y, 80.0);
     }
 
     #[test]

@@ -56,8 +56,8 @@ pub enum Action {
     TiltBack,
     /// Plays the length of the time line again and again, or once.
     Loop,
-    /// Removes the event or keyframe that is selected on the time line.
-    RemoveMark,
+    /// Deletes the event or keyframe that is selected on the time line, or the outlined bubbles.
+    Delete,
     /// Shows the picture alone on the whole screen, or no longer.
     Present,
     /// Takes messages and help away.
@@ -124,7 +124,11 @@ pub const BINDINGS: &[Binding] = &[
     bare(Key::Num8, Action::Take(Tool::Lamp), "The pointer moves a lamp by its highlight"),
     bare(Key::K, Action::Keep, "Keep this picture, to compare others with it"),
     bare(Key::L, Action::Loop, "Play in a loop"),
-    bare(Key::Delete, Action::RemoveMark, "Remove the event or keyframe that is selected on the time line"),
+    bare(
+        Key::Delete,
+        Action::Delete,
+        "Delete the event or keyframe that is selected on the time line, or the outlined bubbles",
+    ),
     bare(Key::F11, Action::Present, "The picture alone, on the whole screen"),
     bare(Key::ArrowRight, Action::TiltRight, "Tilt gravity to the right"),
     bare(Key::ArrowLeft, Action::TiltLeft, "Tilt gravity to the left"),
@@ -133,7 +137,7 @@ pub const BINDINGS: &[Binding] = &[
     bare(Key::H, Action::Panels, "Show or hide the panels"),
     bare(Key::F1, Action::Help, "This help"),
     bare(Key::Questionmark, Action::Help, "This help"),
-    bare(Key::Escape, Action::Dismiss, "Leave full screen; close help, messages and the probe"),
+    bare(Key::Escape, Action::Dismiss, "Leave full screen; close help, messages, the probe and a comparison"),
 ];
 
 /// What the pointer does, for the help.

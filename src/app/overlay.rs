@@ -97,6 +97,24 @@ fn scale(of: FalseColour, values: impl Iterator<Item = f64>) -> Option<[f64; 2]>
     Some(if ends[1] > ends[0] { ends } else { [ends[0], ends[0] + step] })
 }
 
+/// Distance of streamlines, pixels of the picture.
+const STREAMLINE_SPACING: f64 = 24.0;
+
+/// Lines along which the front walls flow.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Streamlines(pub Vec<Vec<DVec2>>);
+
+impl Streamlines {
+    /// Those of what a picture of a size in pixels shows. Places are right and up from its middle, in heights of it; each line goes with the flow.
+    #[must_use]
+    pub fn new(view: &FilmView<'_>, size: [u32; 2]) -> Self {
+        let [width, height] = size.map(f64::from);
+        let place = |at: DVec2| (at - 0.5 * DVec2::new(width, height)) * DVec2::new(1.0, -1.0) / height;
+        let lines = view.streamlines(STREAMLINE_SPACING).into_iter();
+        Self(lines.map(|line| line.into_iter().map(place).collect()).collect())
+    }
+}
+
 /// Points of a profile.
 const POINTS: u32 = 201;
 
@@ -174,13 +192,23 @@ pub struct Overlay {
     pub of: FalseColour,
     /// The latest map of that.
     pub map: Option<Map>,
+    /// Whether streamlines are shown.
+    pub shows_streamlines: bool,
+    /// The latest ones.
+    pub streamlines: Streamlines,
     /// The line that was drawn, with the film along it.
     pub profile: Option<Profile>,
 }
 
 impl Default for Overlay {
     fn default() -> Self {
-        Self { of: FalseColour::None, map: None, profile: None }
+        Self {
+            of: FalseColour::None,
+            map: None,
+            shows_streamlines: false,
+            streamlines: Streamlines::default(),
+            profile: None,
+        }
     }
 }
 
@@ -188,7 +216,7 @@ impl Overlay {
     /// Whether films must be read for it.
     #[must_use]
     pub fn reads(&self) -> bool {
-        self.of != FalseColour::None || self.profile.is_some()
+        self.of != FalseColour::None || self.shows_streamlines || self.profile.is_some()
     }
 }
 

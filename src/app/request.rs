@@ -26,6 +26,8 @@ pub enum Target {
     SaveProfile,
     /// Where a plot of the pinned point goes as a picture.
     SavePlot(Plot),
+    /// Where the plot of the profile along a line goes as a picture.
+    SaveProfilePlot,
 }
 
 impl Target {
@@ -35,7 +37,7 @@ impl Target {
         match self {
             Self::OpenScene | Self::SaveScene => ("Scene", &["toml"]),
             Self::OpenEnvironment => ("Environment", &["exr", "hdr"]),
-            Self::SavePng | Self::SavePlot(_) => ("PNG picture", &["png"]),
+            Self::SavePng | Self::SavePlot(_) | Self::SaveProfilePlot => ("PNG picture", &["png"]),
             Self::SaveExr => ("OpenEXR picture", &["exr"]),
             Self::Export(None) => ("Folder", &[]),
             Self::Export(Some(ending)) => {
@@ -52,7 +54,7 @@ impl Target {
         let stem = Path::new(scene).file_stem().and_then(|stem| stem.to_str()).unwrap_or("soapfilm");
         let plot = match self {
             Self::SaveCsv(plot) | Self::SavePlot(plot) => format!("_{}", plot.file_word()),
-            Self::SaveProfile => "_profile".to_owned(),
+            Self::SaveProfile | Self::SaveProfilePlot => "_profile".to_owned(),
             _ => String::new(),
         };
         let ending = self.file_type().1.first();

@@ -1,8 +1,11 @@
 //! What a line of sight meets: the walls of the nearest bubble, with the film that stands there.
 
-use std::{collections::BTreeMap, sync::OnceLock};
+use std::{
+    collections::{BTreeMap, HashSet},
+    sync::OnceLock,
+};
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, IVec2};
 
 use crate::{
     physics::{
@@ -88,6 +91,33 @@ pub struct FilmInFront {
     pub vorticity_1_s: Option<f64>,
 }
 
+/// Streamlines of one picture, while they are traced.
+struct Streamlines {
+    /// Squares of the picture that a line passes: no other one enters them.
+    taken: HashSet<IVec2>,
+    /// Side of a square, pixels.
+    side: f64,
+}
+
+impl Streamlines {
+    fn square(&self, position: DVec2) -> IVec2 {
+        (position / self.side).floor().as_ivec2()
+    }
+
+    /// Whether a line may go on at a position, coming from another one: it crosses neither another line nor itself.
+    fn enters(&mut self, from: DVec2, to: DVec2) -> bool {
+        let square = self.square(to);
+        square == self.square(from) || self.taken.insert(square)
+    }
+}
+
+/// Length of a part of a streamline, pixels.
+const STREAMLINE_STEP: f64 = 2.0;
+/// Parts of a streamline in each direction, at most.
+const STREAMLINE_STEPS: usize = 600;
+/// Speed below which a film is at rest, rad/s: a bubble of 50 mm would take an hour to flow once around.
+const REST_RAD_S: f64 = 2e-3;
+
 /// Half of the distance between the velocities whose difference is the vorticity, radians: below the cells of any flow.
 const HALF_STEP_RAD: f64 = 0.01;
 
@@ -126,6 +156,61 @@ impl<'a> FilmView<'a> {
             speed_m_s: velocity_rad_s(key, self.films, place).map(|velocity| velocity.length() * key.radius_m),
             vorticity_1_s: self.vorticity_1_s(key, place),
         })
+    }
+
+    /// Streamlines of the front walls at the moment, about `spacing` pixels apart: positions in the picture, in pixels from the top left, y down, each
+    /// line in the direction of the flow. A film at rest, or one whose flow is not known, has none.
+    #[must_use]
+    pub fn streamlines(&self, spacing: f64) -> Vec<Vec<DVec2>> {
+        let [columns, rows] = self.draw.size.map(|pixels| (f64::from(pixels) / spacing) as u32);
+        let mut traced = Streamlines { taken: HashSet::new(), side: 0.5 * spacing };
+        let mut lines = Vec::new();
+        for k in 0..columns * rows {
+            let seed = spacing * (DVec2::new((k % columns).into(), (k / columns).into()) + 0.5);
+            let Some((bubble, walls)) = self.nearest(seed) else { continue };
+            let square = traced.square(seed);
+            if !traced.taken.insert(square) {
+                continue;
+            }
+            let mut trace = |sign: f64| self.trace(bubble, (walls[0].place, seed), sign, &mut traced);
+            let (mut line, after) = (trace(-1.0), trace(1.0));
+            line.reverse();
+            line.push(seed);
+            line.extend(after);
+            if line.len() > 2 {
+                lines.push(line);
+            }
+        }
+        lines
+    }
+
+    /// A streamline from a place and its position in the picture on, with the flow or against it, as far as it is seen.
+    fn trace(
+        &self,
+        bubble: &SeenBubble<'_>,
+        (mut place, mut position): (DVec3, DVec2),
+        sign: f64,
+        traced: &mut Streamlines,
+    ) -> Vec<DVec2> {
+        let key = &bubble.key;
+        let from_eye_m = key.center_m - self.draw.camera.eye_m;
+        let step_rad = STREAMLINE_STEP * self.draw.camera.pixel_height_m * from_eye_m.length() / key.radius_m;
+        let direction = |place: DVec3| {
+            let velocity = velocity_rad_s(key, self.films, place).filter(|velocity| velocity.length() > REST_RAD_S)?;
+            Some(sign * (key.to_film.transpose() * velocity).normalize())
+        };
+        let mut line_on = || {
+            let middle = (place + 0.5 * step_rad * direction(place)?).normalize();
+            let next = (place + step_rad * direction(middle)?).normalize();
+            let to = self.camera.position(self.draw.size, from_eye_m + key.radius_m * (key.stretch * next))?;
+            let (_, walls) = self.nearest(to)?;
+            let is_seen = walls.first()?.place.distance(next) < 0.1 * step_rad;
+            (is_seen && traced.enters(position, to)).then(|| {
+                (place, position) = (next, to);
+                to
+            })
+        };
+        std::iter::from_fn(&mut line_on).take(STREAMLINE_STEPS).collect()
     }
 
     /// The nearest bubble on a line of sight, with the walls that it meets.
@@ -229,6 +314,27 @@ mod tests {
             assert!((front.speed_m_s.unwrap() - 3.0 * sin * front.radius_m).abs() < 1e-3, "{position}: {front:?}");
         }
         assert_eq!(view.front(DVec2::new(2.0, 2.0)), None, "beside the bubble");
+    }
+
+    /// A film that turns about the vertical flows along circles of one height, counterclockwise from above.
+    #[test]
+    fn streamlines_follow_the_flow() {
+        let draw = draw(&["camera.elevation_deg=20", "motion.flow=free"]);
+        let mut films = FilmsRead::default();
+        let grid = crate::physics::sphere::CubedSphere::new(64).unwrap();
+        films.thickness_nm.insert(0, PaddedField::sample(grid, |_| 500.0));
+        assert!(FilmView::new(&draw, &films).streamlines(20.0).is_empty(), "nothing is known of the flow");
+        films.velocity_rad_s.insert(0, PaddedField::sample(grid, |x| 3.0 * DVec3::Z.cross(x)));
+        let (view, to_film) = (FilmView::new(&draw, &films), draw.bubbles[0].to_film);
+        let lines = view.streamlines(20.0);
+        assert!(lines.len() > 4, "{}", lines.len());
+        for line in &lines {
+            let places: Vec<DVec3> = line.iter().map(|at| to_film * view.walls(*at)[0].place).collect();
+            let height = |end: fn(f64, f64) -> f64| places.iter().map(|place| place.z).reduce(end).unwrap();
+            let (low, high) = (height(f64::min), height(f64::max));
+            assert!(high - low < 1e-3, "{low} to {high}");
+            assert!(places.windows(2).all(|pair| pair[0].cross(pair[1]).z > 0.0), "{line:?}");
+        }
     }
 
     #[test]

@@ -50,8 +50,8 @@ impl View {
         });
         // What arrived just now counts.
         let walls = walls_in_sight(draw, self.reader.films(), position);
-        let moment = walls.first().and_then(|wall| self.reader.moment(wall.film));
-        let moment = moment.unwrap_or(model.clock.moment(&model.scene.motion));
+        let clock = model.clock.moment(&model.scene.motion);
+        let moment = walls.first().map_or(clock, |wall| self.reader.time(renderer, draw, wall.film, clock));
         let time_s = moment.ticks() * model.scene.motion.tick_s;
         let reading = Reading::new(&walls, time_s, model.scene.bubbles.len());
         let is_new = model.answer_probe(reading, &walls, is_read);
@@ -138,7 +138,7 @@ impl View {
             return due.after(FETCH);
         }
         let Some(thickness_nm) = thickness_at(draw, self.reader.films(), *film, places) else { return };
-        let time_s = self.reader.time(renderer, *film, moment).ticks() * model.scene.motion.tick_s;
+        let time_s = self.reader.time(renderer, draw, *film, moment).ticks() * model.scene.motion.tick_s;
         let wall = |index: usize| thickness_nm.get(index).copied();
         if pin.record(Sample { time_s, thickness_nm: [wall(0), wall(1)] }) {
             due.after(Duration::ZERO);
@@ -146,14 +146,26 @@ impl View {
     }
 
     /// Starts to save a plot of the pinned point as a picture.
-    pub fn capture_plot(&mut self, model: &mut Model, plot: Plot, path: PathBuf) {
+    pub fn capture_plot(&mut self, model: &Model, plot: Plot, path: PathBuf) {
         let Some(pin) = &model.probe.pinned else { return };
         let is_uniform = model.probe.is_uniform;
-        let figure = figure::draw(&self.stage.drawing.gpu, |ui| {
+        self.capture_figure(model, path, |ui| {
             panels::pin_plots::show(ui, pin, plot, is_uniform, ui.available_size());
         });
-        let ((readback, size), metadata) = (figure, capture::metadata(model));
-        self.captures.push(Capture { readback, size, radiance: false, path, metadata });
+    }
+
+    /// Starts to save the plot of the profile as a picture.
+    pub fn capture_profile(&mut self, model: &Model, path: PathBuf) {
+        let Some(profile) = &model.overlay.profile else { return };
+        self.capture_figure(model, path, |ui| {
+            // Two lines of text stand below the plot.
+            panels::overlay::chart(ui, profile, ui.available_height() - 44.0);
+        });
+    }
+
+    fn capture_figure(&mut self, model: &Model, path: PathBuf, content: impl Fn(&mut egui::Ui)) {
+        let (readback, size) = figure::draw(&self.stage.drawing.gpu, content);
+        self.captures.push(Capture { readback, size, radiance: false, path, metadata: capture::metadata(model) });
     }
 
     fn fetch(&mut self, model: &mut Model, files: &Files, due: &mut Due) {

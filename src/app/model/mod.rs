@@ -344,7 +344,8 @@ impl Model {
             Action::Reset => self.clock.reset(),
             Action::NewSeed => self.new_seeds(),
             Action::Loop => self.time_line.loops = !self.time_line.loops,
-            Action::RemoveMark => self.remove_selected(),
+            Action::Delete if self.time_line.selected.is_none() && self.outlines => self.delete_bubbles(),
+            Action::Delete => self.remove_selected(),
             Action::Present => self.presents = !self.presents,
             Action::Panels => self.shows_panels = !self.shows_panels,
             Action::Help => self.shows_help = !self.shows_help,
@@ -352,6 +353,7 @@ impl Model {
                 (self.shows_help, self.presents) = (false, false);
                 (self.probe.pinned, self.overlay.profile) = (None, None);
                 self.time_line.selected = None;
+                self.compare.close();
                 self.messages.clear();
             }
             Action::Duplicate => self.duplicate(),

@@ -22,7 +22,7 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
     let draw = |slot, pixels: &Pixels, clip: Rect| {
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         let texture = texture(ctx, slot, pixels, TextureOptions::NEAREST);
-        painter.with_clip_rect(clip).image(texture.id(), picture, whole, Color32::WHITE);
+        painter.with_clip_rect(clip).image(texture.id(), room(picture, pixels.size), whole, Color32::WHITE);
     };
     if let Some(map) = &model.compare.map {
         draw("compared", &map.pixels, picture);
@@ -44,6 +44,14 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
     });
 }
 
+/// Where a picture of a size stands over the one that is shown: as high, for both see the same angle from top to bottom, and unstretched.
+fn room(picture: Rect, size: [u32; 2]) -> Rect {
+    let aspect = size[0] as f32 / size[1].max(1) as f32;
+    // Rounding to whole pixels changes no aspect.
+    let is_same = (aspect * picture.height() - picture.width()).abs() < 2.0;
+    if is_same { picture } else { Rect::from_center_size(picture.center(), picture.height() * vec2(aspect, 1.0)) }
+}
+
 /// The line between A and B, which can be dragged.
 fn handle(ctx: &Context, picture: Rect, x: f32, compare: &mut Compare) {
     let area = Area::new(Id::unique("split")).order(Order::Middle).fixed_pos(pos2(x - 5.0, picture.top()));
@@ -62,6 +70,7 @@ fn controls(ui: &mut Ui, compare: &mut Compare) {
     let b = compare.other.as_ref().map(|(_, name)| name.clone());
     side(ui, "A, left", a, Side::A, compare);
     side(ui, "B, right", b, Side::B, compare);
+    memory(ui, compare);
     if let Some(done) = compare.done {
         ui.horizontal(|ui| {
             ui.add(ProgressBar::new(done).desired_width(180.0).text(format!("reference: {:.0} %", 100.0 * done)));
@@ -76,6 +85,24 @@ fn controls(ui: &mut Ui, compare: &mut Compare) {
         ui.label(format!("CIEDE2000: mean {:.3}, 99.9 % of the pixels below {:.2}", map.mean, map.p999));
         ui.horizontal(scale);
     }
+}
+
+/// Earlier pictures, to be flipped through.
+fn memory(ui: &mut Ui, compare: &mut Compare) {
+    let (at, count) = (compare.at, compare.memory.len());
+    if count < 2 {
+        return;
+    }
+    ui.horizontal(|ui| {
+        let mut step = |text: &str, help: &str, places: isize, is_there: bool| {
+            if ui.add_enabled(is_there, egui::Button::new(text).small()).on_hover_text(help).clicked() {
+                compare.flip(places);
+            }
+        };
+        step("Earlier", "Show the picture that was kept before as A", -1, at > 0);
+        step("Later", "Show the picture that was kept after it as A", 1, at + 1 < count);
+        ui.weak(format!("A is picture {} of {count}", at + 1));
+    });
 }
 
 /// The name of a picture, and the qualities in which it can be made anew.

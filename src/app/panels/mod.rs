@@ -18,7 +18,7 @@ mod lesson;
 mod light;
 mod motion;
 mod notices;
-mod overlay;
+pub mod overlay;
 mod picture;
 pub mod pin_plots;
 mod places;

@@ -4,6 +4,7 @@ use egui::{Align2, Color32, Ui, Vec2, vec2};
 use egui_plot::{Bar, BarChart, Line, LineStyle, Plot as Chart, PlotPoint, PlotPoints, PlotUi, Points, Text, VLine};
 use glam::{DVec2, DVec3};
 
+use super::plots::with_few_marks;
 use crate::{
     app::probe::{Pin, Plot, SpectrumRow},
     physics::{
@@ -33,7 +34,7 @@ pub fn show(ui: &mut Ui, pin: &Pin, plot: Plot, is_uniform: bool, room: Vec2) {
 fn chart<'a>(name: &'a str, size: Vec2) -> Chart<'a> {
     let chart = Chart::new(name).width(size.x).height(size.y).set_margin_fraction(vec2(0.0, 0.04));
     // Axes of one width, so that wavelengths of several plots stand beneath one another.
-    let chart = chart.y_axis_min_width(44.0);
+    let chart = with_few_marks(chart).y_axis_min_width(44.0);
     chart.allow_drag(false).allow_zoom(false).allow_scroll(false).allow_boxed_zoom(false)
 }
 
@@ -62,8 +63,14 @@ fn spectra(ui: &mut Ui, pin: &Pin, room: Vec2) {
     light.y_axis_label("light").show(ui, |plot| {
         plot.line(curve("light", pin, LIGHT, |row| row.light).fill(0.0));
     });
-    let walls = [("s", S), ("p", P), ("unpolarised", MEAN), ("both walls", BOTH), ("light, over λ in nm", LIGHT)];
-    let kept: Vec<_> = walls.into_iter().filter(|(name, _)| *name != "both walls" || has_two(pin)).collect();
+    let walls = [
+        ("s", S),
+        ("p", P),
+        ("unpolarised", MEAN),
+        ("both walls; s and p of both dashed", BOTH),
+        ("light, over λ in nm", LIGHT),
+    ];
+    let kept: Vec<_> = walls.into_iter().filter(|(name, _)| !name.starts_with("both walls") || has_two(pin)).collect();
     legend(ui, &kept);
 }
 
@@ -77,6 +84,9 @@ fn polarised(ui: &mut Ui, name: &str, pin: &Pin, size: Vec2, quantity: Quantity)
         plot.line(curve("p", pin, P, |row| quantity(row)[0].p));
         plot.line(curve("unpolarised", pin, MEAN, |row| quantity(row)[0].mean()));
         if has_two(pin) {
+            let dashed = |line: Line<'static>| line.style(LineStyle::dashed_dense()).width(1.0);
+            plot.line(dashed(curve("s, both walls", pin, S, |row| quantity(row)[1].s)));
+            plot.line(dashed(curve("p, both walls", pin, P, |row| quantity(row)[1].p)));
             plot.line(curve("both walls", pin, BOTH, |row| quantity(row)[1].mean()));
         }
     });

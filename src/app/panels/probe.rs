@@ -1,18 +1,22 @@
 //! The probe's numbers: a card beside the pointer, and a window with plots for what was clicked.
 
-use egui::{Align2, Area, Color32, Context, Frame, Grid, Id, Rect, ScrollArea, Sense, Ui, Window, vec2};
+use egui::{
+    Align2, Area, Color32, Context, Frame, Grid, Id, LayerId, Rect, ScrollArea, Sense, Stroke, Ui, Window, vec2,
+};
 
-use super::{pin_plots, tools};
+use super::{pin_plots, places, tools};
 use crate::Words;
 use crate::app::{
     model::Model,
     probe::{Pin, Plot, Probe, Reading, WallReading},
     request::{Request, Target},
+    sight,
 };
 use crate::physics::colour::chromaticity_xy;
 
 /// Shows what the probe has found, over the picture.
 pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
+    mark(ctx, picture, model);
     pinned(ctx, picture, model);
     let place = ctx.pointer_hover_pos().filter(|place| picture.contains(*place));
     let (Some(reading), Some(place)) = (&model.probe.hover, place) else { return };
@@ -61,6 +65,21 @@ fn numbers(ui: &mut Ui, reading: &Reading) {
         }
         ui.end_row();
     });
+}
+
+/// A cross at the place of the nearest wall that was clicked, which moves with the bubble.
+fn mark(ctx: &Context, picture: Rect, model: &Model) {
+    let Some(Pin { places: (film, walls), .. }) = &model.probe.pinned else { return };
+    let (Some(bubble), Some(wall)) = (model.scene.bubbles.get(*film), walls.first()) else { return };
+    let center_m = model.scene.center_m(*film, model.clock.time_s(&model.scene.motion));
+    let Some(at) = sight::place(&model.scene.camera, center_m + 1e-3 * bubble.radius_mm * *wall) else { return };
+    let (at, painter) = (places::at(picture, at), ctx.layer_painter(LayerId::background()).with_clip_rect(picture));
+    for stroke in [Stroke::new(3.0, Color32::from_black_alpha(150)), Stroke::new(1.2, Color32::WHITE)] {
+        for way in [vec2(7.0, 0.0), vec2(0.0, 7.0)] {
+            painter.line_segment([at - way, at - 0.35 * way], stroke);
+            painter.line_segment([at + 0.35 * way, at + way], stroke);
+        }
+    }
 }
 
 /// The window of what was clicked: its numbers, its plots, and ways to take them along.

@@ -66,7 +66,8 @@ impl Handler {
                 let csv = self.model.overlay.profile.as_ref().map(|profile| profile.csv());
                 csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
             }
-            Target::SavePlot(plot) => view.capture_plot(&mut self.model, plot, with_ending(path, "png")),
+            Target::SaveProfilePlot => view.capture_profile(&self.model, with_ending(path, "png")),
+            Target::SavePlot(plot) => view.capture_plot(&self.model, plot, with_ending(path, "png")),
             Target::SaveCsv(plot) => {
                 let csv = self.model.probe.pinned.as_ref().map(|pin| pin.csv(plot));
                 csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
