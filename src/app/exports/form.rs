@@ -87,6 +87,8 @@ pub struct Form {
     pub map_height: String,
     /// The file or folder.
     pub path: String,
+    /// The file beside the scene, as long as nobody has chosen another one.
+    pub proposed: Option<String>,
     /// Why the last attempt was refused.
     pub refused: Option<String>,
 }
@@ -111,6 +113,7 @@ impl Default for Form {
             projection: Projection::Equirect,
             map_height: "512".to_owned(),
             path: String::new(),
+            proposed: None,
             refused: None,
         }
     }
@@ -134,12 +137,18 @@ impl Form {
         fill(&mut self.width, width.to_string());
         fill(&mut self.height, height.to_string());
         fill(&mut self.end_s, format!("{end_s:.2}"));
-        fill(&mut self.path, stem.display().to_string());
-        self.name_file();
+        if self.path.is_empty() || self.proposed.as_ref() == Some(&self.path) {
+            self.path = stem.display().to_string();
+            self.name_file();
+            self.proposed = Some(self.path.clone());
+        } else {
+            self.name_file();
+        }
     }
 
     /// Gives the file the ending of its format, after another format was chosen.
     pub fn name_file(&mut self) {
+        let is_proposed = self.proposed.as_ref() == Some(&self.path);
         let path = Path::new(&self.path);
         let known = path
             .extension()
@@ -152,6 +161,7 @@ impl Form {
             name.push(ending);
         }
         self.path = name.to_string_lossy().into_owned();
+        self.proposed = is_proposed.then(|| self.path.clone());
     }
 
     /// The ending of the file; folders have none.

@@ -32,6 +32,14 @@ impl Exports {
         self.entries.push(Entry::new(self.count, job, scene));
     }
 
+    /// Whether the file that the dialog names is there already, or will be: an export would replace it.
+    #[must_use]
+    pub fn replaces(&self, form: &Form) -> bool {
+        form.path().is_ok_and(|path| {
+            self.entries.iter().any(|entry| entry.path == path) || (form.ending().is_some() && path.exists())
+        })
+    }
+
     /// The next export to be done, unless one is being done: it counts as running from now on.
     pub fn begin_next(&mut self) -> Option<(u64, Job, LoadedScene, Arc<Watch>)> {
         if self.entries.iter().any(Entry::is_running) {

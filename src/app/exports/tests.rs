@@ -22,8 +22,11 @@ fn a_dialog_opens_with_what_the_window_shows() {
     let Ok(Job::Picture { options, format: Format::Png, time_s, .. }) = form.job(2.5, 0) else { panic!("no picture") };
     assert_eq!((options.size, options.samples, time_s), ([640, 400], 1, 2.5));
     form.width = "1920 px".to_owned();
+    form.open(Path::new("b/saved"), [10, 10], 1.0);
+    assert_eq!((form.width(), form.path.as_str()), (Ok(1920), "b/saved.png"), "what was typed stays");
+    form.path = "c/own.png".to_owned();
     form.open(Path::new("b/other"), [10, 10], 1.0);
-    assert_eq!((form.width(), form.path.as_str()), (Ok(1920), "a/life.png"), "what was typed stays");
+    assert_eq!(form.path, "c/own.png");
 }
 
 #[test]

@@ -55,6 +55,8 @@ struct Begun {
     purpose: Purpose,
     /// The clock's tick before the redraw that began it.
     first_tick: u64,
+    /// The clock's tick that it is of.
+    tick: u64,
     /// The tick before which the clock is not taken back, should films not keep up.
     earliest_tick: u64,
     since: Instant,
@@ -132,10 +134,10 @@ impl View {
         loop {
             match self.bring(model, first_tick) {
                 Drawn::Yes(drawn) => {
-                    let (Begun { request, purpose, earliest_tick, .. }, finished) = *drawn;
+                    let (Begun { request, purpose, tick, earliest_tick, .. }, finished) = *drawn;
                     match purpose {
                         Purpose::Show(scene) => {
-                            model.pictured = Some(scene);
+                            (model.pictured, model.pictured_tick) = (Some(scene), tick);
                             return self.show(model, request, &finished, [first_tick, earliest_tick], due);
                         }
                         purpose => self.hand_out(&request, purpose, due),
@@ -195,7 +197,14 @@ impl View {
                 return Drawn::Waits;
             }
             let earliest_tick = first_tick.saturating_sub(std::mem::take(&mut pictures.late_ticks));
-            pictures.begun = Some(Begun { request, purpose, first_tick, earliest_tick, since: Instant::now() });
+            pictures.begun = Some(Begun {
+                request,
+                purpose,
+                first_tick,
+                tick: model.clock.tick,
+                earliest_tick,
+                since: Instant::now(),
+            });
             self.stage.drawing.begin(plan);
             patience = PATIENCE;
         }
@@ -332,6 +341,7 @@ fn hold_clock(model: &mut Model, request: &FrameRequest, state: &GpuState, first
         }
     }
     if missing > 0 {
+        model.pictured_tick = reached;
         let requested = model.clock.tick;
         model.clock.hold(reached, first_tick);
         missing = missing.saturating_sub(requested - model.clock.tick);

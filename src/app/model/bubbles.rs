@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::Model;
 use crate::{
-    app::{edit::Edit, group::Group, history, tools},
+    app::{edit::Edit, group::Group, history, sight, tools},
     scene::{Boundary, Bubble, Change, Drag},
 };
 
@@ -121,8 +121,18 @@ impl Model {
         if after > first && self.edit(Edit::Films(bubbles, generators)) {
             self.select_one(after - 1);
             self.also_selected.extend(first..after - 1);
-            self.outlines = true;
+            (self.outlines, self.shows_added) = (true, true);
         }
+    }
+
+    /// Whether all selected bubbles are in a picture of an aspect, which is its width over its height.
+    pub(super) fn sees_selection(&self, aspect: f64) -> bool {
+        let (camera, edge) = (&self.scene.camera, 0.5 * DVec2::new(aspect, 1.0));
+        self.selection().into_iter().all(|index| {
+            let (center_m, radius_m) = (self.put_m(index), 1e-3 * self.scene.bubbles[index].radius_mm);
+            let radius = radius_m / (sight::height(camera) * sight::depth_m(camera, center_m));
+            sight::place(camera, center_m).is_some_and(|place| (place.abs() + radius).cmple(edge).all())
+        })
     }
 
     /// Deletes the selected bubbles; what would have happened to them is forgotten, and what happens to others stays.

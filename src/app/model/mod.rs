@@ -116,6 +116,10 @@ pub struct Model {
     pub opened: u64,
     /// Which of them the picture shows, if there is a picture.
     pub pictured: Option<u64>,
+    /// The tick that the picture shows: while time passes, the clock is ahead of it.
+    pub pictured_tick: u64,
+    /// Whether bubbles were added that must be seen.
+    pub shows_added: bool,
     /// Whether the picture takes so long to draw that people are told.
     pub drawing: bool,
     /// Ticks that the films are behind the clock.
@@ -182,6 +186,8 @@ impl Model {
             loading: None,
             opened: 1,
             pictured: None,
+            pictured_tick: 0,
+            shows_added: false,
             drawing: false,
             behind_ticks: 0,
             messages,
@@ -323,9 +329,17 @@ impl Model {
 
     /// Moves the camera in a picture of an aspect, which is its width over its height.
     pub fn move_camera(&mut self, gesture: &orbit::Gesture, aspect: f64) {
+        let hides_added = std::mem::take(&mut self.shows_added) && !self.sees_selection(aspect);
+        let framed = |model: &Self| {
+            let spheres = model.scene.spheres(model.clock.time_s(&model.scene.motion));
+            orbit::framed(&model.scene.camera, &spheres, aspect)
+        };
         if gesture.frame {
-            let spheres = self.scene.spheres(self.clock.time_s(&self.scene.motion));
-            self.look_from(orbit::framed(&self.scene.camera, &spheres, aspect));
+            self.look_from(framed(self));
+        } else if hides_added && self.scene.camera.keyframes.is_empty() {
+            let camera = framed(self);
+            // Adding them is the step that can be taken back.
+            self.scene.change(|scene| scene.camera = camera);
         } else if gesture.moves() {
             self.look_from(orbit::moved(&self.scene.camera, &self.scene.bubbles, gesture));
         } else if gesture.follow != DVec2::ZERO && self.scene.camera.keyframes.is_empty() {

@@ -15,16 +15,23 @@ impl Model {
         if self.behind_ticks == 0 && self.is_pictured() {
             self.clock.advance(wall_s, motion);
         }
-        let time_s = self.clock.time_s(motion);
+        let (time_s, shown_s) = (self.clock.time_s(motion), self.shown_tick() as f64 * motion.tick_s);
         if !self.clock.running || self.behind_ticks > 0 {
-            self.rate.restart(time_s);
+            self.rate.restart(shown_s);
         } else if self.time_line.loops && time_s >= self.time_line.length_s {
             self.clock.reset();
             self.rate.restart(0.0);
         } else {
-            self.rate.note(wall_s, time_s);
+            self.rate.note(wall_s, shown_s);
         }
         self.follow_keyframes();
+    }
+
+    /// The tick that people see: while time passes that of the picture, which the clock is ahead of, and else that of the clock.
+    #[must_use]
+    pub fn shown_tick(&self) -> u64 {
+        let follows = self.clock.running && self.behind_ticks == 0;
+        if follows { self.pictured_tick.min(self.clock.tick) } else { self.clock.tick }
     }
 
     /// Turns a camera without keyframes about the vertical. Looking around is no work that could be lost.

@@ -83,7 +83,13 @@ fn dialog(ctx: &Context, model: &mut Model) {
         ui.add_space(6.0);
         ui.horizontal(|ui| {
             let job = form.job(time_s, model.selected);
-            clicked.exports = ui.add_enabled(job.is_ok(), egui::Button::new("Export")).clicked();
+            let replaces = model.exports.replaces(&form);
+            let text = if replaces { "Replace the file" } else { "Export" };
+            let export = ui.add_enabled(job.is_ok(), egui::Button::new(text));
+            clicked.exports = export.clicked();
+            if replaces {
+                export.on_hover_text("A file of this name is there already, or waits to be exported");
+            }
             clicked.closes = ui.button("Close").clicked();
         });
         clicked
@@ -221,9 +227,7 @@ fn file(ui: &mut Ui, form: &mut Form) -> bool {
     let (fault, name) = (form.path().err(), if form.ending().is_some() { "File" } else { "Folder" });
     let chooses = ui.horizontal(|ui| {
         let width = (ui.available_width() - 190.0).max(60.0);
-        row(ui, name, "Where it goes; a file that is there already is replaced", |ui| {
-            ui.add(TextEdit::singleline(&mut form.path).desired_width(width))
-        });
+        row(ui, name, "Where it goes", |ui| ui.add(TextEdit::singleline(&mut form.path).desired_width(width)));
         ui.button("Choose…").clicked()
     });
     if let Some(fault) = fault {

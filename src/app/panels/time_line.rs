@@ -56,7 +56,7 @@ fn clock(ui: &mut Ui, model: &mut Model) {
     let length = DragValue::new(&mut model.time_line.length_s).range(0.1..=36_000.0).speed(0.05).suffix(" s");
     let label = ui.label("Length");
     ui.add(length).labelled_by(label.id).on_hover_text("How far the time line reaches, and where a loop begins again");
-    ui.monospace(format!("{:7.2} s", model.clock.time_s(&model.scene.motion)));
+    ui.monospace(format!("{:7.2} s", model.shown_tick() as f64 * model.scene.motion.tick_s));
 }
 
 /// How the film keeps up, or which event is selected.
@@ -92,7 +92,7 @@ fn told(ui: &mut Ui, model: &mut Model) {
 /// The slider; returns the part of it that its values span.
 fn time(ui: &mut Ui, model: &mut Model, end_tick: u64) -> Rect {
     let tick_s = model.scene.motion.tick_s;
-    let mut time_s = model.clock.time_s(&model.scene.motion);
+    let mut time_s = model.shown_tick() as f64 * tick_s;
     ui.spacing_mut().slider_width = ui.available_width();
     let slider = Slider::new(&mut time_s, 0.0..=end_tick as f64 * tick_s);
     let slider = ui.add(slider.show_value(false).clamping(SliderClamping::Always).trailing_fill(true));

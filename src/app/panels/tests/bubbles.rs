@@ -140,7 +140,9 @@ fn all_that_are_selected_are_duplicated_and_deleted() {
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!((window.state().model.scene.bubbles.len(), window.state().model.scene.events.len()), (6, 2));
     (0..2).for_each(|_| press(&mut window, Modifiers::COMMAND, Key::Z));
-    assert_eq!(*window.state().model.scene, before);
+    // The camera has stepped back to show the copies, which is no step.
+    let camera = window.state().model.scene.camera.clone();
+    assert_eq!(*window.state().model.scene, Scene { camera, ..before });
 }
 
 #[test]
@@ -245,4 +247,20 @@ fn the_tool_that_moves_takes_all_selected_along() {
     assert_eq!((model.undo.steps(), model.scene.validate()), (1, Ok(())));
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(window.state().model.scene.events, []);
+}
+
+#[test]
+fn a_bubble_that_is_added_beside_the_picture_is_brought_into_it() {
+    let mut model = model();
+    let still = crate::app::orbit::Gesture::default();
+    let before_m = model.scene.camera.distance_m;
+    model.add_bubble(model.scene.bubbles[0].clone());
+    model.move_camera(&still, 1.2);
+    assert!(model.scene.camera.distance_m > before_m, "both are seen");
+    let both = model.scene.camera.clone();
+    model.move_camera(&still, 1.2);
+    assert_eq!(model.scene.camera, both, "once");
+    model.delete_bubbles();
+    model.move_camera(&still, 1.2);
+    assert_eq!(model.scene.camera, both);
 }

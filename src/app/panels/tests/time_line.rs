@@ -90,6 +90,26 @@ fn time_begins_with_the_first_picture() {
 }
 
 #[test]
+fn the_time_that_is_shown_is_that_of_the_picture_and_never_goes_back() {
+    let mut model = model();
+    model.advance(0.4);
+    assert!(model.clock.tick > 20 && model.shown_tick() == 0, "no picture of it yet");
+    model.pictured_tick = 8;
+    // The film has not kept up: the clock goes back to it.
+    model.clock.hold(8, 0);
+    assert_eq!(model.shown_tick(), 8);
+    for pictured in [16, 24, 32] {
+        model.advance(1.2);
+        (model.pictured_tick, _) = (pictured, model.clock.hold(pictured, 0));
+    }
+    let rate = model.rate.latest().unwrap();
+    assert!(rate > 0.0 && rate < 0.2, "{rate}");
+    model.clock.running = false;
+    model.clock.seek(300);
+    assert_eq!(model.shown_tick(), 300, "where the time line was put");
+}
+
+#[test]
 fn a_loop_begins_again_at_its_length() {
     let mut model = model();
     (model.time_line.loops, model.time_line.length_s) = (true, 1.0);
