@@ -122,6 +122,7 @@ pub const BINDINGS: &[Binding] = &[
     bare(Key::Num6, Action::Take(Tool::Probe), "The pointer measures a film"),
     bare(Key::Num7, Action::Take(Tool::Profile), "The pointer draws a line to measure along"),
     bare(Key::Num8, Action::Take(Tool::Lamp), "The pointer moves a lamp by its highlight"),
+    bare(Key::Num9, Action::Take(Tool::Wand), "The pointer blows a new bubble"),
     bare(Key::K, Action::Keep, "Keep this picture, to compare others with it"),
     bare(Key::L, Action::Loop, "Play in a loop"),
     bare(

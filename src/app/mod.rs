@@ -67,6 +67,7 @@ mod surface;
 #[cfg_attr(not(target_arch = "wasm32"), path = "system/desktop.rs")]
 pub(crate) mod system;
 mod tools;
+mod wand;
 pub(crate) mod window;
 
 use crate::gpu::GpuError;

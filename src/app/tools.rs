@@ -28,19 +28,21 @@ pub enum Tool {
     Profile,
     /// It moves lamps by their highlights.
     Lamp,
+    /// It blows new bubbles.
+    Wand,
 }
 
 impl Tool {
     /// Whether it acts on films.
     #[must_use]
     pub fn acts(self) -> bool {
-        !matches!(self, Self::Orbit | Self::Probe | Self::Profile | Self::Lamp)
+        !matches!(self, Self::Orbit | Self::Probe | Self::Profile | Self::Lamp | Self::Wand)
     }
 }
 
 impl Tool {
-    /// All tools, each with its name and what it does, in the order of the keys 1 to 8.
-    pub const ALL: [(Self, &str, &str); 8] = [
+    /// All tools, each with its name and what it does, in the order of the keys 1 to 9.
+    pub const ALL: [(Self, &str, &str); 9] = [
         (Self::Orbit, "Orbit", "Drag to turn around the bubble (1)"),
         (Self::Stir, "Stir", "Drag over a film to stir it (2)"),
         (
@@ -53,6 +55,7 @@ impl Tool {
         (Self::Probe, "Probe", "Point at a film to measure it; click to keep the numbers and see plots (6)"),
         (Self::Profile, "Profile", "Draw a line over a film to plot thickness against height along it (7)"),
         (Self::Lamp, "Lamp", "Drag a lamp by its highlight on a bubble, or by itself (8)"),
+        (Self::Wand, "Wand", "Press where a new bubble shall be, and drag until it is large enough (9)"),
     ];
 }
 
@@ -192,7 +195,7 @@ impl Grip {
         match self.tool {
             Tool::Stir => stroke(self.bubble, before, self.at, radius_m / (ticks as f64 * tick_s), ticks),
             Tool::Blow => Some(jet(&aim, ticks)),
-            Tool::Orbit | Tool::Drag | Tool::Prick | Tool::Probe | Tool::Profile | Tool::Lamp => None,
+            Tool::Orbit | Tool::Drag | Tool::Prick | Tool::Probe | Tool::Profile | Tool::Lamp | Tool::Wand => None,
         }
     }
 }

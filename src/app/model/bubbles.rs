@@ -4,7 +4,13 @@ use glam::{DVec2, DVec3};
 
 use super::Model;
 use crate::{
-    app::{edit::Edit, group::Group, history, sight, tools},
+    app::{
+        edit::Edit,
+        group::Group,
+        history, sight,
+        tools::{self, Press, Tool},
+        wand::Wand,
+    },
     scene::{Boundary, Bubble, Change, Drag},
 };
 
@@ -111,6 +117,21 @@ impl Model {
             copy.center_m = rounded(DVec3::from(copy.center_m) + 1.1 * (right_m - left_m) * right);
         }
         self.add_bubbles(copies);
+    }
+
+    /// Blows a new bubble with the wand while the pointer is pressed, and adds it once the pointer is let go. Tells whether the camera shall stand.
+    pub fn blow(&mut self, pressed: Option<Press>) -> bool {
+        if self.tool != Tool::Wand {
+            self.wand = None;
+            return false;
+        }
+        if let Some(press) = pressed {
+            self.wand = Wand::new(&self.scene.camera, press);
+        } else if let Some(wand) = self.wand.take() {
+            let bubble = wand.bubble();
+            self.add_bubbles(vec![Bubble { center_m: rounded(wand.center_m), ..bubble }]);
+        }
+        true
     }
 
     fn add_bubbles(&mut self, added: Vec<Bubble>) {

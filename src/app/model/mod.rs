@@ -34,6 +34,7 @@ use super::{
     time_line::TimeLine,
     tools::{self, Hand, Press, Tool},
     undo::Undo,
+    wand::Wand,
 };
 use crate::{
     input::LoadedScene,
@@ -96,6 +97,8 @@ pub struct Model {
     pub tool: Tool,
     /// What the pointer does with it.
     pub hand: Hand,
+    /// The bubble that it blows.
+    pub wand: Option<Wand>,
     /// The handle of the gizmo that it holds.
     pub gizmo: Option<gizmo::Grip>,
     /// How the lamps of the light are edited.
@@ -176,6 +179,7 @@ impl Model {
             spectrum: Editor::default(),
             tool: Tool::default(),
             hand: Hand::default(),
+            wand: None,
             gizmo: None,
             lamps: Lamps::default(),
             stands_alone: false,
@@ -224,7 +228,7 @@ impl Model {
         self.motion_draft = None;
         (self.spectrum, self.lamps) = (Editor::default(), Lamps::default());
         // What the hand held is gone.
-        (self.hand, self.gizmo) = (Hand::default(), None);
+        (self.hand, self.wand, self.gizmo) = (Hand::default(), None, None);
         self.loading = None;
     }
 

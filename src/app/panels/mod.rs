@@ -87,7 +87,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     }
     let mut picture = picture::show(ui, model);
     picture.gesture.frame |= actions.contains(&Action::Frame);
-    if model.hold_lamp(picture.pressed) || model.touch(picture.pressed) {
+    if model.hold_lamp(picture.pressed) || model.blow(picture.pressed) || model.touch(picture.pressed) {
         picture.gesture.turn = DVec2::ZERO;
     }
     if let Some(place) = picture.hovered.filter(|_| picture.clicked && model.tool == Tool::Orbit) {
@@ -141,6 +141,7 @@ fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
     if !model.presents {
         picture::outline(ctx, picture, model);
         lamps::held(ctx, picture, model);
+        picture::blown(ctx, picture, model);
         tools::show(ctx, picture, model);
         hints::show(ctx, picture, model);
     }

@@ -264,3 +264,28 @@ fn a_bubble_that_is_added_beside_the_picture_is_brought_into_it() {
     model.move_camera(&still, 1.2);
     assert_eq!(model.scene.camera, both);
 }
+
+#[test]
+fn the_wand_blows_a_bubble_where_the_pointer_draws_it() {
+    let mut window = trio();
+    press(&mut window, Modifiers::NONE, Key::Num9);
+    let rect = window.state().picture.unwrap().rect;
+    let from = rect.center() + vec2(0.0, 0.3 * rect.height());
+    window.drag_at(from);
+    window.step();
+    for side in [10.0, 30.0, 60.0] {
+        window.hover_at(from + vec2(side, 0.0));
+        window.step();
+    }
+    assert!(window.state().model.wand.is_some() && window.state().model.scene.bubbles.len() == 3);
+    window.drop_at(from + vec2(60.0, 0.0));
+    window.run();
+    let model = &window.state().model;
+    assert_eq!((model.scene.bubbles.len(), model.selected, model.wand), (4, 3, None));
+    let (middle, radius) = crate::app::tools::outline(&model.scene, 0, 3).unwrap();
+    let height = f64::from(rect.height());
+    // A sphere's outline is a little larger than its great circle.
+    assert!((middle.y + 0.3).abs() < 2e-3 && (radius * height - 60.0).abs() < 3.0, "{middle} {}", radius * height);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.state().model.scene.bubbles.len(), 3);
+}
