@@ -28,6 +28,8 @@ pub struct WallReading {
     pub cos_theta: f64,
     /// Speed of the liquid along the film, m/s, if it is known.
     pub speed_m_s: Option<f64>,
+    /// Where it flows to in the picture, degrees counterclockwise from the right; none at rest.
+    pub flow_deg: Option<f64>,
     /// XYZ of white light after reflection; a perfect mirror has Y = 1.
     pub xyz: DVec3,
     /// Path difference between the light of both faces, 2 n d cos of the angle inside, at 589 nm, in nm.
@@ -142,7 +144,8 @@ impl Reading {
         let mut text = format!("{} at {:.3} s\n", self.bubble, self.time_s);
         for wall in &self.walls {
             let ([x, y, z], xy) = (wall.xyz.to_array(), chromaticity_xy(wall.xyz));
-            let speed = wall.speed_m_s.map_or("unknown".to_owned(), |speed| format!("{:.1} mm/s", 1e3 * speed));
+            let toward = wall.flow_deg.map_or(String::new(), |deg| format!(" toward {deg:.0}° from the right"));
+            let speed = wall.speed_m_s.map_or("unknown".to_owned(), |speed| format!("{:.1} mm/s{toward}", 1e3 * speed));
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
@@ -188,6 +191,7 @@ fn reading(optics: &FilmOptics, wall: &WallInSight, thickness_nm: f64, is_front:
         thickness_nm,
         cos_theta,
         speed_m_s: wall.speed_m_s,
+        flow_deg: wall.flow_deg,
         xyz,
         path_nm: optics.film().path_nm(thickness_nm, cos_theta),
         swatch: exposed.to_array().map(|part| (255.0 * srgb_encode(part.clamp(0.0, 1.0))).round() as u8),
@@ -268,6 +272,7 @@ pub(super) mod tests {
             cos_theta: 0.5f64.sqrt(),
             thickness_nm: Some(thickness_nm),
             speed_m_s: Some(0.01),
+            flow_deg: Some(-35.0),
             optics: optics.clone(),
         };
         Reading::new(&[wall(320.0, DVec3::X), wall(500.0, DVec3::NEG_X)], 1.5, 1).unwrap()

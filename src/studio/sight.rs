@@ -38,6 +38,8 @@ pub struct WallInSight {
     pub thickness_nm: Option<f64>,
     /// Speed of the liquid along the film, m/s, if it is known.
     pub speed_m_s: Option<f64>,
+    /// Where it flows to in the picture, degrees counterclockwise from the right; none at rest.
+    pub flow_deg: Option<f64>,
     /// What the film is made of, and the light.
     pub optics: OpticsKey,
 }
@@ -240,12 +242,17 @@ impl<'a> FilmView<'a> {
 
     fn seen(&self, bubble: &SeenBubble<'a>, wall: &Wall) -> WallInSight {
         let key = &bubble.key;
+        let velocity = velocity_rad_s(key, self.films, wall.place);
         WallInSight {
             film: key.index,
             place: wall.place,
             cos_theta: wall.cos_theta,
             thickness_nm: self.thickness_nm(bubble, wall.place),
-            speed_m_s: velocity_rad_s(key, self.films, wall.place).map(|velocity| velocity.length() * key.radius_m),
+            speed_m_s: velocity.map(|velocity| velocity.length() * key.radius_m),
+            flow_deg: velocity.filter(|velocity| velocity.length() > REST_RAD_S).map(|velocity| {
+                let way = key.to_film.transpose() * velocity;
+                way.dot(self.draw.camera.up).atan2(way.dot(self.draw.camera.right)).to_degrees()
+            }),
             optics: self.draw.lighting.films[key.material].quadrature.optics.clone(),
         }
     }
@@ -312,6 +319,10 @@ mod tests {
             let sin = (1.0 - cos * cos).sqrt();
             assert!((front.vorticity_1_s.unwrap() - 6.0 * cos).abs() < 0.02, "{position}: {front:?} {cos}");
             assert!((front.speed_m_s.unwrap() - 3.0 * sin * front.radius_m).abs() < 1e-3, "{position}: {front:?}");
+            let [front, back] = &view.walls(position)[..] else { panic!("two walls") };
+            // In front it flows to the right, behind to the left.
+            let (right, left) = (front.flow_deg.unwrap(), back.flow_deg.unwrap());
+            assert!(right.abs() < 60.0 && left.abs() > 120.0, "{position}: {right} and {left}");
         }
         assert_eq!(view.front(DVec2::new(2.0, 2.0)), None, "beside the bubble");
     }

@@ -35,6 +35,7 @@ fn the_probe_says_what_the_command_says() {
             cos_theta,
             thickness_nm: Some(thickness_nm),
             speed_m_s: None,
+            flow_deg: None,
             optics: optics.clone(),
         };
         let reading = Reading::new(&[wall(front_nm), wall(back_nm)], 0.0, 1).unwrap();
