@@ -34,9 +34,8 @@ pub struct Grid {
 
 impl Grid {
     pub(in crate::gpu) fn new(gpu: &Gpu, sphere: CubedSphere, cap: Option<Cap>) -> Self {
-        let n = sphere.n();
         let (areas, film_area) = match cap {
-            None => ((0..n * n).map(|cell| sphere.cell_area(cell % n, cell / n)).collect(), 4.0 * std::f64::consts::PI),
+            None => (sphere.panel_areas(), 4.0 * std::f64::consts::PI),
             Some(cap) => {
                 let areas = film_areas(sphere, cap);
                 let sum = areas.iter().sum();
@@ -48,7 +47,7 @@ impl Grid {
             cap,
             film_area,
             sphere,
-            cells: n as u32,
+            cells: sphere.n() as u32,
             tangents: gpu.storage("tangents", &sphere.edge_tangents()),
             areas: gpu.storage("areas", &areas),
             halo: OnceLock::new(),

@@ -1,7 +1,6 @@
-//! Keys of the scene's sections in rows that follow from their declarations, each with a way back to its default. Those of the motion have a panel of
-//! their own, and a key without a value has no row.
+//! Keys of the scene's sections in rows that follow from their declarations, each with a way back to its default.
 
-use egui::{ComboBox, DragValue, Grid, Response, Ui};
+use egui::{ComboBox, DragValue, Grid, Id, Response, Ui};
 use serde::{Serialize, de::DeserializeOwned};
 use toml::Value;
 
@@ -11,10 +10,10 @@ use super::{
 };
 use crate::{
     app::{edit::Edit, group::Group, model::Model},
-    scene::{Bubble, Camera, Film, Generator, Key, Lens, Light, Range, View},
+    scene::{Bubble, Camera, Film, Generator, Key, Lens, Light, Motion, Range, View},
 };
 
-/// Shows and edits the keys of the selected bubble and generator, the camera, the view, the lens and the light.
+/// Shows and edits the keys of the selected bubble and generator, the motion, the camera, the view, the lens and the light.
 pub fn show(ui: &mut Ui, model: &mut Model) {
     if let Some(bubble) = model.scene.bubbles.get(model.selected) {
         let (mut edited, group) = (bubble.clone(), model.group());
@@ -33,6 +32,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
             model.edit(Edit::Generator(model.selected_generator, edited.into()));
         }
     }
+    motion(ui, model);
     let mut camera = model.scene.camera.clone();
     if section(ui, "Camera", &mut camera, Camera::ALL_KEYS) {
         model.look_from(camera);
@@ -54,6 +54,21 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     }
 }
 
+/// The keys of the motion in force. A number that is dragged counts once it is let go, or each value on the way would be an event.
+fn motion(ui: &mut Ui, model: &mut Model) {
+    let (id, now) = (Id::unique("keys of the motion"), model.motion());
+    let mut edited = ui.data(|data| data.get_temp::<Motion>(id)).unwrap_or_else(|| now.clone());
+    section(ui, "Motion", &mut edited, Motion::ALL_KEYS);
+    if edited != now && ui.input(|input| input.pointer.any_down()) {
+        ui.data_mut(|data| data.insert_temp(id, edited));
+        return;
+    }
+    ui.data_mut(|data| data.remove_temp::<Motion>(id));
+    if edited != now {
+        model.edit(Edit::Motion(edited.into()));
+    }
+}
+
 /// The rows of a section; returns whether one was changed.
 fn section<T>(ui: &mut Ui, title: &str, value: &mut T, keys: &[Key]) -> bool
 where
@@ -72,8 +87,19 @@ where
     ui.strong(title);
     Grid::new(title).num_columns(3).spacing([8.0, 3.0]).show(ui, |ui| {
         for key in keys {
-            let Some(now) = table.get_mut(key.name) else { continue };
-            row(ui, key, now, normal.get(key.name), group.is_mixed(key));
+            match table.get_mut(key.name) {
+                Some(now) => {
+                    if row(ui, key, now, normal.get(key.name), group.is_mixed(key)) {
+                        table.remove(key.name);
+                    }
+                }
+                None => {
+                    let Range::Within(low, high) = key.range else { continue };
+                    if unset_row(ui, key) {
+                        give::<T>(&mut table, key, middle(low, high));
+                    }
+                }
+            }
             ui.end_row();
         }
     });
@@ -90,8 +116,32 @@ where
     true
 }
 
-/// The name of a key, its value, and a way back to the normal one.
-fn row(ui: &mut Ui, key: &Key, now: &mut Value, normal: Option<&Value>, is_mixed: bool) {
+/// Gives a key a number as its value, or three of them: whichever it takes.
+fn give<T: DeserializeOwned>(table: &mut toml::Table, key: &Key, number: f64) {
+    for value in [Value::Float(number), Value::Array(vec![Value::Float(number); 3])] {
+        let mut tried = table.clone();
+        tried.insert(key.name.to_owned(), value);
+        if Value::Table(tried.clone()).try_into::<T>().is_ok() {
+            *table = tried;
+            return;
+        }
+    }
+}
+
+/// A key without a value; returns whether it shall have one.
+fn unset_row(ui: &mut Ui, key: &Key) -> bool {
+    ui.label(key.label).on_hover_text(format!("`{}`: {}", key.name, tooltip(key.help)));
+    ui.small_button("set").on_hover_text(format!("Give {} a value; it has none", key.label)).clicked()
+}
+
+/// A whole number between the ends of a range: where they are both positive, as a ratio.
+fn middle(low: f64, high: f64) -> f64 {
+    let middle = if low > 0.0 { (low * high).sqrt() } else { 0.5 * (low + high) };
+    middle.round()
+}
+
+/// The name of a key, its value, and a way back to the normal one; returns whether it shall have none.
+fn row(ui: &mut Ui, key: &Key, now: &mut Value, normal: Option<&Value>, is_mixed: bool) -> bool {
     let label = ui.label(key.label).on_hover_text(format!("`{}`: {}", key.name, tooltip(key.help)));
     ui.horizontal(|ui| {
         field(ui, key, now, &label);
@@ -99,12 +149,17 @@ fn row(ui: &mut Ui, key: &Key, now: &mut Value, normal: Option<&Value>, is_mixed
             ui.weak(MIXED).on_hover_text("The selected bubbles differ; this is the value of one");
         }
     });
-    if let Some(normal) = normal.filter(|normal| *normal != now) {
+    let Some(normal) = normal else {
+        let unset = ui.small_button("unset").on_hover_text(format!("{} has no value by default", key.label));
+        return unset.clicked();
+    };
+    if normal != now {
         let reset = ui.small_button("reset").on_hover_text(format!("Set {} back to {normal}", key.label));
         if reset.clicked() {
             *now = normal.clone();
         }
     }
+    false
 }
 
 /// The widget of a value.

@@ -4,7 +4,7 @@ use egui::Ui;
 
 use super::{
     film,
-    widgets::{choice, number, number_within, seed, slider},
+    widgets::{choice, group, number, number_within, seed, slider},
 };
 use crate::{
     app::{edit::Edit, group::Group, model::Model},
@@ -24,6 +24,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         slider(ui, "Generator", &mut number, 1..=count, "The generator to edit", |slider| slider);
         model.selected_generator = number - 1;
     }
+    add_and_delete(ui, model);
     let Some(generator) = model.scene.generators.get(model.selected_generator) else { return };
     let mut edited = generator.clone();
     bubbles(ui, &mut edited);
@@ -32,6 +33,22 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     if edited != *generator {
         model.edit(Edit::Generator(model.selected_generator, edited.into()));
     }
+}
+
+/// Buttons that add and delete generators.
+fn add_and_delete(ui: &mut Ui, model: &mut Model) {
+    group(ui, "", |ui| {
+        let mut generators = model.scene.generators.clone();
+        if ui.button("Add").on_hover_text("Add a generator of many bubbles").clicked() {
+            generators.push(Generator::default());
+            model.selected_generator = generators.len() - 1;
+        } else if !generators.is_empty() && ui.button("Delete").on_hover_text("Delete this generator").clicked() {
+            generators.remove(model.selected_generator);
+        } else {
+            return;
+        }
+        model.edit(Edit::Films(model.scene.bubbles.clone(), generators));
+    });
 }
 
 fn bubbles(ui: &mut Ui, generator: &mut Generator) {

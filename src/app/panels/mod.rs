@@ -165,9 +165,7 @@ fn sections(ui: &mut Ui, model: &mut Model) {
             section(ui, &title, true, |ui| lesson::show(ui, model));
         }
         section(ui, "Film", true, |ui| film::show(ui, model));
-        if !model.scene.generators.is_empty() {
-            section(ui, "Generators", true, |ui| generators::show(ui, model));
-        }
+        section(ui, "Generators", !model.scene.generators.is_empty(), |ui| generators::show(ui, model));
         section(ui, "Motion", true, |ui| motion::show(ui, model));
         section(ui, "Light", true, |ui| light::show(ui, model));
         section(ui, "View", true, |ui| view::show(ui, model));

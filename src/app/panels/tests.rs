@@ -147,6 +147,15 @@ fn another_film_starts_from_the_beginning() {
     assert_eq!((model.scene.bubbles[0].film.state, model.clock.tick), (FilmStateName::Rest, 0));
 }
 
+/// Clicks the button of a name that stands nearest to a label's row.
+fn click_beside(window: &mut Harness<'static, State>, button: &str, label: &str) {
+    let y = window.get_all_by_label(label).next().unwrap().rect().center().y;
+    let heights: Vec<f32> = window.get_all_by_label(button).map(|button| button.rect().center().y).collect();
+    let nearest = (0..heights.len()).min_by(|a, b| (heights[*a] - y).abs().total_cmp(&(heights[*b] - y).abs()));
+    window.get_all_by_label(button).nth(nearest.unwrap()).unwrap().click();
+    window.run();
+}
+
 #[test]
 fn all_keys_have_rows_and_can_be_set_back() {
     let mut model = model();
@@ -160,14 +169,42 @@ fn all_keys_have_rows_and_can_be_set_back() {
     for label in ["Azimuth", "Target", "Center", "Film seed"] {
         assert!(window.query_all_by_label(label).next().is_some(), "{label}");
     }
-    let resets: Vec<_> = window.query_all_by_label("reset").map(|reset| reset.rect().center().y).collect();
-    let azimuth = window.query_all_by_label("Azimuth").next().unwrap().rect().center().y;
-    let nearest =
-        (0..resets.len()).min_by(|a, b| (resets[*a] - azimuth).abs().total_cmp(&(resets[*b] - azimuth).abs()));
-    window.query_all_by_label("reset").nth(nearest.unwrap()).unwrap().click();
-    window.run();
+    click_beside(&mut window, "reset", "Azimuth");
     assert_eq!(window.state().model.scene.camera.azimuth_deg, 20.0, "its normal value");
     assert_eq!(window.state().model.scene.bubbles, before.bubbles, "other keys stay");
+}
+
+#[test]
+fn keys_without_a_value_are_set_and_unset() {
+    let mut window = harness(model(), vec2(1280.0, 6000.0));
+    window.state_mut().model.clock.running = false;
+    window.run();
+    click(&mut window, "All keys");
+    let before = Scene::clone(&window.state().model.scene);
+    assert_eq!(before.camera.focal_mm, None);
+    click_beside(&mut window, "set", "Focal length");
+    let focal_mm = window.state().model.scene.camera.focal_mm.unwrap();
+    assert!(focal_mm > 1.0 && window.state().model.scene.validate().is_ok(), "{focal_mm} mm");
+    click_beside(&mut window, "unset", "Focal length");
+    assert_eq!(window.state().model.scene.camera, before.camera);
+    // Those of the motion too, of which most are events.
+    for label in ["Gravity", "Tick"] {
+        window.query_all_by_label(label).last().unwrap();
+    }
+}
+
+#[test]
+fn generators_are_added_and_deleted() {
+    let mut window = harness(model(), vec2(1280.0, 3000.0));
+    window.state_mut().model.clock.running = false;
+    window.run();
+    click(&mut window, "Generators");
+    // Bubbles are added above.
+    window.get_all_by_label("Add").last().unwrap().click();
+    window.run();
+    assert_eq!(window.state().model.scene.generators.len(), 1);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.state().model.scene.generators.len(), 0);
 }
 
 #[test]

@@ -109,11 +109,24 @@ impl CubedSphere {
         (pyramid(x1, y1) - pyramid(x0, y1)) - (pyramid(x1, y0) - pyramid(x0, y0))
     }
 
+    /// The solid angles of the cells of one panel in the order j, i: those of [`Self::cell_area`], with what neighbours share computed once.
+    pub fn panel_areas(self) -> Vec<f64> {
+        let n = self.n;
+        let edges: Vec<f64> = (0..=n).map(|k| self.tangent(k as f64 - 0.5)).collect();
+        let corners = |y: f64| edges.iter().map(|x| pyramid(*x, y)).collect::<Vec<_>>();
+        let mut areas = Vec::with_capacity(n * n);
+        let mut below = corners(edges[0]);
+        for y in &edges[1..] {
+            let above = corners(*y);
+            areas.extend((0..n).map(|i| (above[i + 1] - above[i]) - (below[i + 1] - below[i])));
+            below = above;
+        }
+        areas
+    }
+
     /// The solid angles of all cells in the order panel, j, i.
     pub fn areas(self) -> Vec<f64> {
-        let n = self.n;
-        let panel: Vec<f64> = (0..n * n).map(|cell| self.cell_area(cell % n, cell / n)).collect();
-        panel.repeat(6)
+        self.panel_areas().repeat(6)
     }
 
     /// Values along a row of a padded panel, N + 2·[`HALO`].
@@ -207,6 +220,13 @@ mod tests {
             // Summing 4e5 terms loses a few digits on top of the closed form's 1e-16.
             assert!((sum - 4.0 * PI).abs() < 1e-12, "N = {n}: {:e}", sum - 4.0 * PI);
         }
+    }
+
+    #[test]
+    fn areas_of_a_panel_are_those_of_its_cells() {
+        let grid = CubedSphere::new(17).unwrap();
+        let cells: Vec<f64> = (0..17 * 17).map(|cell| grid.cell_area(cell % 17, cell / 17)).collect();
+        assert_eq!(grid.panel_areas(), cells);
     }
 
     #[test]
