@@ -66,6 +66,52 @@ pub enum Action {
     Quit,
 }
 
+/// What actions are about: the help lists their keys together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Topic {
+    /// The clock and the time line.
+    Time,
+    /// What the pointer is used for.
+    Tools,
+    /// The films, and what moves them.
+    Films,
+    /// What is seen.
+    View,
+    /// What is selected, and steps that are taken back.
+    Edit,
+    /// Files, and the end of the program.
+    File,
+}
+
+impl Topic {
+    /// All topics, each with its heading, in the order of the help.
+    pub const ALL: [(Self, &str); 6] = [
+        (Self::Time, "Time"),
+        (Self::Tools, "Tools"),
+        (Self::Films, "Films"),
+        (Self::View, "View"),
+        (Self::Edit, "Edit"),
+        (Self::File, "File"),
+    ];
+}
+
+impl Action {
+    /// What it is about.
+    #[must_use]
+    pub fn topic(self) -> Topic {
+        match self {
+            Self::Pause | Self::Step | Self::Reset | Self::Loop => Topic::Time,
+            Self::Take(_) => Topic::Tools,
+            Self::NewSeed | Self::TiltRight | Self::TiltLeft | Self::TiltAway | Self::TiltBack => Topic::Films,
+            Self::Frame | Self::Keep | Self::Panels | Self::Present | Self::Help | Self::Dismiss => Topic::View,
+            Self::Undo | Self::Redo | Self::Duplicate | Self::SelectAll | Self::RemoveMark => Topic::Edit,
+            Self::Open | Self::Save | Self::SaveAs | Self::SavePng | Self::SaveExr | Self::Quit => Topic::File,
+            #[cfg(not(target_arch = "wasm32"))]
+            Self::Export => Topic::File,
+        }
+    }
+}
+
 /// A key, its action, and its line in the help.
 pub struct Binding {
     /// The key with its modifiers.
@@ -152,6 +198,15 @@ pub const POINTER: [(&str, &str); 7] = [
     ("Double click", "Frame the bubbles"),
 ];
 
+/// The keys of a topic. Of two keys with the same action, one is listed.
+pub fn listed(topic: Topic) -> impl Iterator<Item = &'static Binding> {
+    let is_first = |(index, binding): &(usize, &Binding)| {
+        !BINDINGS[..*index].iter().any(|earlier| earlier.action == binding.action)
+    };
+    let bindings = BINDINGS.iter().enumerate().filter(is_first).map(|(_, binding)| binding);
+    bindings.filter(move |binding| binding.action.topic() == topic)
+}
+
 /// The actions of the keys pressed since the last frame. A widget that has the keyboard keeps its bare keys.
 #[must_use]
 pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
@@ -184,6 +239,15 @@ mod tests {
             // A keyboard reports the command key as ctrl too, as egui's winit layer does.
             let modifiers = Modifiers { ctrl: modifiers.command, ..modifiers };
             assert_eq!(press(modifiers, logical_key), [binding.action], "{}", binding.help);
+        }
+    }
+
+    #[test]
+    fn every_action_is_listed_once() {
+        let listed: Vec<_> = Topic::ALL.iter().flat_map(|(topic, _)| listed(*topic)).collect();
+        for binding in BINDINGS {
+            let same = listed.iter().filter(|other| other.action == binding.action);
+            assert_eq!(same.count(), 1, "{}", binding.help);
         }
     }
 

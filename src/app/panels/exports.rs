@@ -1,8 +1,11 @@
 //! The dialog for exports, and what they are doing, over the picture's lower right corner.
 
-use egui::{Align2, Area, Context, Frame, Id, Modal, ProgressBar, Rect, RichText, ScrollArea, TextEdit, Ui, vec2};
+use egui::{Align2, Area, Context, Frame, Id, Label, Modal, ProgressBar, Rect, RichText, TextEdit, Ui, vec2};
 
-use super::widgets::{choice_of, group, options_of, row};
+use super::{
+    dialog,
+    widgets::{choice_of, group, options_of, row},
+};
 use crate::{
     Words,
     app::{
@@ -58,12 +61,13 @@ fn line(ui: &mut Ui, entry: &Entry) -> Option<u64> {
 fn dialog(ctx: &Context, model: &mut Model) {
     let mut form = std::mem::take(&mut model.exports.form);
     let before = form.clone();
-    let (time_s, room) = (model.clock.time_s(&model.scene.motion), ctx.content_rect().size());
+    let time_s = model.clock.time_s(&model.scene.motion);
     let modal = Modal::new(Id::unique("export")).show(ctx, |ui| {
-        ui.set_width((room.x - 40.0).clamp(60.0, 520.0));
+        ui.set_width(dialog::width(ui, 520.0));
         ui.heading("Export");
         let mut clicked = Clicked::default();
-        ScrollArea::vertical().max_height((room.y - 140.0).max(60.0)).show(ui, |ui| {
+        // A refusal may take three lines.
+        dialog::scroll(ui, 110.0).show(ui, |ui| {
             choice_of(ui, "What", &mut form.kind, Kind::CHOICES);
             ui.weak(form.kind.help());
             ui.add_space(4.0);
@@ -214,9 +218,9 @@ fn picture(ui: &mut Ui, form: &mut Form) {
 fn number(ui: &mut Ui, name: &str, help: &str, text: &mut String, unit: &str, fault: Option<String>) {
     row(ui, name, help, |ui| {
         let field = ui.add(TextEdit::singleline(text).desired_width(NUMBER));
-        ui.label(unit);
+        ui.add(Label::new(unit).wrap());
         if let Some(fault) = fault {
-            ui.colored_label(ui.visuals().warn_fg_color, fault);
+            ui.add(Label::new(RichText::new(fault).color(ui.visuals().warn_fg_color)).wrap());
         }
         field
     });

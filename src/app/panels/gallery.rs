@@ -2,10 +2,9 @@
 
 use std::{collections::BTreeMap, sync::Arc, time::Duration};
 
-use egui::{
-    Button, ColorImage, Context, Id, Image, Modal, RichText, ScrollArea, TextureHandle, TextureOptions, Ui, vec2,
-};
+use egui::{Button, ColorImage, Context, Id, Image, Modal, RichText, TextureHandle, TextureOptions, Ui, vec2};
 
+use super::dialog;
 use crate::{
     app::{model::Model, request::Request, system::thumbnail},
     scene::{
@@ -31,11 +30,11 @@ pub fn show(ctx: &Context, model: &mut Model) {
     if !model.shows_gallery {
         return;
     }
-    let (pictures, room) = (pictures(ctx), ctx.content_rect().size());
+    let pictures = pictures(ctx);
     let (mut chosen, mut chosen_lesson) = (None, None);
     let modal = Modal::new(Id::unique("gallery")).show(ctx, |ui| {
-        ui.set_width((room.x - 60.0).clamp(60.0, 940.0));
-        ScrollArea::vertical().max_height((room.y - 90.0).max(60.0)).show(ui, |ui| {
+        ui.set_width(dialog::width(ui, 940.0));
+        dialog::scroll(ui, 40.0).show(ui, |ui| {
             lessons(ui, &pictures, &mut chosen_lesson);
             let tests = [("For testing", &TEST_PRESETS[..])];
             for (title, names) in PRESET_GROUPS.iter().chain(&tests) {

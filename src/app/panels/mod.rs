@@ -4,6 +4,7 @@ mod all_keys;
 mod camera;
 pub mod compare;
 mod costs;
+mod dialog;
 #[cfg(not(target_arch = "wasm32"))]
 mod exports;
 mod film;

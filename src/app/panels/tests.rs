@@ -20,6 +20,7 @@ use crate::{
 };
 
 mod bubbles;
+mod dialogs;
 mod exports;
 mod keyframes;
 mod lamps;
