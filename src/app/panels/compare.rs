@@ -7,13 +7,16 @@ use egui::{
     pos2, vec2,
 };
 
-use super::textures::texture;
+use super::{textures::texture, tools};
 use crate::app::{
     colour_map::viridis,
     compare::{Compare, MAP_SCALE, Pixels, Side, Want},
     model::Model,
 };
 use crate::{Words, scene::Quality};
+
+/// Width of what can be done with the pictures, points.
+const WIDTH: f32 = 330.0;
 
 /// Shows A left of the split and B right of it, or the map, over the picture; and what can be done with them.
 pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
@@ -34,11 +37,13 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
         draw("compared", &kept, Rect::from_min_max(picture.min, pos2(x, picture.bottom())));
         handle(ctx, picture, x, &mut model.compare);
     }
-    let corner = picture.right_top() + vec2(-10.0, 10.0);
-    let area = Area::new(Id::unique("compare")).fixed_pos(corner).pivot(Align2::RIGHT_TOP).constrain_to(picture);
+    // Beside the tools if there is room.
+    let room = if picture.width() < tools::WIDTH + WIDTH + 30.0 { tools::room_below(picture) } else { picture };
+    let corner = room.right_top() + vec2(-10.0, 10.0);
+    let area = Area::new(Id::unique("compare")).fixed_pos(corner).pivot(Align2::RIGHT_TOP).constrain_to(room);
     area.show(ctx, |ui| {
         Frame::popup(ui.style()).show(ui, |ui| {
-            ui.set_max_width((picture.width() - 34.0).clamp(60.0, 330.0));
+            ui.set_max_width((picture.width() - 34.0).clamp(60.0, WIDTH));
             controls(ui, &mut model.compare);
         });
     });

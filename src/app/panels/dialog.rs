@@ -9,7 +9,7 @@ const AROUND: f32 = 44.0;
 /// that grew by and by would move under the pointer.
 pub fn scroll(ui: &Ui, rest: f32) -> ScrollArea {
     let height = (ui.ctx().content_rect().height() - AROUND - rest).max(60.0);
-    ScrollArea::vertical().max_height(height).min_scrolled_height(height)
+    ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink([false, true])
 }
 
 /// The width of a dialog that would like to have one.

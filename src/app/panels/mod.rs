@@ -36,7 +36,7 @@ mod view;
 mod widgets;
 mod window;
 
-use egui::{CollapsingHeader, Context, Panel, Rect, ScrollArea, Ui};
+use egui::{CollapsingHeader, Context, Id, Panel, Rect, ScrollArea, Ui};
 use glam::DVec2;
 
 use super::{
@@ -49,6 +49,10 @@ use super::{
 
 /// Width of the panels, points.
 const WIDTH: f32 = 308.0;
+/// Width of a window, points, below which the panels leave too little of the picture: they are hidden at first there.
+const NARROW: f32 = 560.0;
+/// Width of a picture, points, below which nothing stands over it: the panels cover all but a strip of it.
+const STRIP: f32 = 120.0;
 
 /// What the user interface leaves of the window, and what was done there.
 #[derive(Clone, Copy, Debug)]
@@ -78,6 +82,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     for action in &actions {
         model.act(*action);
     }
+    fold(ui, model);
     if !model.presents {
         time_line::show(ui, model);
         if model.shows_panels {
@@ -101,6 +106,24 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
         over_picture(ui.ctx(), picture.rect, model);
     }
     picture
+}
+
+/// Hides the panels when the window becomes narrow, and brings them back as they were when it is wide again.
+fn fold(ui: &Ui, model: &mut Model) {
+    let is_narrow = ui.available_width() < NARROW;
+    let id = Id::unique("panels of the wide window");
+    let wide: Option<bool> = ui.data(|data| data.get_temp(id));
+    match wide {
+        None if is_narrow => {
+            ui.data_mut(|data| data.insert_temp(id, model.shows_panels));
+            model.shows_panels = false;
+        }
+        Some(shown) if !is_narrow => {
+            ui.data_mut(|data| data.remove::<bool>(id));
+            model.shows_panels = shown;
+        }
+        _ => {}
+    }
 }
 
 /// Whether Shift or Ctrl was held at a click. By the time of a slow frame it may be let go.
@@ -139,16 +162,19 @@ const SHORTEST_LINE: f64 = 0.02;
 
 /// What stands over the picture, and the questions over everything.
 fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
-    if !model.presents {
+    let has_room = picture.width() >= STRIP;
+    if !model.presents && has_room {
         picture::outline(ctx, picture, model);
         lamps::held(ctx, picture, model);
         picture::blown(ctx, picture, model);
         tools::show(ctx, picture, model);
         hints::show(ctx, picture, model);
     }
-    overlay::show(ctx, picture, model);
-    compare::show(ctx, picture, model);
-    probe::show(ctx, picture, model);
+    if has_room {
+        overlay::show(ctx, picture, model);
+        compare::show(ctx, picture, model);
+        probe::show(ctx, picture, model);
+    }
     notices::show(ctx, picture, model);
     help::show(ctx, &mut model.shows_help);
     gallery::show(ctx, model);

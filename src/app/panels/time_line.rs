@@ -56,6 +56,7 @@ fn clock(ui: &mut Ui, model: &mut Model) {
     let length = DragValue::new(&mut model.time_line.length_s).range(0.1..=36_000.0).speed(0.05).suffix(" s");
     let label = ui.label("Length");
     ui.add(length).labelled_by(label.id).on_hover_text("How far the time line reaches, and where a loop begins again");
+    ui.toggle_value(&mut model.shows_panels, "Panels").on_hover_text("Show or hide the panels (H)");
     ui.monospace(format!("{:7.2} s", model.shown_tick() as f64 * model.scene.motion.tick_s));
 }
 

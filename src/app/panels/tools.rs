@@ -4,10 +4,19 @@ use egui::{Area, Context, Frame, Id, Rect, vec2};
 
 use crate::app::{model::Model, tools::Tool};
 
-/// The room of windows below the tools, which stand in two rows over a narrow picture.
+/// Width of the tools in one row with the margins around them, points.
+pub const WIDTH: f32 = 410.0;
+
+/// The room of windows below the tools, which stand in several rows over a narrow picture.
 pub fn room_below(picture: Rect) -> Rect {
-    let height: f32 = if picture.width() < 400.0 { 74.0 } else { 46.0 };
-    Rect::from_min_max(picture.min + vec2(0.0, height.min(picture.height())), picture.max)
+    // The last tool of a row may leave room that it is too wide for.
+    let rows = match picture.width() {
+        width if width >= WIDTH => 1.0,
+        width if width >= 0.6 * WIDTH => 2.0,
+        _ => 3.0,
+    };
+    let height = 18.0 + 28.0 * rows;
+    Rect::from_min_max(picture.min + vec2(0.0, picture.height().min(height)), picture.max)
 }
 
 /// Shows the tools over a corner of the picture.

@@ -80,3 +80,49 @@ fn the_help_lists_keys_under_headings() {
     let tops = names.map(top);
     assert!(tops.windows(2).all(|pair| pair[0] < pair[1]), "{tops:?}");
 }
+
+/// Everything over the picture, in a window as it begins.
+#[test]
+fn areas_stay_within_small_windows_and_beside_the_tools() {
+    for size in SIZES {
+        let screen = Rect::from_min_size(egui::Pos2::ZERO, size).expand(0.5);
+        let mut model = model();
+        model.clock.running = false;
+        model.messages.problem("a problem with a long name that must find its place somewhere");
+        let pixels = Pixels { size: [2, 2], rgba: vec![90; 16].into() };
+        model.compare.keep(pixels, "furnace at 0.00 s".to_owned());
+        let mut window = harness(model, size);
+        (0..4).for_each(|_| window.step());
+        let picture = window.state().picture.unwrap().rect;
+        assert!(picture.width() >= 300.0 && picture.height() >= 100.0, "{size}: {picture}");
+        let shown: Vec<Rect> = window.ctx.memory(|memory| {
+            let areas = memory.areas().visible_layer_ids();
+            areas.into_iter().filter_map(|layer| memory.area_rect(layer.id)).collect()
+        });
+        assert!(shown.len() >= 4, "{size}: {shown:?}");
+        assert!(shown.iter().all(|rect| screen.contains_rect(*rect)), "{size}: {shown:?}");
+        assert!(!area(&window, "tools").intersects(area(&window, "compare")), "{size}");
+        for name in ["Pause", "Loop", "Panels", "Time"] {
+            let all = window.query_all_by_label(name).next().or_else(|| window.query_all_by_label("Play").next());
+            assert!(screen.contains_rect(all.unwrap().rect()), "{name} in {size}");
+        }
+    }
+}
+
+#[test]
+fn panels_of_a_narrow_window_come_when_they_are_wanted() {
+    let mut window = quiet(vec2(320.0, 240.0));
+    assert!(window.query_by_label("Presets").is_none());
+    click(&mut window, "Panels");
+    let screen = Rect::from_min_size(egui::Pos2::ZERO, vec2(320.0, 240.0));
+    for name in ["Presets", "File", "Picture", "Window", "Undo", "Panels"] {
+        let rect = window.get_by_label(name).rect();
+        assert!(screen.contains_rect(rect), "{name}: {rect}");
+    }
+    assert!(window.query_by_label("Orbit").is_none(), "no tools over a strip");
+    click(&mut window, "Panels");
+    assert!(window.query_by_label("Presets").is_none() && window.query_by_label("Orbit").is_some());
+    window.set_size(vec2(1280.0, 800.0));
+    window.run();
+    window.get_by_label("Presets");
+}
