@@ -83,7 +83,8 @@ fn file(ui: &mut Ui, model: &mut Model) {
         ui.separator();
     }
     for path in model.settings.recent.clone() {
-        if ui.button(file_name(&path)).on_hover_text(&path).clicked() {
+        let name = egui::Button::new(file_name(&path)).wrap_mode(egui::TextWrapMode::Extend);
+        if ui.add(name).on_hover_text(&path).clicked() {
             model.ask_for(Request::LoadScene(path));
         }
     }

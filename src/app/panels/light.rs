@@ -25,8 +25,6 @@ const BLACK_BODY: &str = "3200 K";
 pub fn show(ui: &mut Ui, model: &mut Model) {
     environment(ui, model);
     illuminant(ui, model);
-    spectrum::show(ui, model);
-    lamps::show(ui, model);
     let mut light = model.scene.light.clone();
     if let Some(radiance) = &mut light.constant {
         group(ui, "Radiance", |ui| {
@@ -41,6 +39,9 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         slider.logarithmic(true).smallest_positive(0.01).max_decimals(2)
     });
     change(model, light);
+    // What folds stands below, or the rows of the whole light would read as those of a lamp.
+    spectrum::show(ui, model);
+    lamps::show(ui, model);
 }
 
 /// Changes the light. Before lamps, even light is a part of the map of the surroundings, which is then computed anew.

@@ -33,13 +33,20 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         None => number(ui, &Camera::KEYS.fov_y_deg, &mut camera.fov_y_deg, |slider| slider.max_decimals(1)),
     };
     number(ui, &Camera::KEYS.follow_deg, &mut camera.follow_deg, |slider| slider.max_decimals(0));
+    let decimals = decimals(camera.distance_m);
     number(ui, &Camera::KEYS.distance_m, &mut camera.distance_m, |slider| {
-        slider.logarithmic(true).smallest_positive(0.001).max_decimals(3)
+        slider.logarithmic(true).smallest_positive(0.001).max_decimals(decimals)
     })
     .on_hover_text("F frames the bubbles.");
     if camera != model.scene.camera {
         model.look_from(camera);
     }
+}
+
+/// Decimals of a length in m that show three of its digits, and at least millimetres.
+fn decimals(length_m: f64) -> usize {
+    let digits = if length_m > 0.0 { 2.0 - length_m.log10().floor() } else { 3.0 };
+    digits.clamp(3.0, 9.0) as usize
 }
 
 fn lens(ui: &mut Ui, model: &mut Model) {
