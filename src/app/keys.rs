@@ -211,11 +211,16 @@ pub fn listed(topic: Topic) -> impl Iterator<Item = &'static Binding> {
 #[must_use]
 pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
     let taken = ctx.egui_wants_keyboard_input();
+    // Escape closes an open menu, and nothing else.
+    let has_menu = egui::Popup::is_any_open(ctx);
     // Ctrl+A also selects a text that is typed.
-    let free = |binding: &&Binding| !taken || binding.shortcut.modifiers.command && binding.action != Action::SelectAll;
+    let is_free = |binding: &&Binding| {
+        let is_command = binding.shortcut.modifiers.command && binding.action != Action::SelectAll;
+        (!taken || is_command) && !(has_menu && binding.action == Action::Dismiss)
+    };
     ctx.input_mut(|input| {
         let hit = |binding: &&Binding| input.consume_shortcut(&binding.shortcut);
-        BINDINGS.iter().filter(free).filter(hit).map(|binding| binding.action).collect()
+        BINDINGS.iter().filter(is_free).filter(hit).map(|binding| binding.action).collect()
     })
 }
 
