@@ -17,6 +17,8 @@ pub struct Key {
     pub range: Range,
     /// What it means, as the format's page says it.
     pub help: &'static str,
+    /// Its default as TOML; `None` where that is no value.
+    pub normal: fn() -> Option<toml::Value>,
 }
 
 /// What a key may be.
@@ -181,6 +183,10 @@ macro_rules! section {
                     unit: $unit,
                     range: $crate::scene::section::range!($type, $($range)+),
                     help: $help,
+                    normal: || {
+                        let normal: $type = $default;
+                        toml::Value::try_from(normal).ok()
+                    },
                 },)+
             };
 

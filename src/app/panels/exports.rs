@@ -4,7 +4,7 @@ use egui::{Align2, Area, Context, Frame, Id, Label, Modal, ProgressBar, Rect, Ri
 
 use super::{
     dialog,
-    widgets::{choice_of, group, options_of, row},
+    widgets::{choice_of, follow_focus, group, options_of, row},
 };
 use crate::{
     Words,
@@ -76,6 +76,7 @@ fn dialog(ctx: &Context, model: &mut Model) {
                 form.name_file();
             }
             clicked.chooses = file(ui, &mut form);
+            follow_focus(ui);
         });
         // What was refused may be right now.
         if form != before {

@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, sync::Arc, time::Duration};
 
 use egui::{Button, ColorImage, Context, Id, Image, Modal, RichText, TextureHandle, TextureOptions, Ui, vec2};
 
-use super::dialog;
+use super::{dialog, widgets::follow_focus};
 use crate::{
     app::{model::Model, request::Request, system::thumbnail},
     scene::{
@@ -48,6 +48,7 @@ pub fn show(ctx: &Context, model: &mut Model) {
                     }
                 });
             }
+            follow_focus(ui);
         });
         ui.button("Close").clicked()
     });

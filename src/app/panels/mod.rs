@@ -26,6 +26,7 @@ mod places;
 mod plots;
 mod probe;
 mod question;
+mod rail;
 mod spectrum;
 #[cfg(test)]
 mod tests;
@@ -199,6 +200,7 @@ fn sections(ui: &mut Ui, model: &mut Model) {
         section(ui, "Measure", true, |ui| overlay::choices(ui, &mut model.overlay));
         section(ui, "All keys", false, |ui| all_keys::show(ui, model));
         section(ui, "Costs", false, |ui| costs::show(ui, model));
+        widgets::follow_focus(ui);
     });
 }
 

@@ -2,7 +2,7 @@
 
 use egui::{Response, Ui};
 
-use super::widgets::{choice, number, number_within, seed, slider};
+use super::widgets::{choice, number, number_within, seed, slider_from, tooltip};
 use crate::{
     app::{edit::Edit, history, model::Model},
     scene::{Motion, MotionChange},
@@ -42,9 +42,15 @@ fn gravity(ui: &mut Ui, gravity_m_s2: &mut [f64; 3]) -> bool {
     let mut strength = y.hypot(z);
     let mut tilt_deg = if strength > 0.0 { y.atan2(-z).to_degrees() } else { 0.0 };
     let key = Motion::KEYS.gravity_m_s2;
-    let pull = number_within(ui, &key, &mut strength, 0.0..=100.0, |slider| slider.max_decimals(1));
+    let [x, y, z] = Motion::default().gravity_m_s2;
+    let normal = Some(x.hypot(y).hypot(z));
+    let pull = slider_from(ui, key.label, &mut strength, 0.0..=100.0, &tooltip(key.help), normal, |slider| {
+        slider.suffix(key.unit).max_decimals(1)
+    });
     let help = "Angle from straight down towards +y. The arrow keys tilt gravity as seen in the picture.";
-    let tilt = slider(ui, "Tilt", &mut tilt_deg, -180.0..=180.0, help, |s| s.suffix("°").max_decimals(1));
+    let tilt = slider_from(ui, "Tilt", &mut tilt_deg, -180.0..=180.0, help, Some(0.0), |slider| {
+        slider.suffix("°").max_decimals(1)
+    });
     if pull.changed() || tilt.changed() {
         let (sin, cos) = tilt_deg.to_radians().sin_cos();
         let rounded = |part: f64| (part * 1e3).round() / 1e3;

@@ -27,6 +27,7 @@ mod lamps;
 mod lesson;
 mod measure;
 mod picture;
+mod rows;
 mod safety;
 mod spectrum;
 mod time_line;

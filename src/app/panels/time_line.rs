@@ -5,6 +5,7 @@ use egui::{
     DragValue, Event, Panel, Pos2, ProgressBar, Rect, Response, Sense, Slider, SliderClamping, Stroke, Ui, pos2, vec2,
 };
 
+use super::rail;
 use crate::app::{history, model::Model, time_line::Mark};
 
 /// Height of a strip with marks, points.
@@ -98,8 +99,14 @@ fn time(ui: &mut Ui, model: &mut Model, end_tick: u64) -> Rect {
     let slider = Slider::new(&mut time_s, 0.0..=end_tick as f64 * tick_s);
     let slider = ui.add(slider.show_value(false).clamping(SliderClamping::Always).trailing_fill(true));
     slider.widget_info(|| egui::WidgetInfo::slider(true, time_s, "Time"));
+    let presses = rail::presses(ui);
     if slider.changed() {
-        model.clock.seek((time_s / tick_s).round() as u64);
+        let tick = if slider.has_focus() && presses != 0 {
+            model.clock.tick.saturating_add_signed(presses.into()).min(end_tick)
+        } else {
+            (time_s / tick_s).round() as u64
+        };
+        model.clock.seek(tick);
     }
     let handle = 0.5 * slider.rect.height();
     slider.rect.shrink2(vec2(handle, 0.0))

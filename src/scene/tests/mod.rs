@@ -58,8 +58,9 @@ fn tables() -> Vec<(&'static str, Vec<Key>)> {
         unit: "",
         range: Range::Within(VERSION.into(), VERSION.into()),
         help: "version of this format; required",
+        normal: || None,
     };
-    let other = |name, range, help| Key { name, label: "", unit: "", range, help };
+    let other = |name, range, help| Key { name, label: "", unit: "", range, help, normal: || None };
     let kind = other("kind", Range::Word(event::Kind::NAMES, event::Kind::HELP), "what happens; required");
     let tick = other("tick", Range::Whole, "when it happens; not before the event above it");
     vec![
