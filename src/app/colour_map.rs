@@ -1,6 +1,9 @@
-//! Viridis: colours for numbers, as equally spaced as people see them (S. van der Walt and N. Smith, matplotlib 1.5).
+//! Colours for numbers, as equally spaced as people see them: viridis (S. van der Walt and N. Smith, matplotlib 1.5), and for numbers with a sign
+//! the diverging map of K. Moreland, "Diverging color maps for scientific visualization", ISVC 2009.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
+
+use crate::physics::colour::srgb_encode;
 
 /// Coefficients of a polynomial in the part of the scale, sRGB 0 to 1: the fit of M. Zucker, "Perceptually uniform color maps", shadertoy.com/view/WlfXRN
 /// (public domain).
@@ -22,6 +25,36 @@ pub fn viridis(part: f64) -> [u8; 3] {
     colour.to_array().map(|channel| (255.0 * channel.clamp(0.0, 1.0)).round() as u8)
 }
 
+/// Cool and warm end of the diverging map: lightness and chroma together, saturation and hue, in the polar form of CIELAB.
+const COOL: DVec3 = DVec3::new(80.0, 1.08, -1.1);
+const WARM: DVec3 = DVec3::new(80.0, 1.08, 0.5);
+/// Lightness of its grey middle.
+const GREY: f64 = 88.0;
+/// White of D65 on which the map was made, and the matrix from XYZ to linear sRGB with it.
+const WHITE: DVec3 = DVec3::new(0.95047, 1.0, 1.08883);
+const FROM_XYZ: DMat3 = DMat3::from_cols_array(&[
+    3.2404542, -0.969266, 0.0556434, //
+    -1.5371385, 1.8760108, -0.2040259, //
+    -0.4985314, 0.041556, 1.0572252,
+]);
+
+/// The colour of a part of a scale, 0 to 1, whose middle is neutral: blue below, red above, 8 bits of sRGB.
+#[must_use]
+pub fn diverging(part: f64) -> [u8; 3] {
+    let part = part.clamp(0.0, 1.0);
+    let (end, far) = if part < 0.5 { (COOL, 1.0 - 2.0 * part) } else { (WARM, 2.0 * part - 1.0) };
+    // The hue of grey, chosen so that the way to it is as even as that of saturation.
+    let spin = end.y * (GREY * GREY - end.x * end.x).sqrt() / (end.x * end.y.sin());
+    let grey = DVec3::new(GREY, 0.0, if end.z > -std::f64::consts::FRAC_PI_3 { end.z + spin } else { end.z - spin });
+    let [size, saturation, hue] = grey.lerp(end, far).to_array();
+    let (lightness, chroma) = (size * saturation.cos(), size * saturation.sin());
+    let y = (lightness + 16.0) / 116.0;
+    let curves = DVec3::new(y + chroma * hue.cos() / 500.0, y, y - chroma * hue.sin() / 200.0);
+    // All colours of the map are so light that CIELAB is a cube here.
+    let linear = FROM_XYZ * (WHITE * curves.powf(3.0));
+    linear.to_array().map(|channel| (255.0 * srgb_encode(channel.clamp(0.0, 1.0))).round() as u8)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -36,6 +69,16 @@ mod tests {
             let found = viridis(stop as f64 / 4.0);
             // Where the fit is worst, at the dark end.
             assert!(found.iter().zip(expected).all(|(a, b)| a.abs_diff(*b) <= 4), "{found:?} {expected:?}");
+        }
+    }
+
+    #[test]
+    fn the_diverging_map_is_the_published_table() {
+        for (part, expected) in
+            [(0.0, [59, 76, 192]), (0.25, [141, 176, 254]), (0.5, [221, 221, 221]), (1.0, [180, 4, 38])]
+        {
+            let found = diverging(part);
+            assert!(found.iter().zip(expected).all(|(a, b)| a.abs_diff(b) <= 2), "{part}: {found:?} {expected:?}");
         }
     }
 

@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{colour_map::viridis, compare::Pixels};
+use super::{
+    colour_map::{diverging, viridis},
+    compare::Pixels,
+};
 use crate::{
     parallel,
     physics::film::properties::{Drainage, VISCOSITY},
@@ -34,6 +37,12 @@ impl FalseColour {
         }
     }
 
+    /// The colour of a part of its scale, 0 to 1, 8 bits of sRGB: that of 0 is neutral where numbers have a sign.
+    #[must_use]
+    pub fn colour(self, part: f64) -> [u8; 3] {
+        if self == Self::Vorticity { diverging(part) } else { viridis(part) }
+    }
+
     fn value(self, front: &FilmInFront) -> Option<f64> {
         match self {
             Self::None => None,
@@ -49,7 +58,7 @@ impl FalseColour {
 pub struct Map {
     /// The map as a picture, clear where nothing is known.
     pub pixels: Pixels,
-    /// The numbers that the darkest and the brightest colour stand for.
+    /// The numbers that the first and the last colour stand for.
     pub scale: [f64; 2],
     /// What it shows.
     pub of: FalseColour,
@@ -73,7 +82,7 @@ impl Map {
         let rgba = values.iter().flat_map(|value| match value {
             None => [0; 4],
             Some(value) => {
-                let [r, g, b] = viridis(part(*value));
+                let [r, g, b] = of.colour(part(*value));
                 [r, g, b, 255]
             }
         });

@@ -9,7 +9,6 @@ use super::{places::at, plots::with_few_marks, textures::texture, tools, widgets
 use crate::{
     Words,
     app::{
-        colour_map::viridis,
         model::Model,
         overlay::{FalseColour, Map, Overlay, Profile, Streamlines},
         request::{Request, Target},
@@ -68,7 +67,7 @@ fn scale(ui: &mut Ui, map: &Map) {
         ui.monospace(number(*low));
         let (rect, _) = ui.allocate_exact_size(vec2(140.0, 10.0), Sense::hover());
         for column in 0..140u8 {
-            let [r, g, b] = viridis(f64::from(column) / 139.0);
+            let [r, g, b] = of.colour(f64::from(column) / 139.0);
             let x = rect.left() + f32::from(column);
             ui.painter().vline(x, rect.y_range(), Stroke::new(1.5, Color32::from_rgb(r, g, b)));
         }
