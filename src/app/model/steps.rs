@@ -8,7 +8,7 @@ use crate::{
         tools::Hand,
         undo::Step,
     },
-    plan::film_owners,
+    plan::{film_owners, settle_detail},
     scene::Motion,
 };
 
@@ -25,7 +25,12 @@ impl Model {
     /// Makes a change of the scene, and returns what takes it back, or reports why it is not valid.
     pub(super) fn apply(&mut self, edit: Edit) -> Option<Edit> {
         let tick = self.clock.tick;
-        let back = self.scene.change(|scene| edit.apply(scene, tick));
+        let back = self.scene.change(|scene| {
+            let back = edit.apply(scene, tick);
+            // A bubble that was just added must not begin anew when the camera moves.
+            settle_detail(scene);
+            back
+        });
         if let Err(error) = self.scene.validate() {
             self.scene.change(|scene| back.apply(scene, tick));
             self.messages.problem(error.to_string());

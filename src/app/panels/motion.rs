@@ -5,7 +5,7 @@ use egui::{Response, Ui};
 use super::widgets::{choice, number, number_within, seed, slider_from, tooltip};
 use crate::{
     app::{edit::Edit, history, model::Model},
-    scene::{Motion, MotionChange},
+    scene::{Flow, Motion, MotionChange},
 };
 
 /// Shows and edits the motion that is in force now.
@@ -28,12 +28,15 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
 fn flow(ui: &mut Ui, motion: &mut Motion) -> bool {
     let keys = Motion::KEYS;
     choice(ui, &keys.flow, &mut motion.flow);
-    seed(ui, &keys.seed, &mut motion.seed);
-    let strength = number(ui, &keys.strength, &mut motion.strength, |slider| slider.max_decimals(2));
+    // Nothing flows at rest.
+    let is_dragged = motion.flow != Flow::Rest && {
+        seed(ui, &keys.seed, &mut motion.seed);
+        number(ui, &keys.strength, &mut motion.strength, |slider| slider.max_decimals(2)).dragged()
+    };
     let turn_deg_s = &mut motion.spin_deg_s[2];
     let spin = number_within(ui, &keys.spin_deg_s, turn_deg_s, -360.0..=360.0, |slider| slider.max_decimals(1));
     let gravity = gravity(ui, &mut motion.gravity_m_s2);
-    strength.dragged() | spin.dragged() | gravity
+    is_dragged | spin.dragged() | gravity
 }
 
 /// Sliders for the strength of gravity and its tilt about the world's x axis.

@@ -50,11 +50,13 @@ fn harness(model: Model, size: egui::Vec2) -> Harness<'static, State> {
     )
 }
 
-/// A window on the furnace, whose film is made to vary and whose clock stands.
+/// A window on the furnace, whose film is made to vary and to flow, and whose clock stands.
 fn window() -> Harness<'static, State> {
     let mut model = model();
     model.clock.running = false;
-    model.scene.change(|scene| scene.bubbles[0].film.state = FilmStateName::Blown);
+    model.scene.change(|scene| {
+        (scene.bubbles[0].film.state, scene.motion.flow) = (FilmStateName::Blown, Flow::Free);
+    });
     let mut window = harness(model, vec2(1280.0, 1200.0));
     window.run();
     window

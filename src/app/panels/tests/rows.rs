@@ -153,3 +153,20 @@ fn a_near_eye_has_a_distance_that_is_not_0() {
     let shown = window.get_by_role_and_label(Role::SpinButton, "Distance").value();
     assert_eq!(shown.as_deref(), Some("0.00012 m"));
 }
+
+#[test]
+fn a_film_at_rest_has_no_rows_of_its_flow() {
+    let mut window = window();
+    window.get_by_role_and_label(Role::Slider, "Strength");
+    window.state_mut().model.scene.change(|scene| scene.motion.flow = Flow::Rest);
+    window.run();
+    assert!(window.query_by_label("Strength").is_none() && window.query_by_label("New flow seed").is_none());
+}
+
+#[test]
+fn an_added_bubble_has_its_detail_settled() {
+    let mut window = window();
+    click(&mut window, "Add");
+    let scene = &window.state().model.scene;
+    assert_eq!(scene.bubbles[1].film.detail, crate::scene::Detail::Full);
+}
