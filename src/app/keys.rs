@@ -104,7 +104,7 @@ impl Action {
             Self::Take(_) => Topic::Tools,
             Self::NewSeed | Self::TiltRight | Self::TiltLeft | Self::TiltAway | Self::TiltBack => Topic::Films,
             Self::Frame | Self::Keep | Self::Panels | Self::Present | Self::Help | Self::Dismiss => Topic::View,
-            Self::Undo | Self::Redo | Self::Duplicate | Self::SelectAll | Self::RemoveMark => Topic::Edit,
+            Self::Undo | Self::Redo | Self::Duplicate | Self::SelectAll | Self::Delete => Topic::Edit,
             Self::Open | Self::Save | Self::SaveAs | Self::SavePng | Self::SaveExr | Self::Quit => Topic::File,
             #[cfg(not(target_arch = "wasm32"))]
             Self::Export => Topic::File,

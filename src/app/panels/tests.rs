@@ -57,7 +57,7 @@ fn window() -> Harness<'static, State> {
     model.scene.change(|scene| {
         (scene.bubbles[0].film.state, scene.motion.flow) = (FilmStateName::Blown, Flow::Free);
     });
-    let mut window = harness(model, vec2(1280.0, 1200.0));
+    let mut window = harness(model, vec2(1280.0, 1300.0));
     window.run();
     window
 }

@@ -5,7 +5,7 @@ use egui::{Area, Context, Frame, Id, Rect, vec2};
 use crate::app::{model::Model, tools::Tool};
 
 /// Width of the tools in one row with the margins around them, points.
-pub const WIDTH: f32 = 410.0;
+pub const WIDTH: f32 = 464.0;
 
 /// The room of windows below the tools, which stand in several rows over a narrow picture.
 pub fn room_below(picture: Rect) -> Rect {
