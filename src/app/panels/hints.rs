@@ -8,6 +8,9 @@ use crate::app::model::Model;
 const HINTS: &str =
     "Drag to turn, scroll to zoom. 2 stirs the film, 6 measures it. Space pauses, Ctrl+Z undoes, F1 shows all keys.";
 
+/// Height of a picture, points, below which the line would cover too much of it.
+const LOWEST: f32 = 200.0;
+
 /// The lower edge of the picture, or of what is left of it above the hints.
 pub fn floor(ctx: &Context, picture: Rect) -> f32 {
     let hints = Id::unique("hints");
@@ -20,7 +23,7 @@ pub fn floor(ctx: &Context, picture: Rect) -> f32 {
 
 /// Shows the hints over the lower edge of the picture.
 pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
-    if model.settings.knows_hints {
+    if model.settings.knows_hints || picture.height() < LOWEST {
         return;
     }
     let edge = picture.center_bottom() + vec2(0.0, -10.0);

@@ -5,7 +5,7 @@ use egui::{
 };
 use egui_plot::{Line, LineStyle, Plot, Points};
 
-use super::{places::at, plots::with_few_marks, textures::texture, tools, widgets::choice_of};
+use super::{hints, places::at, plots::with_few_marks, textures::texture, tools, widgets::choice_of};
 use crate::{
     Words,
     app::{
@@ -34,7 +34,7 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         let texture = texture(ctx, "false colour", &map.pixels, TextureOptions::LINEAR);
         painter.image(texture.id(), picture, whole, Color32::WHITE);
-        let corner = picture.right_bottom() + vec2(-10.0, -10.0);
+        let corner = pos2(picture.right() - 10.0, hints::floor(ctx, picture) - 10.0);
         let area = Area::new(Id::unique("scale")).fixed_pos(corner).pivot(Align2::RIGHT_BOTTOM).constrain_to(picture);
         area.show(ctx, |ui| Frame::popup(ui.style()).show(ui, |ui| scale(ui, map)));
     }

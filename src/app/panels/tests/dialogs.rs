@@ -99,9 +99,11 @@ fn areas_stay_within_small_windows_and_beside_the_tools() {
             let areas = memory.areas().visible_layer_ids();
             areas.into_iter().filter_map(|layer| memory.area_rect(layer.id)).collect()
         });
-        assert!(shown.len() >= 4, "{size}: {shown:?}");
+        assert!(shown.len() >= 3, "{size}: {shown:?}");
         assert!(shown.iter().all(|rect| screen.contains_rect(*rect)), "{size}: {shown:?}");
-        assert!(!area(&window, "tools").intersects(area(&window, "compare")), "{size}");
+        let tools = area(&window, "tools");
+        assert!(!tools.intersects(area(&window, "compare")), "{size}");
+        assert!(picture.height() < 200.0 || !tools.intersects(area(&window, "hints")), "{size}");
         for name in ["Pause", "Loop", "Panels", "Time"] {
             let all = window.query_all_by_label(name).next().or_else(|| window.query_all_by_label("Play").next());
             assert!(screen.contains_rect(all.unwrap().rect()), "{name} in {size}");
