@@ -132,9 +132,7 @@ impl View {
         let moves = self.draw_picture(model, first_tick, &mut due);
         self.read_back(model, files, &mut due);
         self.stage.painter.update_textures(&self.stage.gpu, &mut output.full.textures_delta);
-        // The panels of the first redraw do not have their sizes yet.
-        let painted =
-            if self.pictures.is_first_redraw() { Painted::Done } else { self.paint(&mut output, size, moves) };
+        let painted = if self.pictures.have_panels() { self.paint(&mut output, size, moves) } else { Painted::Done };
         self.schedule(model, painted, moves, &mut due);
         due.at
     }

@@ -10,6 +10,7 @@ use crate::{
         capture::{self, Capture},
         compare::Want,
         model::Model,
+        panels,
         producer::Producer,
         render_thread::Finished,
     },
@@ -18,8 +19,8 @@ use crate::{
     plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Rendering, Shot, plan},
 };
 
-/// Redraws of the panels alone that come before the first picture: they know their sizes from the second one on.
-const PANELS_FIRST: u32 = 2;
+/// Redraws of the panels alone that come before the first picture: until all of them stand there.
+const PANELS_FIRST: u64 = panels::PASSES;
 /// How long a redraw waits for its picture. Most pictures come sooner; a window that waits longer is felt to stick.
 const PATIENCE: Duration = Duration::from_millis(50);
 /// Time after which people are told that a picture is being drawn.
@@ -66,7 +67,7 @@ struct Begun {
 pub(super) struct Pictures {
     producer: Producer,
     /// Redraws so far, as far as the first picture.
-    redraws: u32,
+    redraws: u64,
     /// Those that are drawn before the next one that is shown.
     asked: VecDeque<(FrameRequest, Purpose)>,
     /// The one that waits for what the producer computes.
@@ -106,9 +107,9 @@ impl Pictures {
         }
     }
 
-    /// Whether the window has been redrawn once so far.
-    pub fn is_first_redraw(&self) -> bool {
-        self.redraws == 1
+    /// Whether the panels stand there, and the window can be painted.
+    pub fn have_panels(&self) -> bool {
+        self.redraws == PANELS_FIRST
     }
 
     /// Draws the next picture anew, because its shaders are others.

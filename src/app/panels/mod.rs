@@ -185,21 +185,35 @@ fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
     window::show(ctx, model);
 }
 
+/// Passes of egui until all sections stand there. A browser compiles code when it first runs, and all of them at once would hold its page for a
+/// tenth of a second.
+pub const PASSES: u64 = 4;
+
 fn sections(ui: &mut Ui, model: &mut Model) {
     header::show(ui, model);
+    let pass = ui.ctx().cumulative_pass_nr();
+    if pass + 1 < PASSES {
+        ui.ctx().request_repaint();
+    }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        if let Some(course) = &model.course {
-            let title = format!("Lesson: {}", course.lesson.title);
-            section(ui, &title, true, |ui| lesson::show(ui, model));
+        if pass >= 1 {
+            if let Some(course) = &model.course {
+                let title = format!("Lesson: {}", course.lesson.title);
+                section(ui, &title, true, |ui| lesson::show(ui, model));
+            }
+            section(ui, "Film", true, |ui| film::show(ui, model));
+            section(ui, "Generators", !model.scene.generators.is_empty(), |ui| generators::show(ui, model));
         }
-        section(ui, "Film", true, |ui| film::show(ui, model));
-        section(ui, "Generators", !model.scene.generators.is_empty(), |ui| generators::show(ui, model));
-        section(ui, "Motion", true, |ui| motion::show(ui, model));
-        section(ui, "Light", true, |ui| light::show(ui, model));
-        section(ui, "View", true, |ui| view::show(ui, model));
-        section(ui, "Measure", true, |ui| overlay::choices(ui, &mut model.overlay));
-        section(ui, "All keys", false, |ui| all_keys::show(ui, model));
-        section(ui, "Costs", false, |ui| costs::show(ui, model));
+        if pass >= 2 {
+            section(ui, "Motion", true, |ui| motion::show(ui, model));
+            section(ui, "Light", true, |ui| light::show(ui, model));
+        }
+        if pass >= 3 {
+            section(ui, "View", true, |ui| view::show(ui, model));
+            section(ui, "Measure", true, |ui| overlay::choices(ui, &mut model.overlay));
+            section(ui, "All keys", false, |ui| all_keys::show(ui, model));
+            section(ui, "Costs", false, |ui| costs::show(ui, model));
+        }
         widgets::follow_focus(ui);
     });
 }
