@@ -3,8 +3,8 @@
 use std::sync::atomic::Ordering;
 
 use egui::{
-    Align2, Area, Color32, Context, Frame, Id, LayerId, Order, ProgressBar, Rect, Sense, Stroke, TextureOptions, Ui,
-    pos2, vec2,
+    Align2, Area, Color32, Context, Frame, Id, LayerId, Order, ProgressBar, Rect, ScrollArea, Sense, Stroke,
+    TextureOptions, Ui, pos2, vec2,
 };
 
 use super::{textures::texture, tools};
@@ -44,7 +44,9 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
     area.show(ctx, |ui| {
         Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_max_width((picture.width() - 34.0).clamp(60.0, WIDTH));
-            controls(ui, &mut model.compare);
+            let height = (room.height() - 34.0).max(20.0);
+            let scroll = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+            scroll.show(ui, |ui| controls(ui, &mut model.compare));
         });
     });
 }

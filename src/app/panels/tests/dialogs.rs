@@ -102,6 +102,7 @@ fn areas_stay_within_small_windows_and_beside_the_tools() {
         assert!(shown.len() >= 3, "{size}: {shown:?}");
         assert!(shown.iter().all(|rect| screen.contains_rect(*rect)), "{size}: {shown:?}");
         let tools = area(&window, "tools");
+        assert!(picture.contains_rect(area(&window, "compare")), "{size}");
         assert!(!tools.intersects(area(&window, "compare")), "{size}");
         assert!(picture.height() < 200.0 || !tools.intersects(area(&window, "hints")), "{size}");
         for name in ["Pause", "Loop", "Panels", "Time"] {
