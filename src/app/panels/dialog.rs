@@ -5,8 +5,8 @@ use egui::{ScrollArea, Ui};
 /// Room around a dialog with its margins, points.
 const AROUND: f32 = 44.0;
 
-/// The part of a dialog that scrolls, where the rest of it needs a height in points. It is as high as what it holds, or as the window allows: a dialog
-/// that grew by and by would move under the pointer.
+/// The part of a dialog that scrolls, where the rest of it needs a height in points. It is as high as what it holds, or as the window allows: a
+/// dialog that grew by and by would move under the pointer.
 pub fn scroll(ui: &Ui, rest: f32) -> ScrollArea {
     let height = (ui.ctx().content_rect().height() - AROUND - rest).max(60.0);
     ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink([false, true])
