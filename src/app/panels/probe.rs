@@ -49,7 +49,7 @@ fn numbers(ui: &mut Ui, reading: &Reading) {
         row("path", &|wall| format!("{:.0} nm", wall.path_nm));
         row("order", &|wall| wall.order().to_string());
         row("flow", &|wall| wall.speed_m_s.map_or("?".to_owned(), |speed| format!("{:.1} mm/s", 1e3 * speed)));
-        row("toward", &|wall| wall.flow_deg.map_or("-".to_owned(), |deg| format!("{deg:.0}°")));
+        row("flows to", &|wall| wall.flow_deg.map_or("-".to_owned(), |deg| format!("{deg:.0}°")));
         row("x, y", &|wall| {
             let xy = chromaticity_xy(wall.xyz);
             format!("{:.3}, {:.3}", xy.x, xy.y)
