@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::probe::Plot;
+use super::{probe::Plot, system};
 use crate::scene::Light;
 
 /// What a file is asked for.
@@ -141,6 +141,6 @@ impl Question {
     #[must_use]
     pub fn path(target: Target, scene: &str, folder: &Path) -> Self {
         let name = if target.is_read() { String::new() } else { target.file_name(scene) };
-        Self::Path(target, folder.join(name).display().to_string(), None)
+        Self::Path(target, system::whole_path(&folder.join(name)).display().to_string(), None)
     }
 }

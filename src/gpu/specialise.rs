@@ -262,21 +262,19 @@ impl<'a> Pass<'a> {
 
     /// What follows an `else`.
     fn fold_else(&self, at: usize, kept: &mut Kept) -> (usize, bool) {
-        if self.tokens[at].text == "if" { self.fold_if(at, kept) } else { self.fold_block(at, kept) }
+        if self.text(at) == "if" { self.fold_if(at, kept) } else { self.fold_block(at, kept) }
     }
 
     /// Whether nothing is left of what follows an `else`.
     fn vanishes(&self, at: usize) -> bool {
         let end = self.close(self.open(at)) + 1;
-        self.tokens[at].text == "if"
-            && self.condition(at) == Some(false)
-            && (!self.is_else(end) || self.vanishes(end + 1))
+        self.text(at) == "if" && self.condition(at) == Some(false) && (!self.is_else(end) || self.vanishes(end + 1))
     }
 
     /// Where an `else` ends, with all that follows it.
     fn end_of_else(&self, at: usize) -> usize {
         let end = self.close(self.open(at)) + 1;
-        let goes_on = self.tokens[at + 1].text == "if" && self.is_else(end);
+        let goes_on = self.text(at + 1) == "if" && self.is_else(end);
         if goes_on { self.end_of_else(end) } else { end }
     }
 
@@ -314,14 +312,14 @@ impl<'a> Item<'a> {
         let kinds = ["fn", "struct", "const", "override", "var", "alias"];
         let at = range.clone().find(|at| kinds.contains(&tokens[*at].text))?;
         // A variable's address space stands before its name.
-        let space = tokens[at + 1].text == "<";
+        let space = tokens.get(at + 1)?.text == "<";
         let name = if space { (at..range.end).find(|at| tokens[*at].text == ">")? + 1 } else { at + 1 };
         let binding = (range.start..at).find(|at| tokens[*at].text == "binding");
         Some(Self {
             kind: tokens[at].text,
-            name: tokens[name].text,
+            name: tokens.get(name)?.text,
             start: tokens[range.start].start,
-            binding: binding.and_then(|at| whole_number(tokens[at + 2].text)),
+            binding: binding.and_then(|at| whole_number(tokens.get(at + 2)?.text)),
             tokens: range,
         })
     }
@@ -447,6 +445,10 @@ impl<'a> Text<'a> {
 
     /// Keeps a part, with a text before it.
     fn keep(&mut self, part: Range<usize>, before: &str) {
+        // Braces that do not match let declarations overlap: the compiler will say what is wrong.
+        if part.start < self.at {
+            return;
+        }
         self.skip_to(part.start);
         // What stood between two words kept them apart.
         self.made.push(' ');
@@ -579,6 +581,23 @@ mod tests {
         let point = info.get_entry_point(0);
         let variables = module.global_variables.iter().filter(|(handle, _)| !point[*handle].is_empty());
         variables.filter_map(|(_, variable)| Some(variable.binding?.binding)).collect()
+    }
+
+    /// While a shader is being written, anything may be in its file.
+    #[test]
+    fn broken_text_is_left_to_the_compiler() {
+        let composed = Library::Embedded.compose("bubble").unwrap();
+        let constants: Vec<_> = ["INNER", "SAMPLES", "ON_BATH", "OUTLINE"].map(|name| (name, 1)).into();
+        for cut in (0..composed.wgsl.len()).step_by(499) {
+            let (before, after) = composed.wgsl.split_at(composed.wgsl.floor_char_boundary(cut));
+            let lines = composed.wgsl.lines().count();
+            for text in [before, after] {
+                let mut broken = composed.clone();
+                broken.wgsl = text.to_owned();
+                let shader = specialised(&broken, "shade", &constants);
+                assert!(shader.is_err() || shader.is_ok_and(|shader| shader.wgsl.lines().count() <= lines));
+            }
+        }
     }
 
     #[test]

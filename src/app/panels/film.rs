@@ -21,6 +21,8 @@ const CELLS: [(u32, &str, &str); 4] = [
 
 /// Shows and edits the film of the selected bubble, and with it those of the others that are selected.
 pub fn show(ui: &mut Ui, model: &mut Model) {
+    // First, for the rows below come and go with the number of bubbles.
+    bubbles(ui, model);
     let count = model.scene.bubbles.len();
     model.selected = model.selected.min(count.saturating_sub(1));
     model.also_selected.retain(|index| *index < count);
@@ -32,7 +34,6 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
         }
         selection(ui, model, count);
     }
-    bubbles(ui, model);
     let Some(bubble) = model.scene.bubbles.get(model.selected) else {
         let made = !model.scene.generators.is_empty();
         ui.label(if made { "Generators make all bubbles of this scene." } else { "This scene has no bubble." });

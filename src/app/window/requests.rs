@@ -88,8 +88,10 @@ impl Handler {
         let path = from_home(&text);
         let path = target.file_type().1.first().map_or(path.clone(), |ending| with_ending(path, ending));
         let replaces = format!("{} is there already; Enter replaces it", path.display());
+        let folder = system::whole_path(&path).parent().map_or_else(PathBuf::new, Path::to_owned);
         let wrong = match (target.is_read(), path.exists(), self.model.question.take()) {
             (true, false, _) => format!("there is no file {}", path.display()),
+            (false, ..) if !folder.is_dir() => format!("there is no folder {}", folder.display()),
             (false, true, Some(Question::Path(_, _, wrong))) if wrong.as_ref() != Some(&replaces) => replaces,
             _ => return self.chosen(target, path),
         };
