@@ -19,8 +19,12 @@ use super::{
     system,
 };
 use crate::{
-    input::{LoadError, LoadedScene, Opened, light_of_scene, load_environment, load_illuminant_of, load_step, open},
+    input::{
+        LoadError, LoadedScene, Opened, light_of_scene, load_environment, load_illuminant_of, load_step, open,
+        read_plate,
+    },
     output::{Metadata, Picture, write_text},
+    physics::picture::Plate,
     plan::{Resources, TonemapKey},
     scene::{Light, Scene, SceneSource, lesson::Lesson},
     verify::reference::MovedFilms,
@@ -32,6 +36,7 @@ enum Outcome {
     Lesson(Box<Lesson>, PathBuf),
     Step(Box<LoadedScene>),
     Light(Box<Light>, Resources, Vec<String>),
+    Plate(String, Arc<Plate>, Vec<String>),
     TakenUp(Box<LoadedScene>, Box<Unsaved>),
     Chosen(Target, PathBuf),
     NoDialog(Target),
@@ -133,6 +138,19 @@ impl Files {
                 Err(error) => Outcome::Failed(error.to_string()),
             },
         );
+    }
+
+    /// Loads a photograph that is to stand behind the bubbles.
+    pub fn load_plate(&mut self, model: &mut Model, path: String) {
+        self.begin_load(model, "the plate");
+        let file = model.folder.join(&path);
+        self.run(move || {
+            let mut notes = Vec::new();
+            match read_plate(&file, &mut notes) {
+                Ok(plate) => Outcome::Plate(path, Arc::new(plate), notes),
+                Err(error) => Outcome::Failed(error.to_string()),
+            }
+        });
     }
 
     fn begin_load(&mut self, model: &mut Model, what: &str) {
@@ -295,6 +313,10 @@ impl Files {
                 model.adopt_light(*light, resources);
                 notes.into_iter().for_each(|note| model.messages.remark(note));
             }
+            Outcome::Plate(path, plate, notes) if current => {
+                model.adopt_plate(path, plate);
+                notes.into_iter().for_each(|note| model.messages.remark(note));
+            }
             Outcome::TakenUp(loaded, work) if current => {
                 model.take_up(*loaded, *work);
                 return Some(Arrival::TakenUp);
@@ -330,7 +352,8 @@ impl Files {
             | Outcome::Lesson(..)
             | Outcome::Step(_)
             | Outcome::TakenUp(..)
-            | Outcome::Light(..) => {}
+            | Outcome::Light(..)
+            | Outcome::Plate(..) => {}
         }
         None
     }

@@ -12,6 +12,10 @@ pub enum Target {
     OpenScene,
     /// An environment to open.
     OpenEnvironment,
+    /// A spectrum to open, for the light.
+    OpenIlluminant,
+    /// A photograph to open, which stands behind the bubbles.
+    OpenPlate,
     /// Where the scene goes.
     SaveScene,
     /// Where the picture goes as people see it.
@@ -37,6 +41,8 @@ impl Target {
         match self {
             Self::OpenScene | Self::SaveScene => ("Scene", &["toml"]),
             Self::OpenEnvironment => ("Environment", &["exr", "hdr"]),
+            Self::OpenIlluminant => ("Spectrum", &["csv"]),
+            Self::OpenPlate => ("Photograph", &["png", "jpg", "jpeg"]),
             Self::SavePng | Self::SavePlot(_) | Self::SaveProfilePlot => ("PNG picture", &["png"]),
             Self::SaveExr => ("OpenEXR picture", &["exr"]),
             Self::Export(None) => ("Folder", &[]),
@@ -64,7 +70,7 @@ impl Target {
     /// Whether the file is there already.
     #[must_use]
     pub fn is_read(self) -> bool {
-        matches!(self, Self::OpenScene | Self::OpenEnvironment)
+        matches!(self, Self::OpenScene | Self::OpenEnvironment | Self::OpenIlluminant | Self::OpenPlate)
     }
 }
 

@@ -53,6 +53,26 @@ fn a_light_and_what_it_names_arrive_together() {
 }
 
 #[test]
+fn a_photograph_is_put_behind_the_bubbles_and_taken_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("street.png");
+    image::RgbImage::from_pixel(3, 2, image::Rgb([9, 99, 199])).save(&path).unwrap();
+    let ((mut files, arrived), mut model) = (files(), model());
+    let name = path.to_str().unwrap().to_owned();
+    files.load_plate(&mut model, name.clone());
+    arrived.recv_timeout(PATIENCE).unwrap();
+    assert_eq!(files.collect(&mut model), []);
+    assert_eq!(model.scene.view.plate, Some(name));
+    assert_eq!(model.resources.plate.as_ref().map(|plate| plate.size()), Some([3, 2]));
+    model.undo();
+    assert!(model.scene.view.plate.is_none() && model.resources.plate.is_none());
+    files.load_plate(&mut model, folder.path().join("none.png").display().to_string());
+    arrived.recv_timeout(PATIENCE).unwrap();
+    files.collect(&mut model);
+    assert!(model.scene.view.plate.is_none() && model.loading.is_none());
+}
+
+#[test]
 fn a_scene_saved_elsewhere_finds_all_of_its_files() {
     let folder = tempfile::tempdir().unwrap();
     let [old, new] = ["old", "new"].map(|name| folder.path().join(name));

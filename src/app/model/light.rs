@@ -1,5 +1,7 @@
 //! The light of the scene: changed once it is loaded, and its lamps as things that the pointer holds.
 
+use std::sync::Arc;
+
 use super::Model;
 use crate::{
     app::{
@@ -8,8 +10,9 @@ use crate::{
         request::Request,
         tools::{Hand, Press, Tool},
     },
+    physics::picture::Plate,
     plan::Resources,
-    scene::Light,
+    scene::{Light, View},
 };
 
 impl Model {
@@ -20,6 +23,16 @@ impl Model {
         if let Some(back) = self.apply(Edit::Light(Light { rotation_deg, intensity, ..light })) {
             let before = std::mem::replace(&mut self.resources, resources);
             self.undo.record_whole("Light", vec![back], Some(before));
+        }
+        self.loading = None;
+    }
+
+    /// Puts a photograph that was loaded behind the bubbles.
+    pub fn adopt_plate(&mut self, path: String, plate: Arc<Plate>) {
+        if let Some(back) = self.apply(Edit::View(View { plate: Some(path), ..self.scene.view.clone() })) {
+            let resources = Resources { plate: Some(plate), ..self.resources.clone() };
+            let before = std::mem::replace(&mut self.resources, resources);
+            self.undo.record_whole("Plate", vec![back], Some(before));
         }
         self.loading = None;
     }

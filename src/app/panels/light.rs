@@ -94,8 +94,9 @@ fn environment(ui: &mut Ui, model: &mut Model) {
 fn illuminant(ui: &mut Ui, model: &mut Model) {
     let light = &model.scene.light;
     let mut chosen: Option<&str> = None;
+    let mut opens = false;
     let is_named = light.spectrum.is_none();
-    let shown = if is_named { light.illuminant.as_str() } else { "spectrum" };
+    let shown = if is_named { header::file_name(&light.illuminant) } else { "spectrum" };
     row(ui, "Illuminant", "The spectrum of white light", |ui| {
         let list = egui::ComboBox::from_id_salt("illuminant").selected_text(shown);
         list.show_ui(ui, |ui| {
@@ -110,11 +111,14 @@ fn illuminant(ui: &mut Ui, model: &mut Model) {
             if ui.selectable_label(is, "black body").on_hover_text(help).clicked() && !is {
                 chosen = Some(BLACK_BODY);
             }
+            let help = "A table of wavelengths and powers (.csv)";
+            opens = ui.selectable_label(false, "from a file…").on_hover_text(help).clicked();
         })
         .response
     });
     let changed = chosen.map(|name| Light { illuminant: name.to_owned(), spectrum: None, ..light.clone() });
     model.requests.extend(changed.map(Request::LoadLight));
+    model.requests.extend(opens.then_some(Request::Ask(Target::OpenIlluminant)));
     let kelvin = kelvin(&model.scene.light.illuminant).filter(|_| model.scene.light.spectrum.is_none());
     if let Some(kelvin) = kelvin {
         temperature(ui, model, kelvin);

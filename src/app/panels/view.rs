@@ -2,10 +2,14 @@
 
 use egui::Ui;
 
-use super::camera;
 use super::widgets::{choice, flag, number, options_of, row, slider, tooltip};
+use super::{camera, header};
 use crate::{
-    app::{edit::Edit, model::Model},
+    app::{
+        edit::Edit,
+        model::Model,
+        request::{Request, Target},
+    },
     scene::{Backdrop, Camera, Lens, View},
 };
 
@@ -15,7 +19,9 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
     let keys = View::KEYS;
     number(ui, &keys.exposure_ev, &mut view.exposure_ev, |slider| slider.fixed_decimals(2));
     backdrop(ui, &mut view);
-    plate(ui, &mut view);
+    if plate(ui, &mut view) {
+        model.requests.push(Request::Ask(Target::OpenPlate));
+    }
     choice(ui, &keys.quality, &mut view.quality);
     polariser(ui, &mut view);
     flag(ui, &keys.white_balance, &mut view.white_balance);
@@ -75,17 +81,21 @@ fn focus(ui: &mut Ui, lens: &mut Lens, distance_m: f64) {
     }
 }
 
-/// The photograph behind the bubbles, which a scene file names.
-fn plate(ui: &mut Ui, view: &mut View) {
-    let Some(path) = view.plate.clone() else { return };
-    let name = path.rsplit(['/', '\\']).next().unwrap_or(&path).to_owned();
-    let removal = row(ui, View::KEYS.plate.label, &tooltip(View::KEYS.plate.help), |ui| {
-        ui.label(name);
-        ui.button("Remove")
+/// The photograph behind the bubbles; returns whether one is to be opened.
+fn plate(ui: &mut Ui, view: &mut View) -> bool {
+    let name = view.plate.as_deref().map(|path| header::file_name(path).to_owned());
+    let mut opens = false;
+    let mut removes = false;
+    row(ui, View::KEYS.plate.label, &tooltip(View::KEYS.plate.help), |ui| {
+        opens = ui.button("Open…").on_hover_text("Choose a photograph (.png, .jpg)").clicked();
+        removes = name.is_some() && ui.button("Remove").clicked();
+        let text = egui::RichText::new(name.as_deref().unwrap_or("none")).weak();
+        ui.add(egui::Label::new(text).truncate()).on_hover_text(view.plate.as_deref().unwrap_or("none"))
     });
-    if removal.clicked() {
+    if removes {
         view.plate = None;
     }
+    opens
 }
 
 fn polariser(ui: &mut Ui, view: &mut View) {

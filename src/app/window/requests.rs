@@ -73,6 +73,15 @@ impl Handler {
                 csv.into_iter().for_each(|csv| self.files.save_text(with_ending(path.clone(), "csv"), csv));
             }
             Target::OpenScene | Target::OpenEnvironment => self.open_file(&path),
+            Target::OpenIlluminant => {
+                let Some(illuminant) = self.name_of(&path) else { return };
+                let light = Light { illuminant, spectrum: None, ..self.model.scene.light.clone() };
+                self.files.load_light(&mut self.model, light);
+            }
+            Target::OpenPlate => {
+                let Some(plate) = self.name_of(&path) else { return };
+                self.files.load_plate(&mut self.model, plate);
+            }
             #[cfg(not(target_arch = "wasm32"))]
             Target::Export(ending) => {
                 let path = ending.map_or(path.clone(), |ending| with_ending(path, ending));
@@ -98,12 +107,19 @@ impl Handler {
         self.model.question = Some(Question::Path(target, text, Some(wrong)));
     }
 
+    /// A file as a scene names it: by its path from the root. One that scenes cannot name is told.
+    fn name_of(&mut self, path: &Path) -> Option<String> {
+        let name = system::whole_path(path).to_str().map(str::to_owned);
+        if name.is_none() {
+            self.model.messages.problem(format!("{}: this file name is not UTF-8; rename it", path.display()));
+        }
+        name
+    }
+
     /// Opens a file that was chosen or dropped, by its ending.
     pub fn open_file(&mut self, path: &Path) {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("").to_ascii_lowercase();
-        let Some(name) = system::whole_path(path).to_str().map(str::to_owned) else {
-            return self.model.messages.problem(format!("{}: this file name is not UTF-8; rename it", path.display()));
-        };
+        let Some(name) = self.name_of(path) else { return };
         match ending.as_str() {
             "toml" => self.model.ask_for(Request::LoadScene(name)),
             "exr" | "hdr" => {
