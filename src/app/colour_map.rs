@@ -1,9 +1,9 @@
 //! Colours for numbers, as equally spaced as people see them: viridis (S. van der Walt and N. Smith, matplotlib 1.5), and for numbers with a sign
 //! the diverging map of K. Moreland, "Diverging color maps for scientific visualization", ISVC 2009.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
-use crate::physics::colour::srgb_encode;
+use crate::physics::colour::{BT709, srgb_encode};
 
 /// Coefficients of a polynomial in the part of the scale, sRGB 0 to 1: the fit of M. Zucker, "Perceptually uniform color maps", shadertoy.com/view/WlfXRN
 /// (public domain).
@@ -30,14 +30,6 @@ const COOL: DVec3 = DVec3::new(80.0, 1.08, -1.1);
 const WARM: DVec3 = DVec3::new(80.0, 1.08, 0.5);
 /// Lightness of its grey middle.
 const GREY: f64 = 88.0;
-/// White of D65 on which the map was made, and the matrix from XYZ to linear sRGB with it.
-const WHITE: DVec3 = DVec3::new(0.95047, 1.0, 1.08883);
-const FROM_XYZ: DMat3 = DMat3::from_cols_array(&[
-    3.2404542, -0.969266, 0.0556434, //
-    -1.5371385, 1.8760108, -0.2040259, //
-    -0.4985314, 0.041556, 1.0572252,
-]);
-
 /// The colour of a part of a scale, 0 to 1, whose middle is neutral: blue below, red above, 8 bits of sRGB.
 #[must_use]
 pub fn diverging(part: f64) -> [u8; 3] {
@@ -51,7 +43,8 @@ pub fn diverging(part: f64) -> [u8; 3] {
     let y = (lightness + 16.0) / 116.0;
     let curves = DVec3::new(y + chroma * hue.cos() / 500.0, y, y - chroma * hue.sin() / 200.0);
     // All colours of the map are so light that CIELAB is a cube here.
-    let linear = FROM_XYZ * (WHITE * curves.powf(3.0));
+    let white = BT709.to_xyz() * DVec3::ONE;
+    let linear = BT709.from_xyz() * (white * curves.powf(3.0));
     linear.to_array().map(|channel| (255.0 * srgb_encode(channel.clamp(0.0, 1.0))).round() as u8)
 }
 

@@ -78,8 +78,6 @@ pub type Named = (Pixels, String);
 /// Two pictures, and how they are compared.
 #[derive(Clone, Debug, Default)]
 pub struct Compare {
-    /// A.
-    pub kept: Option<Named>,
     /// All pictures that were A since the comparison began, the oldest first, as far as memory allows.
     pub memory: Vec<Named>,
     /// The place of A among them.
@@ -102,41 +100,41 @@ impl Compare {
     /// Keeps a picture as A.
     pub fn keep(&mut self, pixels: Pixels, name: String) {
         self.stop.store(true, Ordering::Relaxed);
-        let split = if self.kept.is_some() { self.split } else { 0.5 };
+        let split = if self.memory.is_empty() { 0.5 } else { self.split };
         *self = Self { memory: std::mem::take(&mut self.memory), split, ..Self::default() };
         self.remember((pixels, name));
+    }
+
+    /// A, if there is one.
+    #[must_use]
+    pub fn kept(&self) -> Option<&Named> {
+        self.memory.get(self.at)
     }
 
     /// Makes a picture A, and the latest of all.
     fn remember(&mut self, picture: Named) {
         let bytes = |(pixels, _): &Named| pixels.rgba.len();
-        self.memory.push(picture.clone());
+        self.memory.push(picture);
         while self.memory.len() > 1 && self.memory.iter().map(bytes).sum::<usize>() > MEMORY_BYTES {
             self.memory.remove(0);
         }
         self.at = self.memory.len() - 1;
-        self.kept = Some(picture);
     }
 
     /// Makes an earlier or a later picture A.
     pub fn flip(&mut self, places: isize) {
-        let last = self.memory.len().saturating_sub(1);
-        self.at = self.at.saturating_add_signed(places).min(last);
-        self.kept = self.memory.get(self.at).cloned();
+        self.at = self.at.saturating_add_signed(places).min(self.memory.len().saturating_sub(1));
         self.map = None;
     }
 
     /// Puts a picture on a side; what was measured of the two no longer holds.
     pub fn put(&mut self, side: Side, pixels: Pixels, name: String) {
         self.map = None;
-        match side {
-            Side::B => self.other = Some((pixels, name)),
-            // A reference picture comes again and again, each time finer.
-            Side::A if self.kept.as_ref().is_some_and(|(_, known)| *known == name) => {
-                self.memory.remove(self.at);
-                self.remember((pixels, name));
-            }
-            Side::A => self.remember((pixels, name)),
+        match (side, self.memory.last_mut()) {
+            (Side::B, _) => self.other = Some((pixels, name)),
+            // A reference picture comes again and again, each time finer, whatever is looked at meanwhile.
+            (Side::A, Some(last)) if last.1 == name => last.0 = pixels,
+            (Side::A, _) => self.remember((pixels, name)),
         }
     }
 
@@ -166,7 +164,7 @@ mod tests {
     #[test]
     fn earlier_pictures_are_flipped_through() {
         let mut compare = Compare::default();
-        let name = |compare: &Compare| compare.kept.clone().unwrap().1;
+        let name = |compare: &Compare| compare.kept().unwrap().1.clone();
         for (grey, name) in [(1, "one"), (2, "two"), (3, "three")] {
             compare.keep(pixels(grey), name.to_owned());
         }
@@ -180,11 +178,14 @@ mod tests {
         compare.put(Side::A, pixels(4), "reference".to_owned());
         compare.put(Side::A, pixels(5), "reference".to_owned());
         assert_eq!((compare.memory.len(), compare.at), (4, 3), "a finer picture takes the place of the coarser one");
+        compare.flip(-3);
+        compare.put(Side::A, pixels(6), "reference".to_owned());
+        assert_eq!((compare.memory.len(), name(&compare)), (4, "one".to_owned()), "what is looked at stays");
         let whole = Pixels { size: [1, 1], rgba: Arc::new(vec![0; MEMORY_BYTES]) };
         compare.keep(whole, "large".to_owned());
         assert_eq!((compare.memory.len(), name(&compare)), (1, "large".to_owned()));
         compare.close();
-        assert!(compare.memory.is_empty() && compare.kept.is_none());
+        assert_eq!(compare.kept(), None);
     }
 
     #[test]

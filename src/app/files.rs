@@ -173,7 +173,7 @@ impl Files {
     pub fn compare(&self, model: &mut Model, want: Want, shown: Pixels) {
         let name =
             |quality: &str| format!("{} at {:.2} s, {quality}", model.name, model.clock.time_s(&model.scene.motion));
-        match (want, model.compare.kept.clone()) {
+        match (want, model.compare.kept().cloned()) {
             (Want::Map, Some((kept, _))) if kept.size == shown.size => {
                 self.run(move || Outcome::Map(Map::new(&kept, &shown)));
             }
@@ -330,12 +330,12 @@ impl Files {
             }
             Outcome::Reference(side, pixels, done, of) => {
                 // One that was stopped still tells what it had begun.
-                if Arc::ptr_eq(&of, &model.compare.stop) && model.compare.kept.is_some() {
+                if Arc::ptr_eq(&of, &model.compare.stop) && model.compare.kept().is_some() {
                     model.compare.put(side, pixels, format!("{}, reference (f64)", model.name));
                     model.compare.done = Some(done).filter(|done| *done < 1.0 && !of.load(Ordering::Relaxed));
                 }
             }
-            Outcome::Map(map) => model.compare.map = model.compare.kept.as_ref().map(|_| map),
+            Outcome::Map(map) => model.compare.map = model.compare.kept().map(|_| map),
             Outcome::Done(text) => model.messages.note(text),
             #[cfg(not(target_arch = "wasm32"))]
             Outcome::Exported(id, result) => model.export_ended(id, result),

@@ -52,11 +52,6 @@ impl FilmReader {
         self.reads
     }
 
-    /// The moment of a film that was read.
-    fn moment(&self, film: usize) -> Option<Moment> {
-        self.read.get(&film).map(|(_, moment)| *moment)
-    }
-
     /// The moment that the thickness of a film in a picture is of, at a moment of the clock.
     pub fn time(&self, renderer: &Renderer, draw: &DrawKey, film: usize, clock: Moment) -> Moment {
         // The device may still hold the field of a film that was opened before.
@@ -64,7 +59,8 @@ impl FilmReader {
         let field = renderer.state().fields.get(film).and_then(Option::as_ref);
         // A film at rest, or without a field, is what it was; only evaporation goes on.
         let moves = has_field && field.is_some_and(|field| field.rest.is_none());
-        self.moment(film).filter(|_| moves).unwrap_or(clock)
+        let read = self.read.get(&film).filter(|_| moves);
+        read.map_or(clock, |(_, moment)| *moment)
     }
 
     /// Reads a film if it has changed since; returns whether what is here is what the picture shows, or has just arrived: a film that moves is

@@ -34,6 +34,15 @@ pub fn place(camera: &Camera, point_m: DVec3) -> Option<DVec2> {
     (depth_m > NEAREST_M).then(|| across / (depth_m * height(camera)))
 }
 
+/// The outline of a sphere in the picture: the middle and the radius of a circle. `None` for one behind the eye or around it.
+#[must_use]
+pub fn outline(camera: &Camera, center_m: DVec3, radius_m: f64) -> Option<(DVec2, f64)> {
+    let distance_m = center_m.distance(camera.eye());
+    let middle = place(camera, center_m).filter(|_| distance_m > radius_m)?;
+    // As of a sphere straight ahead: off the axis its outline is an ellipse, a little longer.
+    Some((middle, radius_m / (distance_m * distance_m - radius_m * radius_m).sqrt() / height(camera)))
+}
+
 /// How far along a line, in units of its direction of length 1, the point of it lies that is nearest to a line of sight. `None` if the two are within
 /// a degree or so of one another's direction, or if the nearest point is behind the eye.
 ///

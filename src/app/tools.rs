@@ -250,12 +250,8 @@ pub fn mirrored(story: &Story, tick: u64, place: DVec2) -> DVec3 {
 /// The outline of a bubble in the picture, right and up from its middle in heights of it: the middle and the radius of a circle. `None` for one
 /// behind the eye or around it.
 pub fn outline(story: &Story, tick: u64, bubble: usize) -> Option<(DVec2, f64)> {
-    let (camera, radius_m) = (&story.camera, 1e-3 * story.bubbles.get(bubble)?.radius_mm);
-    let to_center = story.center_m(bubble, tick as f64 * story.motion.tick_s) - camera.eye();
-    let distance = to_center.length();
-    let middle = sight::place(camera, camera.eye() + to_center).filter(|_| distance > radius_m)?;
-    // As of a sphere straight ahead: off the axis its outline is an ellipse, a little longer.
-    Some((middle, radius_m / (distance * distance - radius_m * radius_m).sqrt() / sight::height(camera)))
+    let radius_m = 1e-3 * story.bubbles.get(bubble)?.radius_mm;
+    sight::outline(&story.camera, story.center_m(bubble, tick as f64 * story.motion.tick_s), radius_m)
 }
 
 /// The film that is met first in the line of sight through a place in the picture; from inside a bubble that is its wall.

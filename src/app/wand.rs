@@ -3,12 +3,10 @@
 use glam::DVec3;
 
 use super::{sight, tools::Press};
-use crate::scene::{Bubble, Camera, Film, FilmStateName};
+use crate::scene::{Bubble, Camera, Film, FilmStateName, Range};
 
 /// The least radius, mm: the pointer has hardly moved.
 const SMALLEST_MM: f64 = 1.0;
-/// The largest radius, mm.
-const LARGEST_MM: f64 = 5000.0;
 
 /// A bubble that is being blown. It is in the scene once the pointer is let go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,16 +26,21 @@ impl Wand {
         let at = |place| sight::on_plane(eye, sight::ray(camera, place), target, -camera.forward());
         let (center_m, edge_m) = (at(press.from)?, at(press.at)?);
         let radius_m = center_m.distance(edge_m);
-        (1e3 * radius_m >= SMALLEST_MM).then(|| Self { center_m, radius_m: radius_m.min(1e-3 * LARGEST_MM) })
+        (1e3 * radius_m >= SMALLEST_MM).then_some(Self { center_m, radius_m })
     }
 
     /// The bubble as a scene has it: just blown.
     #[must_use]
     pub fn bubble(self) -> Bubble {
+        let largest_mm = match Bubble::KEYS.radius_mm.range {
+            Range::Within(_, largest_mm) => largest_mm,
+            _ => f64::INFINITY,
+        };
+        // To a tenth of a millimetre.
+        let radius_mm = (1e4 * self.radius_m).round() / 10.0;
         Bubble {
             center_m: self.center_m.to_array(),
-            // To a tenth of a millimetre.
-            radius_mm: (1e4 * self.radius_m).round() / 10.0,
+            radius_mm: radius_mm.min(largest_mm),
             film: Film { state: FilmStateName::Blown, ..Film::default() },
             ..Bubble::default()
         }

@@ -1,6 +1,6 @@
 //! Pipelines, made on first use and kept: a pass, an entry point, the constants it was specialised for, and the target's format.
 //!
-//! Shaders get their constants here and not from the driver: see `specialise.rs`.
+//! Shaders get their constants here and not from the driver: see `specialise`.
 
 use std::{
     collections::HashMap,

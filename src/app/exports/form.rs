@@ -87,8 +87,8 @@ pub struct Form {
     pub map_height: String,
     /// The file or folder.
     pub path: String,
-    /// The file beside the scene, as long as nobody has chosen another one.
-    pub proposed: Option<String>,
+    /// The file beside the scene, without an ending, that was proposed last.
+    pub proposed: PathBuf,
     /// Why the last attempt was refused.
     pub refused: Option<String>,
 }
@@ -113,7 +113,7 @@ impl Default for Form {
             projection: Projection::Equirect,
             map_height: "512".to_owned(),
             path: String::new(),
-            proposed: None,
+            proposed: PathBuf::new(),
             refused: None,
         }
     }
@@ -137,18 +137,17 @@ impl Form {
         fill(&mut self.width, width.to_string());
         fill(&mut self.height, height.to_string());
         fill(&mut self.end_s, format!("{end_s:.2}"));
-        if self.path.is_empty() || self.proposed.as_ref() == Some(&self.path) {
+        // A scene that was saved has another name; a file that was chosen stays.
+        let path = Path::new(&self.path);
+        if [path, &path.with_extension("")].contains(&self.proposed.as_path()) {
             self.path = stem.display().to_string();
-            self.name_file();
-            self.proposed = Some(self.path.clone());
-        } else {
-            self.name_file();
+            self.proposed = stem.to_owned();
         }
+        self.name_file();
     }
 
     /// Gives the file the ending of its format, after another format was chosen.
     pub fn name_file(&mut self) {
-        let is_proposed = self.proposed.as_ref() == Some(&self.path);
         let path = Path::new(&self.path);
         let known = path
             .extension()
@@ -161,7 +160,6 @@ impl Form {
             name.push(ending);
         }
         self.path = name.to_string_lossy().into_owned();
-        self.proposed = is_proposed.then(|| self.path.clone());
     }
 
     /// The ending of the file; folders have none.

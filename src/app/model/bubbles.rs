@@ -7,7 +7,7 @@ use crate::{
     app::{
         edit::Edit,
         group::Group,
-        history, sight,
+        history,
         tools::{self, Press, Tool},
         wand::Wand,
     },
@@ -148,12 +148,10 @@ impl Model {
 
     /// Whether all selected bubbles are in a picture of an aspect, which is its width over its height.
     pub(super) fn sees_selection(&self, aspect: f64) -> bool {
-        let (camera, edge) = (&self.scene.camera, 0.5 * DVec2::new(aspect, 1.0));
-        self.selection().into_iter().all(|index| {
-            let (center_m, radius_m) = (self.put_m(index), 1e-3 * self.scene.bubbles[index].radius_mm);
-            let radius = radius_m / (sight::height(camera) * sight::depth_m(camera, center_m));
-            sight::place(camera, center_m).is_some_and(|place| (place.abs() + radius).cmple(edge).all())
-        })
+        let is_inside =
+            |(middle, radius): (DVec2, f64)| (middle.abs() + radius).cmple(0.5 * DVec2::new(aspect, 1.0)).all();
+        let tick = self.clock.tick;
+        self.selection().into_iter().all(|index| tools::outline(&self.scene, tick, index).is_some_and(is_inside))
     }
 
     /// Deletes the selected bubbles; what would have happened to them is forgotten, and what happens to others stays.

@@ -3,6 +3,8 @@
 //! The scene's own camera is always the view that the window shows. Whenever time moves, the numbers that the keyframes give are set to where the
 //! keyframes have them. Until then a user may look from elsewhere, and make a keyframe of it.
 
+use glam::DVec2;
+
 use super::Model;
 use crate::{
     app::{edit::Edit, orbit},
@@ -52,6 +54,29 @@ impl Model {
     #[must_use]
     pub fn will_move(&self) -> bool {
         self.scene.camera.keyframes.last().is_some_and(|last| self.moment_s() < last.time_s)
+    }
+
+    /// Moves the camera in a picture of an aspect, which is its width over its height.
+    pub fn move_camera(&mut self, gesture: &orbit::Gesture, aspect: f64) {
+        let hides_added = std::mem::take(&mut self.shows_added) && !self.sees_selection(aspect);
+        let framed = |model: &Self| {
+            let spheres = model.scene.spheres(model.clock.time_s(&model.scene.motion));
+            orbit::framed(&model.scene.camera, &spheres, aspect)
+        };
+        if gesture.frame {
+            self.look_from(framed(self));
+        } else if hides_added && self.scene.camera.keyframes.is_empty() {
+            let camera = framed(self);
+            // Adding them is the step that can be taken back.
+            self.scene.change(|scene| scene.camera = camera);
+        } else if gesture.moves() {
+            self.look_from(orbit::moved(&self.scene.camera, &self.scene.bubbles, gesture));
+        } else if gesture.follow != DVec2::ZERO && self.scene.camera.keyframes.is_empty() {
+            let gesture = orbit::Gesture { turn: gesture.follow, ..orbit::Gesture::default() };
+            let camera = orbit::moved(&self.scene.camera, &self.scene.bubbles, &gesture);
+            // Looking around is no work that could be lost.
+            self.scene.change(|scene| scene.camera = camera);
+        }
     }
 
     /// Looks from another camera. If that leaves the keyframes, the clock stands, for the next moment would take the view back.

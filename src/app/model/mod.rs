@@ -11,7 +11,7 @@ mod time;
 
 use std::{collections::BTreeSet, path::PathBuf};
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec3};
 
 #[cfg(not(target_arch = "wasm32"))]
 use super::exports::Exports;
@@ -25,7 +25,6 @@ use super::{
     keys::Action,
     lamps::Lamps,
     messages::Messages,
-    orbit,
     overlay::Overlay,
     probe::Probe,
     request::{Question, Request, Target},
@@ -329,29 +328,6 @@ impl Model {
         let gravity = turn * DVec3::from(self.motion().gravity_m_s2);
         let gravity_m_s2 = gravity.to_array().map(|part| (part * 1e3).round() / 1e3);
         self.edit(Edit::Motion(Motion { gravity_m_s2, ..self.motion() }.into()));
-    }
-
-    /// Moves the camera in a picture of an aspect, which is its width over its height.
-    pub fn move_camera(&mut self, gesture: &orbit::Gesture, aspect: f64) {
-        let hides_added = std::mem::take(&mut self.shows_added) && !self.sees_selection(aspect);
-        let framed = |model: &Self| {
-            let spheres = model.scene.spheres(model.clock.time_s(&model.scene.motion));
-            orbit::framed(&model.scene.camera, &spheres, aspect)
-        };
-        if gesture.frame {
-            self.look_from(framed(self));
-        } else if hides_added && self.scene.camera.keyframes.is_empty() {
-            let camera = framed(self);
-            // Adding them is the step that can be taken back.
-            self.scene.change(|scene| scene.camera = camera);
-        } else if gesture.moves() {
-            self.look_from(orbit::moved(&self.scene.camera, &self.scene.bubbles, gesture));
-        } else if gesture.follow != DVec2::ZERO && self.scene.camera.keyframes.is_empty() {
-            let gesture = orbit::Gesture { turn: gesture.follow, ..orbit::Gesture::default() };
-            let camera = orbit::moved(&self.scene.camera, &self.scene.bubbles, &gesture);
-            // Looking around is no work that could be lost.
-            self.scene.change(|scene| scene.camera = camera);
-        }
     }
 
     /// Does what a key asks for; framing is a gesture on the picture, whose shape only that knows.

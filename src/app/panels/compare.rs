@@ -20,12 +20,12 @@ const WIDTH: f32 = 330.0;
 
 /// Shows A left of the split and B right of it, or the map, over the picture; and what can be done with them.
 pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
-    let Some((kept, _)) = model.compare.kept.clone() else { return };
+    let Some((kept, _)) = model.compare.kept().cloned() else { return };
     let painter = ctx.layer_painter(LayerId::background());
     let draw = |slot, pixels: &Pixels, clip: Rect| {
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         let texture = texture(ctx, slot, pixels, TextureOptions::NEAREST);
-        painter.with_clip_rect(clip).image(texture.id(), room(picture, pixels.size), whole, Color32::WHITE);
+        painter.with_clip_rect(clip).image(texture.id(), unstretched(picture, pixels.size), whole, Color32::WHITE);
     };
     if let Some(map) = &model.compare.map {
         draw("compared", &map.pixels, picture);
@@ -52,7 +52,7 @@ pub fn show(ctx: &Context, picture: Rect, model: &mut Model) {
 }
 
 /// Where a picture of a size stands over the one that is shown: as high, for both see the same angle from top to bottom, and unstretched.
-fn room(picture: Rect, size: [u32; 2]) -> Rect {
+fn unstretched(picture: Rect, size: [u32; 2]) -> Rect {
     let aspect = size[0] as f32 / size[1].max(1) as f32;
     // Rounding to whole pixels changes no aspect.
     let is_same = (aspect * picture.height() - picture.width()).abs() < 2.0;
@@ -73,7 +73,7 @@ fn handle(ctx: &Context, picture: Rect, x: f32, compare: &mut Compare) {
 }
 
 fn controls(ui: &mut Ui, compare: &mut Compare) {
-    let a = compare.kept.as_ref().map(|(_, name)| name.clone());
+    let a = compare.kept().map(|(_, name)| name.clone());
     let b = compare.other.as_ref().map(|(_, name)| name.clone());
     side(ui, "A, left", a, Side::A, compare);
     side(ui, "B, right", b, Side::B, compare);

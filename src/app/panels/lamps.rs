@@ -1,6 +1,6 @@
 //! The lamps of the light: their list in the panel, and the one that the pointer holds in the picture.
 
-use egui::{Align2, CollapsingHeader, Color32, Context, FontId, LayerId, Rect, Stroke, Ui, vec2};
+use egui::{Align2, CollapsingHeader, Color32, Context, LayerId, Rect, Stroke, Ui, vec2};
 
 use super::{
     places,
@@ -97,8 +97,5 @@ pub fn held(ctx: &Context, rect: Rect, model: &Model) {
     let at = places::at(rect, grip.at);
     painter.circle_stroke(at, 8.0, Stroke::new(2.0, Color32::WHITE));
     let told = format!("lamp {}: azimuth {}°, elevation {}°", grip.lamp + 1, lamp.azimuth_deg, lamp.elevation_deg);
-    let text = painter.layout_no_wrap(told, FontId::proportional(13.0), Color32::WHITE);
-    let room = Align2::LEFT_CENTER.anchor_size(at + vec2(14.0, 0.0), text.size());
-    painter.rect_filled(room.expand(3.0), 3.0, Color32::from_black_alpha(170));
-    painter.galley(room.min, text, Color32::WHITE);
+    places::tag(&painter, Align2::LEFT_CENTER, at + vec2(14.0, 0.0), told);
 }

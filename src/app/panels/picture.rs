@@ -1,14 +1,14 @@
 //! The picture's place in the window, and what the pointer does there.
 
 use egui::{
-    Align2, CentralPanel, Color32, Context, FontId, Frame, InputState, LayerId, PointerButton, Rect, Response, Sense,
-    Stroke, Ui, Vec2, pos2,
+    Align2, CentralPanel, Color32, Context, Frame, InputState, LayerId, PointerButton, Rect, Response, Sense, Stroke,
+    Ui, Vec2, pos2,
 };
 use glam::DVec2;
 
 use super::{
     Picture, gallery, gizmo,
-    places::{at, place},
+    places::{at, place, tag},
 };
 use crate::app::{
     model::Model,
@@ -120,18 +120,13 @@ pub fn outline(ctx: &Context, picture: Rect, model: &Model) {
 /// Shows the bubble that the wand blows, and how large it is.
 pub fn blown(ctx: &Context, picture: Rect, model: &Model) {
     let Some(Wand { center_m, radius_m }) = model.wand else { return };
-    let camera = &model.scene.camera;
-    let Some(middle) = sight::place(camera, center_m).map(|place| at(picture, place)) else { return };
-    let radius = picture.height() * (radius_m / (sight::height(camera) * sight::depth_m(camera, center_m))) as f32;
+    let Some((middle, radius)) = sight::outline(&model.scene.camera, center_m, radius_m) else { return };
+    let (middle, radius) = (at(picture, middle), picture.height() * radius as f32);
     let painter = ctx.layer_painter(LayerId::background()).with_clip_rect(picture);
     for stroke in [Stroke::new(3.0, Color32::from_black_alpha(130)), Stroke::new(1.2, Color32::WHITE)] {
         painter.circle_stroke(middle, radius, stroke);
     }
-    let text = format!("{:.1} mm", 1e3 * radius_m);
-    let text = painter.layout_no_wrap(text, FontId::proportional(13.0), Color32::WHITE);
-    let room = Align2::CENTER_CENTER.anchor_size(middle, text.size());
-    painter.rect_filled(room.expand(3.0), 3.0, Color32::from_black_alpha(170));
-    painter.galley(room.min, text, Color32::WHITE);
+    tag(&painter, Align2::CENTER_CENTER, middle, format!("{:.1} mm", 1e3 * radius_m));
 }
 
 fn gesture(ui: &Ui, response: &Response, follow_deg: f64, fingers: Fingers, held: bool) -> Gesture {

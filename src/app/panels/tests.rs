@@ -151,6 +151,14 @@ fn another_film_starts_from_the_beginning() {
     assert_eq!((model.scene.bubbles[0].film.state, model.clock.tick), (FilmStateName::Rest, 0));
 }
 
+/// A window so high that all keys stand in it.
+fn high_window() -> Harness<'static, State> {
+    let mut window = harness(model(), vec2(1280.0, 6000.0));
+    window.state_mut().model.clock.running = false;
+    window.run();
+    window
+}
+
 /// Clicks the button of a name that stands nearest to a label's row.
 fn click_beside(window: &mut Harness<'static, State>, button: &str, label: &str) {
     let y = window.get_all_by_label(label).next().unwrap().rect().center().y;
@@ -162,10 +170,7 @@ fn click_beside(window: &mut Harness<'static, State>, button: &str, label: &str)
 
 #[test]
 fn all_keys_have_rows_and_can_be_set_back() {
-    let mut model = model();
-    model.clock.running = false;
-    let mut window = harness(model, vec2(1280.0, 4000.0));
-    window.run();
+    let mut window = high_window();
     click(&mut window, "All keys");
     let before = Scene::clone(&window.state().model.scene);
     window.state_mut().model.scene.change(|scene| scene.camera.azimuth_deg = 77.0);
@@ -180,9 +185,7 @@ fn all_keys_have_rows_and_can_be_set_back() {
 
 #[test]
 fn keys_without_a_value_are_set_and_unset() {
-    let mut window = harness(model(), vec2(1280.0, 6000.0));
-    window.state_mut().model.clock.running = false;
-    window.run();
+    let mut window = high_window();
     click(&mut window, "All keys");
     let before = Scene::clone(&window.state().model.scene);
     assert_eq!(before.camera.focal_mm, None);
@@ -199,9 +202,7 @@ fn keys_without_a_value_are_set_and_unset() {
 
 #[test]
 fn generators_are_added_and_deleted() {
-    let mut window = harness(model(), vec2(1280.0, 3000.0));
-    window.state_mut().model.clock.running = false;
-    window.run();
+    let mut window = high_window();
     click(&mut window, "Generators");
     // Bubbles are added above.
     window.get_all_by_label("Add").last().unwrap().click();

@@ -81,7 +81,7 @@ fn a_kept_picture_is_compared() {
     window.get_by_label_contains("mean 0.000");
     click(&mut window, "Split");
     click(&mut window, "Close");
-    assert_eq!(window.state().model.compare.kept, None);
+    assert_eq!(window.state().model.compare.kept(), None);
 }
 
 #[test]
