@@ -118,7 +118,8 @@ impl Handler {
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), AppError> {
         let attributes = self.attributes.clone().with_title(self.model.title());
-        let window = Arc::new(event_loop.create_window(system::sized(attributes, self.model.settings.window))?);
+        let window =
+            Arc::new(event_loop.create_window(system::sized(event_loop, attributes, self.model.settings.window))?);
         let ctx = egui::Context::default();
         style::apply(&ctx);
         ctx.set_zoom_factor(self.model.settings.zoom.clamp(0.5, 4.0));

@@ -80,7 +80,7 @@ fn link(toml: &str) -> Result<String, JsValue> {
 }
 
 /// The page gives its canvas a size.
-pub fn sized(attributes: WindowAttributes, _: [f64; 2]) -> WindowAttributes {
+pub fn sized(_: &ActiveEventLoop, attributes: WindowAttributes, _: [f64; 2]) -> WindowAttributes {
     attributes
 }
 

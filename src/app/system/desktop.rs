@@ -36,8 +36,13 @@ pub async fn device(
     Ok(gpu)
 }
 
-/// A window of a size in points.
-pub fn sized(attributes: WindowAttributes, [width, height]: [f64; 2]) -> WindowAttributes {
+/// A window of a size in points, or as much of it as the screen holds.
+pub fn sized(event_loop: &ActiveEventLoop, attributes: WindowAttributes, wanted: [f64; 2]) -> WindowAttributes {
+    let screen = event_loop.primary_monitor().or_else(|| event_loop.available_monitors().next());
+    let room = screen.map(|screen| screen.size().to_logical::<f64>(screen.scale_factor()));
+    // Some systems do not tell how large it is.
+    let room = room.filter(|room| room.width > 0.0 && room.height > 0.0);
+    let [width, height] = room.map_or(wanted, |room| [wanted[0].min(room.width), wanted[1].min(room.height)]);
     attributes.with_inner_size(LogicalSize::new(width, height)).with_min_inner_size(LogicalSize::new(320, 240))
 }
 
