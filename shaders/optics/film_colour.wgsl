@@ -13,7 +13,7 @@ override POLARISED: u32;
 override FILTERED: u32;
 
 // Thicknesses that such a mean is taken over.
-const SPREAD_TAPS: u32 = 4u;
+const SPREAD_TAPS: u32 = 2u;
 
 fn table_light(table: texture_2d_array<u32>, place: TablePlace, first: u32, light: vec3f) -> vec3f {
     let red = table_colour(table, place, first);

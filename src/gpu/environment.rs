@@ -1,9 +1,10 @@
 //! The environment on the device: a cube map with all its levels.
 
-use half::f16;
-
 use super::device::Gpu;
-use crate::physics::environment::{CubeMap, Defocused, DefocusedTile, TILES_PER_EDGE};
+use crate::{
+    physics::environment::{CubeMap, Defocused, DefocusedTile, TILES_PER_EDGE, Texel},
+    scene::Quality,
+};
 
 /// An environment and how it is sampled.
 pub struct Environment {
@@ -12,8 +13,9 @@ pub struct Environment {
     pub view: wgpu::TextureView,
     /// Angle between neighbouring texels at the center of a face of the finest level, in radians.
     pub texel_angle: f32,
-    /// Linear within and between levels; cube maps have no seams.
-    pub sampler: wgpu::Sampler,
+    /// Linear within a level, and between levels or from the nearest one; cube maps have no seams.
+    between_levels: wgpu::Sampler,
+    nearest_level: wgpu::Sampler,
 }
 
 impl Environment {
@@ -57,7 +59,7 @@ impl Environment {
             mip_level_count: levels as u32,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba16Float,
+            format: wgpu::TextureFormat::Rgb9e5Ufloat,
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         });
@@ -65,18 +67,39 @@ impl Environment {
             dimension: Some(wgpu::TextureViewDimension::Cube),
             ..Default::default()
         });
-        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("environment"),
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            ..Default::default()
-        });
-        Self { texture, view, texel_angle: 2.0 / width as f32, sampler }
+        let sampler = |mipmap_filter| {
+            gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("environment"),
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                mipmap_filter,
+                ..Default::default()
+            })
+        };
+        Self {
+            texture,
+            view,
+            texel_angle: 2.0 / width as f32,
+            between_levels: sampler(wgpu::MipmapFilterMode::Linear),
+            nearest_level: sampler(wgpu::MipmapFilterMode::Nearest),
+        }
+    }
+
+    /// How a quality samples reflections. A second level is half of the cost of a lookup, and brings the picture of a room 1.4 dB nearer to many
+    /// samples per pixel.
+    #[must_use]
+    pub fn sampler(&self, quality: Quality) -> &wgpu::Sampler {
+        if quality == Quality::Fast { &self.nearest_level } else { self.backdrop_sampler() }
+    }
+
+    /// How what stands behind the bubbles is sampled: linear between levels too.
+    #[must_use]
+    pub fn backdrop_sampler(&self) -> &wgpu::Sampler {
+        &self.between_levels
     }
 
     /// Writes a square of texels, whose corner is a column, a row and a face of a level.
-    fn write(&self, gpu: &Gpu, corner: [usize; 3], level: usize, edge: usize, texels: &[[f16; 4]]) {
+    fn write(&self, gpu: &Gpu, corner: [usize; 3], level: usize, edge: usize, texels: &[Texel]) {
         let [x, y, z] = corner.map(|place| place as u32);
         let edge = edge as u32;
         gpu.upload_texture(
@@ -87,7 +110,11 @@ impl Environment {
                 aspect: wgpu::TextureAspect::All,
             },
             bytemuck::cast_slice(texels),
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * edge), rows_per_image: None },
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(size_of::<Texel>() as u32 * edge),
+                rows_per_image: None,
+            },
             wgpu::Extent3d { width: edge, height: edge, depth_or_array_layers: 1 },
         );
     }

@@ -9,6 +9,8 @@ pub(super) const SMALLEST_FIELD_PIXELS: f64 = 0.75;
 
 /// Pixels that a cell of a film must span for the film to be looked up at each pixel: below that, a cell is interpolated well enough.
 const MAGNIFIED_CELL_PIXELS: f64 = 3.0;
+/// Pixels that a cell of a film spans at most where thickness is filtered over each sample: film may change by a fringe and more from cell to cell.
+const FILTERED_CELL_PIXELS: f64 = 2.0;
 
 pub(super) fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f64) -> bool {
     let FilmKey::Field(field) = film else { return false };
@@ -18,10 +20,10 @@ pub(super) fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, di
     field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
 }
 
-/// Whether a pixel spans more than a cell of a film, which may then change by much of a fringe across it. Several samples per pixel
+/// Whether a pixel spans so much of a film that it may change by much of a fringe across it. Several samples per pixel
 /// see that better than a filter which takes the film to change evenly from pixel to pixel.
 pub(super) fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
-    let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < 1.0);
+    let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < FILTERED_CELL_PIXELS);
     is_finer && samples(radius_pixels) == 1
 }
 

@@ -108,7 +108,7 @@ impl BackdropDraw {
             view,
             light: &light.light,
             backdrop_map: &map.view,
-            backdrop_sampler: &map.sampler,
+            backdrop_sampler: map.backdrop_sampler(),
             lamps: &light.lamps,
         };
         Ok(Self::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?))
@@ -311,7 +311,7 @@ impl Shared<'_> {
             view,
             light: &light.light,
             environment: &environment.view,
-            environment_sampler: &environment.sampler,
+            environment_sampler: environment.sampler(film_colours.quadrature.quality),
             bubble,
             axes: &table.axes,
             table: &table.view,

@@ -103,7 +103,7 @@ impl Shared<'_> {
             view: &self.view,
             light: &self.light.light,
             environment: &self.environment.view,
-            environment_sampler: &self.environment.sampler,
+            environment_sampler: self.environment.sampler(films.quadrature.quality),
             axes: &table.axes,
             table: &table.view,
             films: self.films,

@@ -1,35 +1,34 @@
 //! The environment as the cube map that shaders sample.
 
 use glam::{DVec2, DVec3};
-use half::{f16, slice::HalfFloatSliceExt};
 use serde::{Deserialize, Serialize};
 
 use crate::parallel;
 
-use super::{CubeFace, Equirect, Lamp, Repairs, mip};
+use super::{CubeFace, Equirect, Lamp, Repairs, Texel, mip, texel::texels_of};
 
 /// One mip level of a [`CubeMap`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CubeLevel {
     /// Texels along the edge of each face.
     pub size: usize,
-    /// The faces in the order of [`CubeFace::ALL`], each row by row from s = t = −1: linear BT.2020, alpha 1.
+    /// The faces in the order of [`CubeFace::ALL`], each row by row from s = t = −1.
     #[serde(with = "texels")]
-    pub faces: [Vec<[f16; 4]>; 6],
+    pub faces: [Vec<Texel>; 6],
 }
 
 /// All texels of a level as bytes.
 mod texels {
-    use half::f16;
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
+    use super::Texel;
     use crate::physics::bulk;
 
-    pub fn serialize<S: Serializer>(faces: &[Vec<[f16; 4]>; 6], serializer: S) -> Result<S::Ok, S::Error> {
+    pub fn serialize<S: Serializer>(faces: &[Vec<Texel>; 6], serializer: S) -> Result<S::Ok, S::Error> {
         bulk::serialize(&faces.concat(), serializer)
     }
 
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[Vec<[f16; 4]>; 6], D::Error> {
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[Vec<Texel>; 6], D::Error> {
         let bytes = <&[u8]>::deserialize(deserializer)?;
         let faces: Vec<_> = bytes.chunks_exact((bytes.len() / 6).max(1)).map(bytemuck::pod_collect_to_vec).collect();
         faces.try_into().map_err(|_| D::Error::custom("a cube has six faces"))
@@ -54,14 +53,15 @@ impl CubeMap {
     pub fn from_fn(size: usize, supersampling: usize, radiance: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
         let (size, supersampling) = (size.max(1), supersampling.max(1));
         let mut mips = empty_mips(size);
-        let mut repairs = Repairs::default();
+        let (mut repairs, mut neutral) = (Repairs::default(), true);
         // One face at a time: only one then stands in memory in full precision.
         for face in CubeFace::ALL {
             let mut texels = vec![[0.0; 3]; size * size];
             repairs = repairs + fill_face(&mut texels, face, size, supersampling, &radiance);
+            neutral &= texels.iter().all(is_grey);
             store_mips(&mut mips, face, texels);
         }
-        let (id, neutral, contrast) = (content_id(&mips[0]), mips[0].is_neutral(), contrast(&mips));
+        let (id, contrast) = (content_id(&mips[0]), contrast(&mips));
         Self { mips, lamps: Vec::new(), id, neutral, contrast, repairs }
     }
 
@@ -113,7 +113,7 @@ impl CubeMap {
         self.id
     }
 
-    /// Whether all of it is grey, but for the rounding of half floats.
+    /// Whether all of it is grey, to a thousandth.
     pub fn is_neutral(&self) -> bool {
         self.neutral
     }
@@ -180,17 +180,14 @@ impl CubeLevel {
     }
 
     fn radiance(&self, layer: usize, index: usize) -> DVec3 {
-        let [r, g, b, _] = self.faces[layer][index].map(f64::from);
-        DVec3::new(r, g, b)
+        self.faces[layer][index].radiance()
     }
+}
 
-    fn is_neutral(&self) -> bool {
-        let grey = |texel: &[f16; 4]| {
-            let [r, g, b] = [texel[0], texel[1], texel[2]].map(f16::to_f32);
-            r.max(g).max(b) - r.min(g).min(b) <= 1e-3 * r.max(g).max(b)
-        };
-        self.faces.iter().flatten().all(grey)
-    }
+/// See [`CubeMap::is_neutral`].
+fn is_grey(&[r, g, b]: &[f32; 3]) -> bool {
+    let max = r.max(g).max(b);
+    max - r.min(g).min(b) <= 1e-3 * max
 }
 
 /// See [`CubeMap::contrast`].
@@ -264,20 +261,8 @@ fn store_mips(mips: &mut [CubeLevel], face: CubeFace, mut texels: Vec<[f32; 3]>)
         if level.size * level.size != texels.len() {
             texels = mip::halve(&texels, texels.len().isqrt());
         }
-        level.faces[face.layer()] = halves(&texels);
+        level.faces[face.layer()] = texels_of(&texels);
     }
-}
-
-/// Radiances as half floats with alpha 1. Whole slices convert at once, which is much faster than number by number.
-pub(super) fn halves(texels: &[[f32; 3]]) -> Vec<[f16; 4]> {
-    const PIECE: usize = 1024;
-    let mut halves = vec![[f16::ONE; 4]; texels.len()];
-    parallel::change(&mut halves, PIECE, |piece, halves| {
-        let texels = &texels[piece * PIECE..][..halves.len()];
-        let opaque: Vec<[f32; 4]> = texels.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
-        halves.as_flattened_mut().convert_from_f32_slice(opaque.as_flattened());
-    });
-    halves
 }
 
 /// Radiance times solid angle, and solid angle, summed over one row of one face; `row` counts through all faces.
@@ -295,8 +280,7 @@ fn weighted_row(level: &CubeLevel, row: usize) -> (DVec3, f64) {
 fn content_id(level: &CubeLevel) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325 ^ level.size as u64;
     for texel in level.faces.iter().flatten() {
-        let bits = texel.iter().fold(0, |bits, component| bits << 16 | u64::from(component.to_bits()));
-        hash = hashed(hash, bits);
+        hash = hashed(hash, u64::from(texel.0));
     }
     hash
 }

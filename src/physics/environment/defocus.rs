@@ -9,12 +9,11 @@
 //! its integral takes two lookups a row, whatever is in it: sun and sky alike, without noise, with their energy.
 
 use glam::{DVec2, DVec3, DVec4};
-use half::f16;
 use serde::{Deserialize, Serialize};
 
 use crate::{parallel, physics::bulk};
 
-use super::{CubeFace, CubeMap, CubeTile, CubeTiles, Repairs, TILES_PER_EDGE, cube_map::halves, mip};
+use super::{CubeFace, CubeMap, CubeTile, CubeTiles, Repairs, TILES_PER_EDGE, Texel, mip, texel::texels_of};
 
 /// Texels of the source across half a disc, at least: rows that the disc's outline is made of.
 const SOURCE_TEXELS: f64 = 6.0;
@@ -41,9 +40,9 @@ pub struct Defocused {
 pub struct DefocusedTile {
     /// Which one it is.
     pub tile: CubeTile,
-    /// Texels of its levels one after the other, the largest first, each row by row: linear BT.2020, alpha 1.
+    /// Texels of its levels one after the other, the largest first, each row by row.
     #[serde(with = "bulk")]
-    pub texels: Vec<[f16; 4]>,
+    pub texels: Vec<Texel>,
 }
 
 impl Defocused {
@@ -94,7 +93,7 @@ impl Cones {
     }
 
     /// The texels of a tile, `edge` along its edge, and of smaller levels after them.
-    fn tile(&self, tile: CubeTile, edge: usize, levels: usize) -> Vec<[f16; 4]> {
+    fn tile(&self, tile: CubeTile, edge: usize, levels: usize) -> Vec<Texel> {
         let texel = |k: usize| {
             let place = DVec2::new((k % edge) as f64 + 0.5, (k / edge) as f64 + 0.5) * (CubeTile::EDGE / edge as f64);
             let mut texel = self.mean(tile.face.direction(tile.corner() + place)).as_vec3().to_array();
@@ -103,10 +102,10 @@ impl Cones {
             texel
         };
         let mut level = parallel::map(edge * edge, texel);
-        let mut texels = halves(&level);
+        let mut texels = texels_of(&level);
         for smaller in 1..levels {
             level = mip::halve(&level, edge >> (smaller - 1));
-            texels.extend(halves(&level));
+            texels.extend(texels_of(&level));
         }
         texels
     }
@@ -286,10 +285,11 @@ mod tests {
             assert_eq!(texels.len(), (0..7).map(|level| (64 * 64) >> (2 * level)).sum::<usize>());
             // Column 5 of row 9.
             let place = tile.corner() + DVec2::new(5.5, 9.5) * CubeTile::EDGE / 64.0;
-            let (found, truth) = (f64::from(texels[9 * 64 + 5][1]), cones.mean(tile.face.direction(place)).y);
-            assert!((found / truth - 1.0).abs() < 1e-3, "{tile:?}: {found}, {truth}");
-            let mean = texels[..64 * 64].iter().map(|texel| f64::from(texel[1])).sum::<f64>() / 4096.0;
-            assert!((f64::from(texels[texels.len() - 1][1]) / mean - 1.0).abs() < 2e-3, "{tile:?}");
+            let (found, truth) = (texels[9 * 64 + 5].radiance().y, cones.mean(tile.face.direction(place)).y);
+            // Rounded by half of the last of nine bits.
+            assert!((found / truth - 1.0).abs() < 0.5f64.powi(9), "{tile:?}: {found}, {truth}");
+            let mean = texels[..64 * 64].iter().map(|texel| texel.radiance().y).sum::<f64>() / 4096.0;
+            assert!((texels[texels.len() - 1].radiance().y / mean - 1.0).abs() < 2e-3, "{tile:?}");
         }
     }
 

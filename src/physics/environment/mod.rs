@@ -15,6 +15,7 @@ mod patch;
 mod procedural;
 mod repair;
 mod shape;
+mod texel;
 
 pub use cube_face::CubeFace;
 pub use cube_map::{CubeLevel, CubeMap};
@@ -25,3 +26,4 @@ pub use lamp::Lamp;
 pub use patch::Patch;
 pub use procedural::Procedural;
 pub use repair::{MAX_RADIANCE, Repairs};
+pub use texel::Texel;

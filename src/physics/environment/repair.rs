@@ -6,7 +6,7 @@ use std::ops::Add;
 
 use serde::{Deserialize, Serialize};
 
-/// The brightest radiance an environment keeps: just below the largest half float (65504), so that a filter's rounding stays
+/// The brightest radiance an environment keeps: just below the largest half float (65504), so that pictures of it, and a filter's rounding, stay
 /// finite.
 pub const MAX_RADIANCE: f32 = 65000.0;
 

@@ -31,7 +31,7 @@ pub struct BubbleKey {
     pub samples: u32,
     /// Whether the film is looked up through its flow map at each pixel: where cells are larger than pixels.
     pub magnified: bool,
-    /// Whether thickness is filtered over each sample: where a pixel spans more of the film than a cell.
+    /// Whether thickness is filtered over each sample: where a pixel spans half a cell of the film or more.
     pub filtered: bool,
     /// The film.
     pub film: FilmKey,

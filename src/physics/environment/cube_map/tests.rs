@@ -15,11 +15,11 @@ fn a_direction_finds_its_own_radiance() {
     let source = |direction: DVec3| direction.normalize() + 1.0;
     let map = CubeMap::from_fn(64, 2, source);
     for direction in directions(5000) {
-        // f16 holds values below 2 to 2⁻¹¹; the source bends by half of what a texel 2/64 wide, squared, holds; across an
+        // A texel holds values below 2 to 2⁻⁹; the source bends by half of what a texel 2/64 wide, squared, holds; across an
         // edge the nearest neighbour may lie half a texel, 1/64, along it, weighed by a half at most.
         let error = (map.sample(direction) - source(direction)).abs().max_element();
         let on_edge = CubeFace::of_direction(direction).1.abs().max_element() > 1.0 - 1.0 / 64.0;
-        assert!(error < if on_edge { 8e-3 } else { 1e-3 }, "{direction}: {error}");
+        assert!(error < 0.5f64.powi(9) + if on_edge { 7.5e-3 } else { 0.5e-3 }, "{direction}: {error}");
     }
 }
 
@@ -74,8 +74,12 @@ fn mips_have_gpu_sizes_and_keep_the_mean() {
                 (0..texels).map(|index| level.radiance(layer, index)).sum::<DVec3>() / texels as f64
             };
             for level in map.mips() {
-                // f16 holds values below 2 to 2⁻¹¹.
-                assert!(mean(level).distance(mean(&map.mips()[0])) < 2e-3, "size {size}, level {}", level.size);
+                // A texel holds values below 2 to 2⁻⁹, in each of three components.
+                assert!(
+                    (mean(level) - mean(&map.mips()[0])).abs().max_element() < 0.5f64.powi(9),
+                    "size {size}, level {}",
+                    level.size
+                );
             }
         }
     }
@@ -91,7 +95,7 @@ fn mean_radiance_weighs_by_solid_angle() {
 }
 
 #[test]
-fn values_beyond_f16_are_repaired_and_counted() {
+fn values_beyond_what_texels_hold_are_repaired_and_counted() {
     let map = CubeMap::from_fn(2, 1, |direction| match CubeFace::of_direction(direction).0 {
         CubeFace::PositiveX => DVec3::splat(1e30),
         CubeFace::NegativeY => DVec3::splat(f64::NAN),
@@ -99,15 +103,9 @@ fn values_beyond_f16_are_repaired_and_counted() {
         _ => DVec3::ONE,
     });
     assert_eq!(map.repairs(), Repairs { not_a_number: 4, negative: 4, too_bright: 4 });
-    assert!((map.sample(DVec3::X).x - f64::from(MAX_RADIANCE)).abs() < 32.0, "f16 steps by 32 there");
+    assert!((map.sample(DVec3::X).x - f64::from(MAX_RADIANCE)).abs() <= 64.0, "texels step by 128 there");
     assert_eq!(map.sample(DVec3::NEG_Z), DVec3::ZERO);
-    assert!(
-        map.mips()
-            .iter()
-            .flat_map(|level| level.faces.iter().flatten())
-            .flatten()
-            .all(|component| component.is_finite())
-    );
+    assert!(map.mips().iter().flat_map(|level| level.faces.iter().flatten()).all(|texel| texel.radiance().is_finite()));
 }
 
 #[test]
@@ -126,7 +124,7 @@ fn ids_tell_contents_apart() {
     assert_ne!(map(2.0).id(), map(2.01).id());
     assert_ne!(CubeMap::constant(DVec3::ONE).id(), CubeMap::from_fn(2, 1, |_| DVec3::ONE).id());
     // Pinned: the same on every machine and with every compiler.
-    assert_eq!(CubeMap::constant(DVec3::ONE).id(), 10_282_663_682_314_710_383);
+    assert_eq!(CubeMap::constant(DVec3::ONE).id(), 10_946_849_680_655_195_645);
 }
 
 #[test]

@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn the_room_is_dark_but_for_its_windows() {
         let map = CubeMap::from_fn(128, 1, |direction| Procedural::Windows.radiance(direction));
-        let greens: Vec<_> = map.mips()[0].faces.iter().flatten().map(|texel| texel[1].to_f64()).collect();
+        let greens: Vec<_> = map.mips()[0].faces.iter().flatten().map(|texel| texel.radiance().y).collect();
         let share = |test: &dyn Fn(f64) -> bool| {
             greens.iter().filter(|&&green| test(green)).count() as f64 / greens.len() as f64
         };
