@@ -125,12 +125,12 @@ impl SoapBubble {
         self.change(|model| model.clock.running = !pauses);
     }
 
-    /// Film time, s.
+    /// Film time, s: while it runs, that of the picture.
     #[wasm_bindgen(getter)]
     #[must_use]
     pub fn time(&self) -> f64 {
         let model = &self.bubble.borrow().handler.model;
-        model.clock.time_s(&model.scene.motion)
+        model.shown_tick() as f64 * model.scene.motion.tick_s
     }
 
     /// The scene with its history, as a scene file has it.

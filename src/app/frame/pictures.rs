@@ -16,11 +16,13 @@ use crate::{
     },
     output::Metadata,
     physics::colour::Gamut,
-    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Rendering, Shot, plan},
+    plan::{FilmKey, FrameRequest, GpuState, Pace, Plan, Rendering, Shot, TonemapKey, plan},
 };
 
 /// Redraws of the panels alone that come before the first picture: until all of them stand there.
-const PANELS_FIRST: u64 = panels::PASSES;
+const PANELS_FIRST: u64 = panels::FRAMES;
+/// The redraw of them after which the picture's size is known.
+const PICTURE_SIZED: u64 = 3;
 /// How long a redraw waits for its picture. Most pictures come sooner; a window that waits longer is felt to stick.
 const PATIENCE: Duration = Duration::from_millis(50);
 /// Time after which people are told that a picture is being drawn.
@@ -129,6 +131,9 @@ impl View {
         self.pictures.rests_until = None;
         if self.pictures.redraws < PANELS_FIRST {
             self.pictures.redraws += 1;
+            if self.pictures.redraws == PICTURE_SIZED {
+                self.prepare_first(model);
+            }
             due.after(Duration::ZERO);
             return false;
         }
@@ -164,6 +169,15 @@ impl View {
                     }
                 }
             }
+        }
+    }
+
+    /// Has what the first picture begins with computed, while the panels come.
+    fn prepare_first(&mut self, model: &Model) {
+        // What fails here fails again where the picture is drawn, and is told there.
+        if let (Some(renderer), Ok(request)) = (self.stage.drawing.renderer(), request(model, self.picture_size)) {
+            let plan = plan(&request, renderer.state());
+            self.pictures.producer.prepare(&plan, &mut renderer.prepared);
         }
     }
 
@@ -219,7 +233,9 @@ impl View {
 
     /// The picture is not there yet.
     fn wait(&mut self, model: &mut Model, first_tick: u64, due: &mut Due) {
-        self.progress = Progress::Under;
+        if !self.waits_for_the_moment(model) {
+            self.progress = Progress::Under;
+        }
         self.pictures.is_late = true;
         match &self.pictures.begun {
             // The film's time goes on while a picture of it is drawn.
@@ -237,6 +253,14 @@ impl View {
         due.at_latest(told.filter(|_| !is_told));
         // The panels ask for more than that while a sign on them moves.
         due.at = due.at.map(|at| at.max(due.now + MEANWHILE));
+    }
+
+    /// Whether the picture that comes is another one than the shown picture by its moment alone, as those of a running film are.
+    fn waits_for_the_moment(&self, model: &Model) -> bool {
+        let Pictures { begun, waiting, .. } = &self.pictures;
+        let request = begun.as_ref().map(|begun| &begun.request).or(waiting.as_ref().map(|(request, _)| request));
+        let lights = |shown: &TonemapKey| request.is_some_and(|request| has_lights_of(request, shown));
+        model.clock.running && model.is_pictured() && self.shown.as_ref().is_some_and(lights)
     }
 
     /// A picture is there, and shown with the next paint; returns whether its pixels are others.
@@ -323,7 +347,12 @@ fn is_done(request: &FrameRequest, plan: &Plan, runs: bool) -> bool {
         return false;
     }
     let made = plan.after.picture.as_ref();
-    plan.complete || runs && made.is_some_and(|made| made.draw.lights().eq(request.picture.draw.lights()))
+    plan.complete || runs && made.is_some_and(|made| has_lights_of(request, made))
+}
+
+/// Whether a picture is requested in the lights of another one.
+fn has_lights_of(request: &FrameRequest, other: &TonemapKey) -> bool {
+    other.draw.lights().eq(request.picture.draw.lights())
 }
 
 /// Takes back the ticks of this frame that the films did not reach, and notes how far they are behind an edited history.

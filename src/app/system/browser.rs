@@ -94,10 +94,18 @@ pub fn finish(opening: impl Future<Output = ()> + 'static) {
 
 /// Runs a piece of work in a task of its own, after the page has shown that it has begun.
 pub fn spawn(job: impl FnOnce() + 'static) -> io::Result<()> {
+    spawn_after(50, job)
+}
+
+/// Runs a piece of work in a task of its own, in some milliseconds.
+pub fn spawn_after(wait_ms: i32, job: impl FnOnce() + 'static) -> io::Result<()> {
     let refused = |reason: JsValue| io::Error::other(format!("{reason:?}"));
     let window = web_sys::window().ok_or_else(|| io::Error::other("there is no page"))?;
     let task = Closure::once_into_js(job);
-    window.set_timeout_with_callback_and_timeout_and_arguments_0(task.unchecked_ref(), 50).map(|_| ()).map_err(refused)
+    window
+        .set_timeout_with_callback_and_timeout_and_arguments_0(task.unchecked_ref(), wait_ms)
+        .map(drop)
+        .map_err(refused)
 }
 
 /// Does work in the page's worker, or here if there is none.

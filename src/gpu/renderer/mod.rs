@@ -1,5 +1,6 @@
 //! Walks a plan: owns the products, records each pass from its key, and keeps the record of what is on the GPU.
 
+mod execute;
 mod films;
 mod readbacks;
 mod sums;
@@ -18,7 +19,6 @@ use super::{
     film_atlas::FilmAtlas,
     formats::{PICTURE_FORMAT, radiance_format},
     passes::{bake_table::Table, finish::Finished, open_hole::OpenHole, tonemap::tonemap},
-    plate::upload_plate,
     quadrature::Quadrature,
     shown_film::Shown,
     target::Target,
@@ -27,7 +27,7 @@ use super::{
 use crate::{
     physics::{environment::CubeMap, picture::Finish},
     plan::{
-        DrawKey, FilmKey, FrameRequest, GpuState, Lighting, Pass, Plan, Prepared, Product, QuadratureKey, TableKey,
+        DrawKey, FilmKey, FrameRequest, GpuState, Lighting, Plan, Prepared, Product, QuadratureKey, TableKey,
         TonemapKey, Work, plan,
     },
 };
@@ -140,75 +140,12 @@ impl Renderer {
         Ok(plan)
     }
 
-    /// Runs a plan that was made for the present [`Self::state`].
-    pub fn execute(&mut self, plan: &Plan) -> Result<(), GpuError> {
-        if plan.is_empty() {
-            return Ok(());
-        }
-        let result = self.run_all(plan).and_then(|()| self.gpu.check());
-        self.prepared.clear();
-        // After a failure the state is unknown: everything is recreated.
-        self.state = if result.is_ok() { plan.after.clone() } else { GpuState::default() };
-        self.products.keep(&self.state);
-        for (field, film) in self.state.fields.iter_mut().zip(&self.products.films) {
-            if let (Some(field), Some(film)) = (field, film) {
-                field.rest = film.rest();
-            }
-        }
-        result
-    }
-
     /// Forgets a picture, or a film's moment, so that the next plan makes them again: how frames are measured.
     pub fn forget_picture(&mut self) {
         self.state.radiance = None;
         self.state.picture = None;
         for field in self.state.fields.iter_mut().flatten() {
             field.shown = None;
-        }
-    }
-
-    /// Runs the passes in order; equal steps that stand side by side are taken together.
-    fn run_all(&mut self, plan: &Plan) -> Result<(), GpuError> {
-        plan.steps.chunk_by(|(pass, _), (next, _)| pass.steps_like(next)).try_for_each(|passes| match passes {
-            [(pass, _)] => self.run(pass),
-            together => self.step(together.iter().map(|(pass, _)| pass)),
-        })
-    }
-
-    fn run(&mut self, pass: &Pass) -> Result<(), GpuError> {
-        match pass {
-            Pass::UploadEnvironment { light, key } => {
-                self.light(*light).environment = Some(Environment::upload(&self.gpu, &key.0));
-                Ok(())
-            }
-            Pass::DefocusBackdrop { light, key, adds } => {
-                let Product::Backdrop(tiles) = self.prepared.take(&Work::Defocus(key.clone())) else { return Ok(()) };
-                let present = self.light(*light).defocused.take().filter(|_| *adds);
-                let defocused = present.unwrap_or_else(|| Environment::for_tiles(&self.gpu, &tiles));
-                defocused.write_tiles(&self.gpu, &tiles);
-                self.light(*light).defocused = Some(defocused);
-                Ok(())
-            }
-            Pass::UploadPlate(key) => {
-                self.products.plate = Some(upload_plate(&self.gpu, key));
-                Ok(())
-            }
-            Pass::BakeTable { light, material, key, rows } => self.bake([*light, *material], key, rows.clone()),
-            Pass::FitQuadrature { light, material, key } => {
-                self.fit([*light, *material], key);
-                Ok(())
-            }
-            Pass::SeedField { film, key } => self.seed(*film, key),
-            Pass::RestoreField { film, slot, .. } => self.copy_state(*film, |film, recorder| {
-                film.restore(recorder, *slot);
-                Ok(())
-            }),
-            Pass::SaveField { film, slot, .. } => self.copy_state(*film, |film, recorder| film.save(recorder, *slot)),
-            Pass::StepField { .. } => self.step([pass].into_iter()),
-            Pass::ShowField { film, key } => self.show(*film, key),
-            Pass::OpenHole { film, key } => self.open_hole(*film, key),
-            Pass::Draw(key) => self.draw(key),
-            Pass::Tonemap(key) => self.tonemap(key),
         }
     }
 
