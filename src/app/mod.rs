@@ -17,6 +17,7 @@
 //! | `figure` | a plot as a picture for a file |
 //! | `window`, `frame`, `input` | the event loop, one redraw, and presses one by one |
 //! | `producer`, `render_thread` | what a frame needs of the CPU, computed beside the window; pictures, drawn beside it |
+//! | `step_pace` | how far films catch up in a frame |
 //! | `stage`, `surface`, `paint`, `capture`, `reload` | the GPU's side: what must be recreated when a device is lost |
 
 pub mod clock;
@@ -61,6 +62,7 @@ mod render_thread;
 mod sight;
 mod spectrum;
 mod stage;
+mod step_pace;
 mod style;
 mod surface;
 #[cfg_attr(target_arch = "wasm32", path = "system/browser.rs")]

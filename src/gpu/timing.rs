@@ -1,6 +1,6 @@
 //! What a frame cost: GPU time of each pass where the adapter can tell, and counts of the work asked for.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::{
     device::{Gpu, GpuError},
@@ -17,6 +17,9 @@ pub const STEP_FLOW: &str = "step_flow";
 /// Name of the passes that make a film ready to be drawn.
 pub const SHOW_FIELD: &str = "show_field";
 
+/// Name of the pass that ends a picture.
+pub const TONEMAP: &str = "tonemap";
+
 /// GPU time of one pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTime {
@@ -24,6 +27,15 @@ pub struct PassTime {
     pub name: &'static str,
     /// Milliseconds; `None` where the adapter does not report them or reports nonsense.
     pub gpu_ms: Option<f64>,
+}
+
+/// Steps of films that the device has timed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepTime {
+    /// Cells whose liquid was moved.
+    pub cells: u64,
+    /// Milliseconds on the GPU.
+    pub gpu_ms: f64,
 }
 
 /// Workgroups of a dispatch.
@@ -218,26 +230,46 @@ impl<'g> Recorder<'g> {
         let readable = (!self.queries.is_empty()).then(|| self.resolve_timestamps());
         self.gpu.queue.submit([self.encoder.finish()]);
         match readable {
-            Some(readable) => times.expect(&readable, self.names, self.gpu.queue.get_timestamp_period()),
+            Some(readable) => {
+                let period_ns = self.gpu.queue.get_timestamp_period();
+                times.expect(&readable, self.names, (period_ns, self.counts.cells_stepped));
+            }
             None => times.add(self.names.into_iter().map(|name| PassTime { name, gpu_ms: None })),
         }
         self.counts
     }
 }
 
-/// Times that have arrived, summed by pass.
+/// Times that have arrived.
 #[derive(Clone, Debug, Default)]
-pub struct TimeLog(Arc<Mutex<Vec<PassTime>>>);
+pub struct TimeLog(Arc<Mutex<Arrived>>);
+
+/// Sums since they were taken last.
+#[derive(Debug, Default)]
+struct Arrived {
+    passes: Vec<PassTime>,
+    steps: StepTime,
+}
 
 impl TimeLog {
-    /// Takes all times that have arrived since the last call, in the order in which passes first ran.
+    /// Takes the times of all passes that have arrived since the last call, summed by pass, in the order in which passes first ran.
     #[must_use]
     pub fn take(&self) -> Vec<PassTime> {
-        std::mem::take(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner))
+        std::mem::take(&mut self.arrived().passes)
+    }
+
+    /// Takes what steps of films have taken since the last call.
+    #[must_use]
+    pub fn take_steps(&self) -> StepTime {
+        std::mem::take(&mut self.arrived().steps)
+    }
+
+    fn arrived(&self) -> MutexGuard<'_, Arrived> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn add(&self, times: impl Iterator<Item = PassTime>) {
-        let mut log = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let log = &mut self.arrived().passes;
         for time in times {
             match log.iter_mut().find(|known| known.name == time.name) {
                 Some(known) => known.gpu_ms = known.gpu_ms.zip(time.gpu_ms).map(|(a, b)| a + b),
@@ -246,7 +278,8 @@ impl TimeLog {
         }
     }
 
-    fn expect(&self, readable: &wgpu::Buffer, names: Vec<&'static str>, period_ns: f32) {
+    /// Enters the times of one submission, which moves the liquid of some cells or of none.
+    fn expect(&self, readable: &wgpu::Buffer, names: Vec<&'static str>, (period_ns, cells): (f32, u64)) {
         let log = self.clone();
         let buffer = readable.clone();
         readable.map_async(wgpu::MapMode::Read, .., move |mapped| {
@@ -259,7 +292,16 @@ impl TimeLog {
                 // Some drivers answer zero where they do not know.
                 (ticks > 0).then(|| ticks as f64 * f64::from(period_ns) * 1e-6)
             };
-            log.add(names.into_iter().enumerate().map(|(slot, name)| PassTime { name, gpu_ms: span(slot) }));
+            let spans: Vec<Option<f64>> = (0..names.len()).map(span).collect();
+            log.add_steps(cells, spans.iter().copied().sum());
+            log.add(names.into_iter().zip(spans).map(|(name, gpu_ms)| PassTime { name, gpu_ms }));
         });
+    }
+
+    fn add_steps(&self, cells: u64, gpu_ms: Option<f64>) {
+        if let Some(gpu_ms) = gpu_ms.filter(|_| cells > 0) {
+            let steps = &mut self.arrived().steps;
+            *steps = StepTime { cells: steps.cells + cells, gpu_ms: steps.gpu_ms + gpu_ms };
+        }
     }
 }

@@ -7,29 +7,30 @@ use std::{
 
 use super::{DrawKey, FieldKey, FieldState, FilmKey, Moment, Pace, Pass, Planner, Reason};
 
-/// Cells of all films together that are stepped per frame while a window waits for films to catch up.
-const CELLS_PER_FRAME: u64 = 800_000;
-
 /// What is left of a frame's cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepBudget {
     cells: u64,
+    /// Whether no step was planned yet.
+    is_whole: bool,
 }
 
 impl StepBudget {
     /// That of a whole frame; none for a file, for which all is done at once.
     pub fn of(pace: Pace) -> Option<Self> {
-        (pace == Pace::Frame).then_some(Self { cells: CELLS_PER_FRAME })
+        match pace {
+            Pace::Whole => None,
+            Pace::Frame { cells } => Some(Self { cells, is_whole: true }),
+        }
     }
 
     /// Steps that a film of some cells may take. The first one may always take one: each frame gets on.
     fn max_steps(self, cells: u64) -> usize {
-        let is_first = self.cells == CELLS_PER_FRAME;
-        (self.cells / cells).max(is_first.into()) as usize
+        (self.cells / cells).max(self.is_whole.into()) as usize
     }
 
     fn spend(&mut self, cells: u64) {
-        self.cells = self.cells.saturating_sub(cells);
+        *self = Self { cells: self.cells.saturating_sub(cells), is_whole: false };
     }
 }
 

@@ -46,7 +46,15 @@ pub enum Pace {
     Whole,
     /// The work of one frame, the rest later: a window is waiting. A new table starts coarse, and a film catches up in portions; since people in
     /// windows go back in time, it leaves checkpoints.
-    Frame,
+    Frame {
+        /// Cells of all films together that are stepped while films catch up; each frame takes one step at least.
+        cells: u64,
+    },
+}
+
+impl Pace {
+    /// A frame on a device of which nothing is known.
+    pub const FRAME: Self = Self::Frame { cells: 800_000 };
 }
 
 /// What a picture needs.
@@ -268,7 +276,7 @@ impl Planner {
         }
         let coarse = requested.coarser(COARSE);
         let reason = if state.table.is_none() { Reason::Missing } else { Reason::Changed("film or light") };
-        if self.pace == Pace::Frame && state.table.as_ref() != Some(&coarse) {
+        if self.pace != Pace::Whole && state.table.as_ref() != Some(&coarse) {
             state.table = Some(coarse.clone());
             state.baking = None;
             self.push(Pass::BakeTable { light, material, key: coarse.clone(), rows: 0..coarse.rows }, reason);
@@ -285,7 +293,7 @@ impl Planner {
             _ => 0,
         };
         let (portion, portions) = match self.pace {
-            Pace::Frame => (ROWS_PER_FRAME, 1),
+            Pace::Frame { .. } => (ROWS_PER_FRAME, 1),
             Pace::Whole => (ROWS_PER_DISPATCH, u32::MAX),
         };
         for _ in 0..portions {

@@ -13,6 +13,7 @@ use crate::{
         panels,
         producer::Producer,
         render_thread::Finished,
+        step_pace::StepPace,
     },
     output::Metadata,
     physics::colour::Gamut,
@@ -68,6 +69,7 @@ struct Begun {
 /// The pictures to draw.
 pub(super) struct Pictures {
     producer: Producer,
+    pace: StepPace,
     /// Redraws so far, as far as the first picture.
     redraws: u64,
     /// Those that are drawn before the next one that is shown.
@@ -98,6 +100,7 @@ impl Pictures {
     pub fn new(producer: Producer) -> Self {
         Self {
             producer,
+            pace: StepPace::default(),
             redraws: 0,
             asked: VecDeque::new(),
             waiting: None,
@@ -175,7 +178,8 @@ impl View {
     /// Has what the first picture begins with computed, while the panels come.
     fn prepare_first(&mut self, model: &Model) {
         // What fails here fails again where the picture is drawn, and is told there.
-        if let (Some(renderer), Ok(request)) = (self.stage.drawing.renderer(), request(model, self.picture_size)) {
+        let request = request(model, self.picture_size, Pace::FRAME);
+        if let (Some(renderer), Ok(request)) = (self.stage.drawing.renderer(), request) {
             let plan = plan(&request, renderer.state());
             self.pictures.producer.prepare(&plan, &mut renderer.prepared);
         }
@@ -198,7 +202,7 @@ impl View {
                     asked
                 }
                 (None, Some(waiting)) => waiting,
-                (None, None) => match request(model, self.picture_size) {
+                (None, None) => match request(model, self.picture_size, pictures.pace.of_frame()) {
                     Ok(request) => (request, Purpose::Show(model.opened)),
                     Err(text) => return Drawn::Failed(Purpose::Show(model.opened), text),
                 },
@@ -285,7 +289,9 @@ impl View {
         }
         // Times arrive when the device is polled; one that is lost is found out at the next redraw.
         let _ = renderer.gpu.device.poll(wgpu::PollType::Poll);
-        model.costs.add_passes(renderer.times.take());
+        let passes = renderer.times.take();
+        self.pictures.pace.add(&passes, renderer.times.take_steps());
+        model.costs.add_passes(passes);
         if !plan.is_empty() {
             model.costs.add(*ms, renderer.counts);
         }
@@ -324,14 +330,9 @@ impl View {
 }
 
 /// What the picture of the model needs now. A scene that nothing is seen of yet begins with a preview.
-fn request(model: &Model, size: [u32; 2]) -> Result<FrameRequest, String> {
-    let shot = Shot {
-        size,
-        moment: model.clock.moment(&model.scene.motion),
-        full_precision: false,
-        gamut: Gamut::Srgb,
-        pace: Pace::Frame,
-    };
+fn request(model: &Model, size: [u32; 2], pace: Pace) -> Result<FrameRequest, String> {
+    let shot =
+        Shot { size, moment: model.clock.moment(&model.scene.motion), full_precision: false, gamut: Gamut::Srgb, pace };
     let mut request =
         model.scene.request_from(&model.scene.camera, &model.resources, &shot).map_err(|error| error.to_string())?;
     if !model.is_pictured() {

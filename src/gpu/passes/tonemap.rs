@@ -5,7 +5,7 @@ use crate::{
         device::GpuError,
         formats::PICTURE_FORMAT,
         kernel::{Matrix, Texture2d, Uniform, kernels, shader_struct},
-        timing::Recorder,
+        timing::{Recorder, TONEMAP},
     },
     plan::TonemapKey,
 };
@@ -68,7 +68,7 @@ pub fn tonemap(
     let gpu = recorder.gpu;
     let uniform = &gpu.uniform("tonemap", &TonemapUniform::of(key));
     let finished = Tonemap { tonemap: uniform, radiance }.cover(gpu, PICTURE_FORMAT)?;
-    recorder.render("tonemap", picture, None, |pass| finished.draw(pass, 3));
+    recorder.render(TONEMAP, picture, None, |pass| finished.draw(pass, 3));
     recorder.counts.draws += 1;
     Ok(())
 }

@@ -127,7 +127,7 @@ fn a_film_that_was_found_at_rest_plans_nothing_until_something_acts_on_it() {
         state.fields[0].as_mut().unwrap().rest = Some(RestingFilm { since_tick: 240, law });
         state
     };
-    let then = |scene: &Scene, state: &GpuState, tick| plan(&frame_request(scene, tick, Pace::Frame), state);
+    let then = |scene: &Scene, state: &GpuState, tick| plan(&frame_request(scene, tick, Pace::FRAME), state);
     let shown = then(&scene, &resting(240), 7000);
     assert!(shown.is_empty(), "{shown}");
     let event = |change| Scene { events: vec![Event { tick: 400, change }], ..scene.clone() };
@@ -208,7 +208,7 @@ fn side_by_side(count: usize) -> Scene {
 fn films_share_the_cells_of_a_frame_and_all_get_on() {
     let mut scene = side_by_side(4);
     scene.bubbles.iter_mut().for_each(|bubble| bubble.film.cells = 256);
-    let (request, mut state) = (frame_request(&scene, 40, Pace::Frame), GpuState::default());
+    let (request, mut state) = (frame_request(&scene, 40, Pace::FRAME), GpuState::default());
     let cells = |pass: &Pass| match pass {
         Pass::StepField { key, ticks, .. } => {
             key.cell_count() * key.at(Moment::tick(ticks.end)).steps_from(ticks.start).count() as u64
@@ -233,6 +233,21 @@ fn films_share_the_cells_of_a_frame_and_all_get_on() {
 }
 
 #[test]
+fn a_frame_takes_the_steps_that_its_pace_allows_and_one_at_least() {
+    let ticks_in = |cells| {
+        let request = frame_request(&stirred_scene(), 1600, Pace::Frame { cells });
+        plan(&request, &GpuState::default()).after.fields[0].as_ref().unwrap().key.moment.tick
+    };
+    let FilmKey::Field(film) = frame_request(&stirred_scene(), 1600, Pace::Whole).picture.draw.bubbles[0].film.clone()
+    else {
+        unreachable!("a stirred film moves")
+    };
+    let (cells, step) = (film.cell_count(), film.steps_from(0).next().unwrap().end);
+    let in_steps = [0, 1, cells - 1, cells, 5 * cells, 6 * cells - 1].map(|cells| ticks_in(cells) / step);
+    assert_eq!(in_steps, [1, 1, 1, 1, 5, 5]);
+}
+
+#[test]
 fn films_that_take_the_same_steps_take_them_side_by_side() {
     let mut scene = Scene { bubbles: side_by_side(3).bubbles, ..checkpoints::free_scene() };
     scene.bubbles.iter_mut().for_each(|bubble| bubble.film.cells = 16);
@@ -250,7 +265,7 @@ fn films_that_take_the_same_steps_take_them_side_by_side() {
     };
     assert_eq!(stepped(&GpuState::default(), 9, Pace::Whole), [vec![0..9; 3]]);
     // With a checkpoint on the way.
-    let rounds = stepped(&GpuState::default(), 61, Pace::Frame);
+    let rounds = stepped(&GpuState::default(), 61, Pace::FRAME);
     assert!(rounds.len() > 1 && rounds.iter().all(|round| *round == vec![round[0].clone(); 3]), "{rounds:?}");
     // The second was out of sight meanwhile.
     let mut state = after(&scene, 9);
