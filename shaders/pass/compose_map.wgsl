@@ -9,8 +9,6 @@ import package::sphere::lookup::{map_at, map_at_cell, map_at_quad, sanitised};
 override SAME_GRID: u32;
 // 0: there is no map yet, and the step is all there is.
 override HAS_MAP: u32;
-// 0: nothing is gathered, and the fourth number of every map is 0, which need not be loaded.
-override GATHERS: u32;
 
 // Mirrors `ComposeUniform` in src/gpu/passes/compose_map.rs.
 struct Compose {
@@ -32,25 +30,12 @@ struct Compose {
 const STEP_MAP: u32 = 0u;
 const MAP_BEFORE: u32 = 1u;
 
+// All four numbers are loaded whether anything is gathered or not: software rasterisers load them sooner together than three one by one.
 fn map_value(map: u32, place: u32) -> vec4f {
     if (map == STEP_MAP) {
-        return vec4f(step_map[place].x, step_map[place].y, step_map[place].z, step_gathered(place));
+        return step_map[place];
     }
-    return vec4f(map_before[place].x, map_before[place].y, map_before[place].z, gathered_before(place));
-}
-
-fn step_gathered(place: u32) -> f32 {
-    if (GATHERS == 0u) {
-        return 0.0;
-    }
-    return step_map[place].w;
-}
-
-fn gathered_before(place: u32) -> f32 {
-    if (GATHERS == 0u) {
-        return 0.0;
-    }
-    return map_before[place].w;
+    return map_before[place];
 }
 
 // No tracer is looked up here.

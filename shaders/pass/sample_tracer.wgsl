@@ -43,11 +43,8 @@ struct Sample {
 @group(0) @binding(4) var<storage, read> tracer: array<f32>;
 @group(0) @binding(5) var<storage, read_write> sampled: array<f32>;
 
-// There is but one map here. Its fourth number is 0 where nothing is gathered, and need not be loaded.
+// There is but one map here.
 fn map_value(unused: u32, place: u32) -> vec4f {
-    if (GATHERED == GATHERED_NOTHING) {
-        return vec4f(map[place].x, map[place].y, map[place].z, 0.0);
-    }
     return map[place];
 }
 

@@ -7,7 +7,6 @@ use crate::gpu::{
         compose_map::{Composition, compose_map},
         conserve::parts,
         correct_error::CorrectError,
-        sample_tracer::Gathered,
         trace_step::{Step, trace_step},
     },
     timing::{Recorder, STEP_FIELD},
@@ -93,7 +92,6 @@ impl Field {
             step_cells: self.flow_grid().cells,
             step_map: &self.step_map,
             before,
-            gathers: self.rules.gathered != Gathered::Nothing,
             control: &self.control.block,
             after: &self.map[into],
         };

@@ -30,7 +30,6 @@ kernels! {
         const LIMITER: bool = false;
         override SAME_GRID: bool;
         override HAS_MAP: bool;
-        override GATHERS: bool;
         @0 compose: Uniform<ComposeUniform>;
         @1 tangents: Read<[f32]>;
         @2 control: ReadWrite<ControlBlock>;
@@ -51,8 +50,6 @@ pub struct Composition<'a> {
     pub step_map: &'a wgpu::Buffer,
     /// The map before it, if there is one.
     pub before: Option<&'a wgpu::Buffer>,
-    /// Whether steps gather anything.
-    pub gathers: bool,
     /// The film's control block.
     pub control: &'a wgpu::Buffer,
     /// The map after it.
@@ -66,7 +63,6 @@ pub fn compose_map(recorder: &mut Recorder<'_>, name: &'static str, maps: &Compo
     let kernel = ComposeMap {
         SAME_GRID: step_cells == grid.cells,
         HAS_MAP: before.is_some(),
-        GATHERS: maps.gathers,
         compose: &recorder.gpu.uniform("compose", &uniform),
         tangents: &grid.tangents,
         control: maps.control,
