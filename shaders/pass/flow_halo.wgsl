@@ -8,6 +8,7 @@ const LANES: u32 = 256u;
 
 @group(0) @binding(0) var<storage, read> entries: array<HaloEntry>;
 @group(0) @binding(1) var<storage, read_write> scalar: array<f32>;
+@group(0) @binding(2) var<storage, read_write> other: array<f32>;
 @group(0) @binding(1) var<storage, read_write> pair: array<vec2f>;
 @group(0) @binding(1) var<storage, read_write> velocity: array<vec4f>;
 @group(0) @binding(2) var<storage, read_write> velocity_ahead: array<vec4f>;
@@ -22,6 +23,14 @@ fn fill_scalar(first: u32, entry: u32) {
     let at = first + halo.first;
     scalar[first + halo.cell] = halo.weights.x * scalar[at] + halo.weights.y * scalar[at + halo.step] +
         halo.weights.z * scalar[at + 2u * halo.step] + halo.weights.w * scalar[at + 3u * halo.step];
+}
+
+fn fill_two(first: u32, entry: u32) {
+    fill_scalar(first, entry);
+    let halo = entries[entry];
+    let at = first + halo.first;
+    other[first + halo.cell] = halo.weights.x * other[at] + halo.weights.y * other[at + halo.step] +
+        halo.weights.z * other[at + 2u * halo.step] + halo.weights.w * other[at + 3u * halo.step];
 }
 
 fn fill_pair(first: u32, entry: u32) {
@@ -63,6 +72,22 @@ fn halo_of_scalar(
     storageBarrier();
     for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
         fill_scalar(first, entry);
+    }
+}
+
+@compute @workgroup_size(256)
+fn halo_of_two(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let first = group.x * (arrayLength(&scalar) / groups.x);
+    for (var entry = lane; entry < edges(); entry += LANES) {
+        fill_two(first, entry);
+    }
+    storageBarrier();
+    for (var entry = edges() + lane; entry < arrayLength(&entries); entry += LANES) {
+        fill_two(first, entry);
     }
 }
 

@@ -2,7 +2,7 @@
 
 import package::flow::operators::{area_density, is_valid, valid_or_zero};
 import package::flow::step::{Flow, Measures};
-import package::sphere::cubed::{HALO, padded_index};
+import package::sphere::cubed::{HALO, padded_index, quotient};
 
 const FOUR_PI: f32 = 12.566370614;
 const LANES: u32 = 256u;
@@ -24,9 +24,11 @@ fn flow_measure(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     let film = group.x;
     var share = vec4f(0.0);
     for (var cell = lane; cell < 6u * flow.cells * flow.cells; cell += LANES) {
-        let i = cell % flow.cells;
-        let j = (cell / flow.cells) % flow.cells;
-        let at = padded_index(6u * film + cell / (flow.cells * flow.cells), i32(i), i32(j), flow.cells);
+        let row = quotient(cell, flow.cells);
+        let panel = quotient(row, flow.cells);
+        let i = cell - row * flow.cells;
+        let j = row - panel * flow.cells;
+        let at = padded_index(6u * film + panel, i32(i), i32(j), flow.cells);
         let area = area_density(vec2f(tangents[i + HALO], tangents[j + HALO]));
         let guess = 2.0 * valid_or_zero(psi[at]) - valid_or_zero(psi_before[at]);
         share += vec4f(area * valid_or_zero(zeta[at]), area * guess, 0.0, 0.0);

@@ -7,9 +7,9 @@ use crate::{
     gpu::{
         device::{Gpu, GpuError},
         passes::{
-            flow_combine::{CombineUniform, FlowCombine},
+            flow_combine::{CombineUniform, FlowCombine, FlowCombineAndSum},
             flow_force::{FilmForces, FlowForce},
-            flow_halo::{HaloOfPair, HaloOfVelocities},
+            flow_halo::{HaloOfPair, HaloOfTwo, HaloOfVelocities},
             flow_measure::{FlowMeasure, FlowUniform},
             flow_residual::MAX_FILMS,
             flow_trace::{TraceTracer, TraceVorticity},
@@ -139,13 +139,21 @@ impl FlowSolver {
         let systems: &[System] = &stages.iter().map(system).collect::<Vec<_>>();
         for taken in [first, second] {
             self.reflect(recorder, taken)?;
-            grid.fill_halo(recorder, taken)?;
         }
+        let fill = HaloOfTwo { entries: &grid.halo, scalar: first, other: second };
+        fill.halo_of_two(recorder, STEP_FLOW, grid.film_groups())?;
         recorder.encoder().copy_buffer_to_buffer(first, 0, once, 0, first.size());
         self.multigrid.cycles(recorder, grid, (systems, first), once, self.cycles.viscous)?;
         // What the first stage took away, the second nearly will of its part.
-        self.combine(recorder, &[(root, once), (1.0, second), (1.0 - root, first)], 0.0, moved)?;
-        self.combine(recorder, &[(1.0, once), (1.0, second)], 0.0, twice)?;
+        let guess = FlowCombineAndSum {
+            combine: &self.factors(recorder.gpu, [root, 1.0, 1.0 - root], 0.0),
+            first: once,
+            second,
+            third: first,
+            combined: moved,
+            sum: twice,
+        };
+        guess.flow_combine_and_sum(recorder, STEP_FLOW, self.value_groups())?;
         self.multigrid.cycles(recorder, grid, (systems, twice), moved, self.cycles.viscous)
     }
 
@@ -174,18 +182,29 @@ impl FlowSolver {
     ) -> Result<(), GpuError> {
         // Where there are fewer, the first stands for the rest, times nothing.
         let [first, second, third] = [0, 1, 2].map(|k| terms.get(k).copied().unwrap_or((0.0, terms[0].1)));
-        let values = self.grid.sphere.padded_len() as u32;
-        let factors =
-            CombineUniform { first: first.0 as f32, second: second.0 as f32, third: third.0 as f32, mean, values };
         let kernel = FlowCombine {
-            combine: &recorder.gpu.uniform("combine", &factors),
+            combine: &self.factors(recorder.gpu, [first.0, second.0, third.0], mean),
             measures: &self.measures,
             first: first.1,
             second: second.1,
             third: third.1,
             combined: to,
         };
-        kernel.flow_combine(recorder, STEP_FLOW, [values.div_ceil(64), self.grid.films, 1])
+        kernel.flow_combine(recorder, STEP_FLOW, self.value_groups())
+    }
+
+    fn factors(&self, gpu: &Gpu, terms: [f64; 3], mean: f32) -> UniformBuffer<CombineUniform> {
+        let [first, second, third] = terms.map(|factor| factor as f32);
+        gpu.uniform("combine", &CombineUniform { first, second, third, mean, values: self.values_of_film() })
+    }
+
+    fn values_of_film(&self) -> u32 {
+        self.grid.sphere.padded_len() as u32
+    }
+
+    /// Workgroups of a pass with one invocation for each cell, halos included, in the order of storage.
+    fn value_groups(&self) -> [u32; 3] {
+        [self.values_of_film().div_ceil(64), self.grid.films, 1]
     }
 
     pub(super) fn uniform(&self, gpu: &Gpu, dt_s: f64) -> UniformBuffer<FlowUniform> {

@@ -32,4 +32,15 @@ kernels! {
         @5 combined: ReadWrite<[f32]>;
     }
     compute flow_combine;
+
+    /// The weighted sum of three fields, and the plain one of the first two, halos included.
+    struct FlowCombineAndSum {
+        @0 combine: Uniform<CombineUniform>;
+        @2 first: Read<[f32]>;
+        @3 second: Read<[f32]>;
+        @4 third: Read<[f32]>;
+        @5 combined: ReadWrite<[f32]>;
+        @6 sum: ReadWrite<[f32]>;
+    }
+    compute flow_combine_and_sum;
 }

@@ -22,6 +22,14 @@ kernels! {
     }
     compute halo_of_scalar, halo_of_thickness;
 
+    /// Of two fields of numbers.
+    struct HaloOfTwo {
+        @0 entries: Read<[HaloEntry]>;
+        @1 scalar: ReadWrite<[f32]>;
+        @2 other: ReadWrite<[f32]>;
+    }
+    compute halo_of_two;
+
     /// Of a field of pairs of numbers.
     struct HaloOfPair {
         @0 entries: Read<[HaloEntry]>;
