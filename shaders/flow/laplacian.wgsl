@@ -18,31 +18,30 @@ fn row_of(at: u32) -> Row {
     return Row(a, vec4f(a.yzw, b.x), vec4f(a.zw, b.xy), vec4f(a.w, b.xyz), b);
 }
 
-// Times the cell angle, the slopes along a row.
-fn row_slope(row: Row) -> vec4f {
-    return (8.0 * (row.after - row.before) - (row.after2 - row.before2)) / 12.0;
-}
-
 struct FourCells {
     here: vec4f,
-    // Times the square of the cell angle.
     laplacian: vec4f,
     // Factor of the cells' own values in it.
     own: vec4f,
 }
 
-// The middle one of five rows, at these tangents along and across it.
-fn four_cells(rows: array<Row, 5>, along: vec4f, across: f32) -> FourCells {
+// The middle one of five rows, at these tangents along and across it, with 1 over the square of the cell angle.
+fn four_cells(rows: array<Row, 5>, along: vec4f, across: f32, per_angle2: f32) -> FourCells {
     let here = rows[2].here;
-    let by_aa = (16.0 * (rows[2].before + rows[2].after) - (rows[2].before2 + rows[2].after2) - 30.0 * here) / 12.0;
-    let by_bb = (16.0 * (rows[1].here + rows[3].here) - (rows[0].here + rows[4].here) - 30.0 * here) / 12.0;
-    let by_ab = (8.0 * (row_slope(rows[3]) - row_slope(rows[1])) - (row_slope(rows[4]) - row_slope(rows[0]))) / 12.0;
+    let by_aa = 16.0 * (rows[2].before + rows[2].after) - (rows[2].before2 + rows[2].after2) - 30.0 * here;
+    let by_bb = 16.0 * (rows[1].here + rows[3].here) - (rows[0].here + rows[4].here) - 30.0 * here;
+    // Slopes across the rows, of eight cells, in twelfths over the cell angle.
+    let early = 8.0 * (rows[3].before2 - rows[1].before2) - (rows[4].before2 - rows[0].before2);
+    let late = 8.0 * (rows[3].after2 - rows[1].after2) - (rows[4].after2 - rows[0].after2);
+    let by_ab = 8.0 * (vec4f(early.w, late.xyz) - vec4f(early.yzw, late.x)) - (late - early);
     // See `CellMetric::laplacian_factors` in src/physics/flow/operators.rs.
-    let a = 1.0 + along * along;
-    let b = 1.0 + across * across;
-    let delta2 = a + b - 1.0;
-    let found = delta2 / a * by_aa + 2.0 * delta2 * along * across / (a * b) * by_ab + delta2 / b * by_bb;
-    return FourCells(here, found, -2.5 * (delta2 / a + delta2 / b));
+    let a = 1.0 / (1.0 + along * along);
+    let b = 1.0 / (1.0 + across * across);
+    let delta2 = 1.0 + along * along + across * across;
+    let by_a = per_angle2 / 12.0 * delta2 * a;
+    let by_b = per_angle2 / 12.0 * b * delta2;
+    let found = by_a * by_aa + across * b / 6.0 * along * by_a * by_ab + by_b * by_bb;
+    return FourCells(here, found, -30.0 * (by_a + by_b));
 }
 
 // An invocation's cells, four of each of two rows, and where each four begin in storage.
@@ -52,17 +51,17 @@ struct EightCells {
 }
 
 // Where eight cells do not divide a panel, the last ones overlap others, with the same answer.
-fn eight_cells(id: vec3u, cells: u32) -> EightCells {
+fn eight_cells(id: vec3u, cells: u32, per_angle2: f32) -> EightCells {
     let first = min(vec2u(4u, 2u) * id.xy, vec2u(cells) - vec2u(4u, 2u));
     let k = first + HALO;
     let side = cells + 2u * HALO;
     let at = padded_index(id.z, i32(first.x), i32(first.y), cells);
     let along = vec4f(tangents[k.x], tangents[k.x + 1u], tangents[k.x + 2u], tangents[k.x + 3u]);
-    return EightCells(vec2u(at, at + side), two_rows(at, side, along, vec2f(tangents[k.y], tangents[k.y + 1u])));
+    return EightCells(vec2u(at, at + side), two_rows(at, side, along, vec2f(tangents[k.y], tangents[k.y + 1u]), per_angle2));
 }
 
 // Four cells of each of two rows from a place in storage, whose rows are `side` long.
-fn two_rows(at: u32, side: u32, along: vec4f, across: vec2f) -> array<FourCells, 2> {
+fn two_rows(at: u32, side: u32, along: vec4f, across: vec2f, per_angle2: f32) -> array<FourCells, 2> {
     let a = row_of(at - 2u * side);
     let b = row_of(at - side);
     let c = row_of(at);
@@ -70,7 +69,7 @@ fn two_rows(at: u32, side: u32, along: vec4f, across: vec2f) -> array<FourCells,
     let e = row_of(at + 2u * side);
     let f = row_of(at + 3u * side);
     return array(
-        four_cells(array(a, b, c, d, e), along, across.x),
-        four_cells(array(b, c, d, e, f), along, across.y),
+        four_cells(array(a, b, c, d, e), along, across.x, per_angle2),
+        four_cells(array(b, c, d, e, f), along, across.y, per_angle2),
     );
 }

@@ -12,7 +12,8 @@ struct FilmSystem {
 
 // Mirrors `SolveUniform` in src/gpu/passes/flow_residual.rs.
 struct Solve {
-    cell_angle: f32,
+    // 1 over the square of the cell angle, 1/rad2.
+    per_angle2: f32,
     // Cells along a panel's edge, here and on the next grid.
     cells: u32,
     coarse_cells: u32,

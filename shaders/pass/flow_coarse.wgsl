@@ -12,7 +12,8 @@ const LANES: u32 = 128u;
 struct Level {
     // Of each sweep.
     weights: vec3f,
-    cell_angle: f32,
+    // 1 over the square of the cell angle, 1/rad2.
+    per_angle2: f32,
     // Cells along a panel's edge.
     cells: u32,
     // Where its values, tangents and halo entries start in the lists for all grids; of the values, those of the first film.
@@ -95,50 +96,77 @@ fn fill_halo(film: u32, level: Level, lane: u32, bank: u32) {
     storageBarrier();
 }
 
-// Four cells of a row from a place in the corrections on.
-fn row_of(at: u32) -> vec4f {
-    return vec4f(e[at], e[at + 1u], e[at + 2u], e[at + 3u]);
+// Four cells of a row of corrections, and the cells before and after each.
+struct Row {
+    before: vec4f,
+    here: vec4f,
+    after: vec4f,
 }
 
-// A damped Jacobi sweep from one bank to the other, with differences of second order; `mean` is left out of the right side. A lane does
-// four cells of a row at a time; where four do not divide a row, the last four overlap others, with the same answer.
+fn row_of(at: u32) -> Row {
+    let here = vec4f(e[at], e[at + 1u], e[at + 2u], e[at + 3u]);
+    return Row(vec4f(e[at - 1u], here.xyz), here, vec4f(here.yzw, e[at + 4u]));
+}
+
+// A sweep over a grid; `mean` is left out of the right side.
+struct Sweep {
+    per_angle2: f32,
+    shift: f32,
+    weight: f32,
+    mean: f32,
+}
+
+// What a sweep makes of the middle one of three rows, with these right sides at these tangents: differences of second order.
+fn swept(rows: array<Row, 3>, right: vec4f, along: vec4f, across: f32, s: Sweep) -> vec4f {
+    let here = rows[1].here;
+    let by_aa = rows[1].before + rows[1].after - 2.0 * here;
+    let by_bb = rows[0].here + rows[2].here - 2.0 * here;
+    let by_ab = (rows[2].after - rows[0].after) - (rows[2].before - rows[0].before);
+    // See `CellMetric::laplacian_factors` in src/physics/flow/operators.rs.
+    let a = 1.0 / (1.0 + along * along);
+    let b = 1.0 / (1.0 + across * across);
+    let delta2 = 1.0 + along * along + across * across;
+    let by_a = s.per_angle2 * delta2 * a;
+    let by_b = s.per_angle2 * b * delta2;
+    let found = by_a * by_aa + 0.5 * across * b * along * by_a * by_ab + by_b * by_bb;
+    let residual = right - s.mean - found + s.shift * here;
+    return here + s.weight * residual / (-2.0 * (by_a + by_b) - s.shift);
+}
+
+fn right_sides(at: u32) -> vec4f {
+    return vec4f(f[at], f[at + 1u], f[at + 2u], f[at + 3u]);
+}
+
+fn store(at: u32, four: vec4f) {
+    e[at] = four.x;
+    e[at + 1u] = four.y;
+    e[at + 2u] = four.z;
+    e[at + 3u] = four.w;
+}
+
+// A damped Jacobi sweep from one bank to the other. A lane does four cells of each of two rows at a time: they share most of what they read.
+// Where these do not divide a panel, the last ones overlap others, with the same answer.
 fn sweep(film: u32, level: Level, lane: u32, bank: u32, weight: f32, mean: f32) {
     let side = side_of(level);
-    let shift = coarse[film].shift;
     let read_from = bank * coarse[film].values;
     let written_to = (1u - bank) * coarse[film].values;
-    let angle2 = level.cell_angle * level.cell_angle;
-    let fours = (level.cells + 3u) / 4u;
-    for (var k = lane; k < 6u * level.cells * fours; k += LANES) {
-        let row = quotient(k, fours);
-        let panel = quotient(row, level.cells);
-        let ij = vec2u(min(4u * (k - row * fours), level.cells - 4u), row - panel * level.cells);
+    let s = Sweep(level.per_angle2, coarse[film].shift, weight, mean);
+    let eights = (level.cells + vec2u(3u, 1u)) / vec2u(4u, 2u);
+    for (var k = lane; k < 6u * eights.x * eights.y; k += LANES) {
+        let row = quotient(k, eights.x);
+        let panel = quotient(row, eights.y);
+        let ij = min(vec2u(4u, 2u) * vec2u(k - row * eights.x, row - panel * eights.y), vec2u(level.cells) - vec2u(4u, 2u));
         let at = level.field + padded_index(panel, i32(ij.x), i32(ij.y), level.cells);
         let p = read_from + at;
-        let left = vec3f(e[p - side - 1u], e[p - 1u], e[p + side - 1u]);
-        let right = vec3f(e[p - side + 4u], e[p + 4u], e[p + side + 4u]);
-        let below = row_of(p - side);
-        let here = row_of(p);
-        let above = row_of(p + side);
-        let by_aa = vec4f(left.y, here.xyz) + vec4f(here.yzw, right.y) - 2.0 * here;
-        let by_bb = above + below - 2.0 * here;
-        let rise = above - below;
-        let by_ab = 0.25 * (vec4f(rise.yzw, right.z - right.x) - vec4f(left.z - left.x, rise.xyz));
-        // See `CellMetric::laplacian_factors` in src/physics/flow/operators.rs.
-        let t = level.tangent + ij.x + HALO;
-        let along = vec4f(tangents[t], tangents[t + 1u], tangents[t + 2u], tangents[t + 3u]);
-        let across = tangents[level.tangent + ij.y + HALO];
-        let a = 1.0 + along * along;
-        let b = 1.0 + across * across;
-        let delta2 = a + b - 1.0;
-        let found = delta2 / a * by_aa + 2.0 * delta2 * along * across / (a * b) * by_ab + delta2 / b * by_bb;
-        let residual = vec4f(f[at], f[at + 1u], f[at + 2u], f[at + 3u]) - mean - found / angle2 + shift * here;
-        let after = here + weight * residual / (-2.0 * (delta2 / a + delta2 / b) / angle2 - shift);
         let q = written_to + at;
-        e[q] = after.x;
-        e[q + 1u] = after.y;
-        e[q + 2u] = after.z;
-        e[q + 3u] = after.w;
+        let a = row_of(p - side);
+        let b = row_of(p);
+        let c = row_of(p + side);
+        let d = row_of(p + 2u * side);
+        let t = level.tangent + ij + HALO;
+        let along = vec4f(tangents[t.x], tangents[t.x + 1u], tangents[t.x + 2u], tangents[t.x + 3u]);
+        store(q, swept(array(a, b, c), right_sides(at), along, tangents[t.y], s));
+        store(q + side, swept(array(b, c, d), right_sides(at + side), along, tangents[t.y + 1u], s));
     }
     fill_halo(film, level, lane, 1u - bank);
 }

@@ -11,7 +11,7 @@ import package::flow::solve::{FilmSystem, Solve};
 
 fn find(at: u32, four: FourCells, system: FilmSystem) {
     let f = system.gain * vec4f(source[at], source[at + 1u], source[at + 2u], source[at + 3u]);
-    let found = f - four.laplacian / (solve.cell_angle * solve.cell_angle) + system.shift * four.here;
+    let found = f - four.laplacian + system.shift * four.here;
     left[at] = found.x;
     left[at + 1u] = found.y;
     left[at + 2u] = found.z;
@@ -23,7 +23,7 @@ fn flow_residual(@builtin(global_invocation_id) id: vec3u) {
     if (any(id.xy * vec2u(4u, 2u) >= vec2u(solve.cells))) {
         return;
     }
-    let eight = eight_cells(id, solve.cells);
+    let eight = eight_cells(id, solve.cells, solve.per_angle2);
     let system = solve.systems[id.z / 6u];
     find(eight.at.x, eight.rows[0], system);
     find(eight.at.y, eight.rows[1], system);

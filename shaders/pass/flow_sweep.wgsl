@@ -14,9 +14,8 @@ override SWEEP: u32;
 
 fn sweep(at: u32, four: FourCells, system: FilmSystem) {
     let f = system.gain * vec4f(source[at], source[at + 1u], source[at + 2u], source[at + 3u]);
-    let angle2 = solve.cell_angle * solve.cell_angle;
-    let residual = f - four.laplacian / angle2 + system.shift * four.here;
-    let after = four.here + system.weights[SWEEP] * residual / (four.own / angle2 - system.shift);
+    let residual = f - four.laplacian + system.shift * four.here;
+    let after = four.here + system.weights[SWEEP] * residual / (four.own - system.shift);
     psi_after[at] = after.x;
     psi_after[at + 1u] = after.y;
     psi_after[at + 2u] = after.z;
@@ -28,7 +27,7 @@ fn flow_sweep(@builtin(global_invocation_id) id: vec3u) {
     if (any(id.xy * vec2u(4u, 2u) >= vec2u(solve.cells))) {
         return;
     }
-    let eight = eight_cells(id, solve.cells);
+    let eight = eight_cells(id, solve.cells, solve.per_angle2);
     let system = solve.systems[id.z / 6u];
     sweep(eight.at.x, eight.rows[0], system);
     sweep(eight.at.y, eight.rows[1], system);

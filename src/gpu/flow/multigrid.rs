@@ -61,7 +61,7 @@ impl Multigrid {
         for sphere in all.filter_map(|n| CubedSphere::new(n).ok()) {
             levels.push(CoarseLevel {
                 weights: [0.0; SWEEPS],
-                cell_angle: sphere.cell_angle() as f32,
+                per_angle2: sphere.cell_angle().powi(-2) as f32,
                 cells: sphere.n() as u32,
                 field: values,
                 tangent: all_tangents.len() as u32,
@@ -135,7 +135,7 @@ impl Multigrid {
 
     fn solve_uniform(&self, sphere: CubedSphere, systems: &[System]) -> SolveUniform {
         let mut uniform = SolveUniform {
-            cell_angle: sphere.cell_angle() as f32,
+            per_angle2: sphere.cell_angle().powi(-2) as f32,
             cells: sphere.n() as u32,
             coarse_cells: self.levels[1].cells,
             coarse_field: self.levels[1].field,

@@ -17,8 +17,8 @@ shader_struct! {
     pub struct CoarseLevel {
         /// Weights of the sweeps after a correction.
         pub weights: [f32; SWEEPS],
-        /// Angle of a cell, radians.
-        pub cell_angle: f32,
+        /// 1 over the square of the cell angle, 1/rad².
+        pub per_angle2: f32,
         /// Cells along a panel's edge.
         pub cells: u32,
         /// Where its values start.

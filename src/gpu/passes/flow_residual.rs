@@ -25,8 +25,8 @@ shader_struct! {
 shader_struct! {
     /// One solution on the finest grid, for all of its passes: see `shaders/flow/solve.wgsl`.
     pub struct SolveUniform {
-        /// Angle of a cell, radians.
-        pub cell_angle: f32,
+        /// 1 over the square of the cell angle, 1/rad².
+        pub per_angle2: f32,
         /// Cells along a panel's edge.
         pub cells: u32,
         /// Cells along a panel's edge of the next grid.
