@@ -52,6 +52,17 @@ impl Clock {
         }
     }
 
+    /// Milliseconds of work that no pass times, which must end with a wait for the device: CPU time, or the time until a GPU has done it.
+    pub fn ms_of(self, work: impl FnOnce()) -> f64 {
+        let (start, cpu_start) = (Instant::now(), ProcessTime::now());
+        work();
+        let taken = match self {
+            Self::Process => cpu_start.elapsed(),
+            Self::Gpu => start.elapsed(),
+        };
+        taken.as_secs_f64() * 1e3
+    }
+
     /// Milliseconds of some work, which must end with a wait for the device.
     pub fn ms(self, renderer: &mut Renderer, work: impl FnOnce(&mut Renderer)) -> f64 {
         drop(renderer.times.take());

@@ -64,6 +64,8 @@ pub struct Counts {
     pub pixels_shaded: u64,
     /// Cells whose liquid was moved.
     pub cells_stepped: u64,
+    /// Bytes of the films' states that steps read and wrote, each once.
+    pub state_bytes: u64,
     /// Submissions to the queue.
     pub submissions: u64,
 }

@@ -119,6 +119,7 @@ fn cost(loaded: &LoadedScene, from_ticks: f64, to_ticks: f64) -> Option<[Counts;
         draws: both.draws - first.draws,
         pixels_shaded: both.pixels_shaded - first.pixels_shaded,
         cells_stepped: both.cells_stepped - first.cells_stepped,
+        state_bytes: both.state_bytes - first.state_bytes,
         submissions: both.submissions - first.submissions,
     };
     Some([first, second])

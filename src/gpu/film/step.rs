@@ -35,6 +35,7 @@ impl Field {
                     return Err(GpuError::Refused(reason.to_owned()));
                 }
                 recorder.counts.cells_stepped += self.film.sphere.cells() as u64;
+                recorder.counts.state_bytes += self.step_bytes();
                 if keeps_map {
                     self.trace(recorder, STEP_FIELD, step, self.map_so_far(), 1)
                 } else {
@@ -56,6 +57,13 @@ impl Field {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Bytes that a step must read and write: the tracer, and the map where there is one.
+    fn step_bytes(&self) -> u64 {
+        let read = self.map_so_far().map_or(0, wgpu::Buffer::size) + self.tracer.size();
+        let written = if self.rules.scheme.keeps_map() { &self.map[1] } else { &self.tracer };
+        read + written.size()
     }
 
     /// Whether the trace of a step is its composition with a map: where there is no map, and the grids are the same.

@@ -11,7 +11,7 @@ pub struct FlowCheckpoint {
 
 impl FlowSolver {
     /// All on the device that steps change and later ones read.
-    fn state(&self) -> [&wgpu::Buffer; 6] {
+    pub(super) fn state(&self) -> [&wgpu::Buffer; 6] {
         [&self.zeta, &self.psi, &self.psi_before, &self.velocity, &self.velocity_ahead, &self.measures]
     }
 

@@ -33,6 +33,8 @@ impl FlowSolver {
         if !(dt_s.is_finite() && dt_s > 0.0) {
             return Ok(());
         }
+        // All of the state is read and written.
+        recorder.counts.state_bytes += 2 * self.state().map(wgpu::Buffer::size).iter().sum::<u64>();
         let uniform = self.uniform(recorder.gpu, dt_s);
         self.grid.fill_halo(recorder, &self.log_thickness)?;
         let is_first = !std::mem::replace(&mut self.has_history, true);

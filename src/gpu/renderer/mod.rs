@@ -155,6 +155,7 @@ impl Renderer {
         counts.draws += done.draws;
         counts.pixels_shaded += done.pixels_shaded;
         counts.cells_stepped += done.cells_stepped;
+        counts.state_bytes += done.state_bytes;
         counts.submissions += done.submissions;
     }
 
