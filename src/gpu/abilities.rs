@@ -22,14 +22,14 @@ const COMPUTED: TextureUsages = TextureUsages::STORAGE_BINDING.union(TextureUsag
 /// The linear picture for measurements, which windows do without.
 const MEASURED: FormatNeed = FormatNeed { format: TextureFormat::Rgba32Float, usages: DRAWN, filtered: false };
 
-/// The environment; the linear picture; the table as it is baked and as it is read; the shown film; the finished picture.
+/// The linear picture; the table as it is baked and as it is read; the shown film; the finished picture; the environment.
 const FORMATS: [FormatNeed; 6] = [
-    FormatNeed { format: TextureFormat::Rgb9e5Ufloat, usages: TextureUsages::TEXTURE_BINDING, filtered: true },
     FormatNeed { format: TextureFormat::Rgba16Float, usages: DRAWN, filtered: true },
     FormatNeed { format: TextureFormat::Rgba32Float, usages: COMPUTED, filtered: false },
     FormatNeed { format: TextureFormat::Rgba32Uint, usages: COMPUTED, filtered: false },
     FormatNeed { format: TextureFormat::R32Float, usages: COMPUTED, filtered: false },
     FormatNeed { format: TextureFormat::Rgba8Unorm, usages: DRAWN, filtered: true },
+    FormatNeed { format: TextureFormat::Rgb9e5Ufloat, usages: TextureUsages::TEXTURE_BINDING, filtered: true },
 ];
 
 /// The first thing that an adapter cannot do and must, in words.
