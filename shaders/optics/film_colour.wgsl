@@ -9,11 +9,8 @@ override COLOURED: u32;
 // 1: the table holds s and p light apart. 0: their mean.
 override POLARISED: u32;
 
-// 1: films are means over the thicknesses that a sample spans.
-override FILTERED: u32;
-
-// Thicknesses that such a mean is taken over.
-const SPREAD_TAPS: u32 = 2u;
+// Thicknesses that a film is the mean of, over what a sample spans. 1: the sample's own alone.
+override THICKNESSES: u32;
 
 fn table_light(table: texture_2d_array<u32>, place: TablePlace, first: u32, light: vec3f) -> vec3f {
     let red = table_colour(table, place, first);
@@ -34,18 +31,18 @@ fn film_reflection(
     polarisation: vec2f,
     light: vec3f,
 ) -> vec3f {
-    if (FILTERED == 0u) {
+    if (THICKNESSES == 1u) {
         return reflection_at(table, axes, film, polarisation, light);
     }
     var sum = vec3f(0.0);
-    for (var k = 0u; k < SPREAD_TAPS; k++) {
-        let part = (f32(k) + 0.5) / f32(SPREAD_TAPS) - 0.5;
+    for (var k = 0u; k < THICKNESSES; k++) {
+        let part = (f32(k) + 0.5) / f32(THICKNESSES) - 0.5;
         // Reflectance is even in the thickness.
         let nm = abs(film.thickness_nm + part * film.spread_nm);
         let tap = FilmPoint(film.cos_theta, nm, 0.0);
         sum += reflection_at(table, axes, tap, polarisation, light);
     }
-    return sum / f32(SPREAD_TAPS);
+    return sum / f32(THICKNESSES);
 }
 
 fn reflection_at(

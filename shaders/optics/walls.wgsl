@@ -11,7 +11,7 @@
 
 import package::optics::airy::{Reflectances, damped_reflectances, film_reflectances, n_cos_refracted};
 import package::optics::quadrature::QuadratureSample;
-import package::optics::film_colour::FILTERED;
+import package::optics::film_colour::THICKNESSES;
 import package::optics::shares::{s_of_colour, share_of_s};
 
 // 1: the quadrature gives everything. 0: it gives the products, and single walls come from the table.
@@ -26,7 +26,7 @@ override THICK: u32;
 // Four hits in a row, and the steps of light that their reflectances are factors on, as columns.
 struct Hits {
     walls_nm: vec4f,
-    // Width of the thicknesses that the sample spans at each hit, in nm; read where FILTERED is 1.
+    // Width of the thicknesses that the sample spans at each hit, in nm; read where THICKNESSES is more than 1.
     spread_nm: vec4f,
     steps: mat4x3f,
 }
@@ -119,7 +119,7 @@ fn sorted(numbers: vec4f) -> vec4f {
 
 // Reflectances at four hits.
 fn wall_reflectances(sample: QuadratureSample, cos_theta: f32, hits: Hits) -> Reflectances {
-    if (FILTERED == 0u) {
+    if (THICKNESSES == 1u) {
         return film_reflectances(sample.index, cos_theta, hits.walls_nm, sample.wavelength_nm);
     }
     // Of a Gaussian as wide as the box of thicknesses: its variance is w^2 / 12, and contrast falls by exp(-delta^2 / 2).

@@ -13,7 +13,7 @@ import package::light::strips::reflected_surroundings;
 import package::light::water::{crossing, past_meniscus, upward};
 import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::quadrature::QuadratureSample;
-import package::optics::film_colour::{FILTERED, film_reflection};
+import package::optics::film_colour::{THICKNESSES, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
 import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls};
 import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
@@ -168,7 +168,7 @@ fn straight_through(path: Path, is_inside: bool) -> Followed {
 // Width of the thicknesses that a sample spans, in nm: the change of the path in the film from pixel to pixel, which angles have a part in. Of samples
 // in a line each spans its part of the pixel along the line, and all of it across.
 fn spread_nm(path: Path, walls_nm: vec4f) -> vec4f {
-    if (FILTERED == 0u) {
+    if (THICKNESSES == 1u) {
         return vec4f(0.0);
     }
     let cos_t = cos_refracted(axes.index, path.cos_theta);

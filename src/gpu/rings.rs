@@ -63,8 +63,8 @@ enum LimbSamples {
 /// Lookups of the surroundings in a reflection, at most. Pixels span more of them in the plane of incidence than across it: twice as much at a
 /// cosine of incidence of 0.7, and eight times at 0.35.
 const ENVIRONMENT_TAPS: u32 = 4;
-/// Width of the outermost ring, in pixels, at least: beyond it the cosine of incidence changes by less than a fifth from pixel to pixel.
-const LIMB_PIXELS: f64 = 3.0;
+/// Width of the outermost ring, in pixels, at least: beyond it the cosine of incidence changes by a tenth at most from pixel to pixel.
+const LIMB_PIXELS: f64 = 5.0;
 /// Contrast of the surroundings from which light is hard: black before it shows what is wrong with the edges of lamps, and with what films reflect
 /// several times. Cloth and sky have 3; windows of a dark room and trees before the sky have 200, and more samples there would not bring them nearer
 /// to the truth; lamps before black velvet have a thousand.
@@ -269,7 +269,7 @@ mod tests {
             evaporated_nm: 0.0,
             samples: 1,
             magnified: false,
-            filtered: false,
+            thicknesses: 1,
             film: FilmKey::Uniform(500.0),
             thickness_factor: 1.0,
             hole: None,

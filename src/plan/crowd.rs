@@ -5,7 +5,7 @@ use glam::{DMat3, DVec2};
 use super::{
     BubbleKey, CameraKey, LentFilm, Shot, SmallBubble, Story,
     lender::Lender,
-    sight::{bounds, is_filtered, is_magnified},
+    sight::{bounds, is_magnified, thicknesses},
 };
 use crate::{
     physics::bubble::{Member, reach},
@@ -137,7 +137,7 @@ fn large(member: &Member, lent: &LentFilm, seen: &Seen, camera: &CameraKey) -> B
     let distance_m = member.center_m.distance(camera.eye_m);
     BubbleKey {
         stretch: seen.stretch,
-        filtered: is_filtered(&bubble.film, seen.radius_pixels),
+        thicknesses: thicknesses(&bubble.film, seen.radius_pixels),
         magnified: is_magnified(&bubble.film, member.radius_m, seen.radius_pixels, distance_m),
         ..bubble
     }

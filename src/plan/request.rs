@@ -14,7 +14,7 @@ use super::{
     films::{cap, has_field},
     keys::samples,
     range_nm,
-    sight::{SMALLEST_FIELD_PIXELS, bounds, is_filtered, is_magnified},
+    sight::{SMALLEST_FIELD_PIXELS, bounds, is_magnified, thicknesses},
 };
 use crate::{
     physics::{
@@ -387,7 +387,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         evaporated_nm: age.life.evaporation.nm(ticks),
         samples: samples(radius_pixels).max(if bubble.boundary == Boundary::Ring { RING_SAMPLES } else { 1 }),
         // The edge of a hole is no thickness between others.
-        filtered: age.hole.is_none() && is_filtered(&film, radius_pixels),
+        thicknesses: if age.hole.is_none() { thicknesses(&film, radius_pixels) } else { 1 },
         magnified: is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m)),
         film,
         thickness_factor: 1.0,

@@ -9,8 +9,9 @@ pub(super) const SMALLEST_FIELD_PIXELS: f64 = 0.75;
 
 /// Pixels that a cell of a film must span for the film to be looked up at each pixel: below that, a cell is interpolated well enough.
 const MAGNIFIED_CELL_PIXELS: f64 = 3.0;
-/// Pixels that a cell of a film spans at most where thickness is filtered over each sample: film may change by a fringe and more from cell to cell.
-const FILTERED_CELL_PIXELS: f64 = 2.0;
+/// Pixels that a cell of a film spans at most, and over how many thicknesses each sample is then a mean: from cell to cell a film may change by more
+/// than a fringe.
+const CELL_PIXELS_OF_MEANS: [(f64, u32); 2] = [(1.0, 4), (2.0, 2)];
 
 pub(super) fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, distance_m: f64) -> bool {
     let FilmKey::Field(field) = film else { return false };
@@ -20,11 +21,15 @@ pub(super) fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, di
     field.scheme.keeps_map() && field.cell_angle() * radius_pixels * magnification > MAGNIFIED_CELL_PIXELS
 }
 
-/// Whether a pixel spans so much of a film that it may change by much of a fringe across it. Several samples per pixel
-/// see that better than a filter which takes the film to change evenly from pixel to pixel.
-pub(super) fn is_filtered(film: &FilmKey, radius_pixels: f64) -> bool {
-    let is_finer = matches!(film, FilmKey::Field(field) if field.cell_angle() * radius_pixels < FILTERED_CELL_PIXELS);
-    is_finer && samples(radius_pixels) == 1
+/// Thicknesses that a sample is the mean of: several where a pixel spans so much of a film that it may change by much of a fringe across it. Several
+/// samples per pixel see that better than a mean which takes the film to change evenly from pixel to pixel.
+pub(super) fn thicknesses(film: &FilmKey, radius_pixels: f64) -> u32 {
+    let FilmKey::Field(field) = film else { return 1 };
+    if samples(radius_pixels) > 1 {
+        return 1;
+    }
+    let cell_pixels = field.cell_angle() * radius_pixels;
+    CELL_PIXELS_OF_MEANS.into_iter().find(|(most, _)| cell_pixels < *most).map_or(1, |(_, thicknesses)| thicknesses)
 }
 
 /// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; `None` if it is outside.

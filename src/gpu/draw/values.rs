@@ -65,7 +65,7 @@ pub(super) fn ring_overrides(
         IN_LINE: ring.in_line,
         ENVIRONMENT_TAPS: ring.environment_taps,
         OUTLINE: ring.outline,
-        FILTERED: bubble.filtered,
+        THICKNESSES: bubble.thicknesses,
         STRETCHED: bubble.stretch != DMat3::IDENTITY,
         BURST: bubble.hole.is_some(),
         FULL_PRECISION: key.full_precision,

@@ -123,8 +123,8 @@ overrides! {
         override ENVIRONMENT_TAPS: u32 in [1, 4];
         /// Whether the bubble's outline crosses the ring.
         override OUTLINE: bool;
-        /// Whether the film is finer than pixels, and what it reflects is filtered.
-        override FILTERED: bool;
+        /// Thicknesses that each sample is the mean of: several where the film is finer than pixels.
+        override THICKNESSES: u32 in [1, 2, 4];
         /// Whether the bubble is an ellipsoid.
         override STRETCHED: bool;
         /// Whether the bubble bursts.

@@ -29,7 +29,7 @@ kernels! {
     struct SmallBubbles {
         const TILE: u32 = TILE;
         const ON_BATH: bool = false;
-        const FILTERED: bool = false;
+        const THICKNESSES: u32 = 1;
         const BACKDROP_IS_ENVIRONMENT: bool = false;
         override SAMPLES: u32 in [1, 4];
         override FULL_PRECISION: bool;

@@ -31,8 +31,8 @@ pub struct BubbleKey {
     pub samples: u32,
     /// Whether the film is looked up through its flow map at each pixel: where cells are larger than pixels.
     pub magnified: bool,
-    /// Whether thickness is filtered over each sample: where a pixel spans half a cell of the film or more.
-    pub filtered: bool,
+    /// Thicknesses that each sample is the mean of: 1, or more where a pixel spans half a cell of the film or more.
+    pub thicknesses: u32,
     /// The film.
     pub film: FilmKey,
     /// How much thicker the bubble is than the film shows.
@@ -117,7 +117,7 @@ impl SmallBubble {
             evaporated_nm: lent.evaporated_nm,
             samples: samples(self.radius_pixels(camera)),
             magnified: false,
-            filtered: false,
+            thicknesses: 1,
             film: lent.film.clone(),
             thickness_factor: self.thickness_factor,
             hole: None,
