@@ -23,7 +23,7 @@ use crate::{
 /// Redraws of the panels alone that come before the first picture: until all of them stand there.
 const PANELS_FIRST: u64 = panels::FRAMES;
 /// The redraw of them after which the picture's size is known.
-const PICTURE_SIZED: u64 = 3;
+const PICTURE_SIZED: u64 = 4;
 /// How long a redraw waits for its picture. Most pictures come sooner; a window that waits longer is felt to stick.
 const PATIENCE: Duration = Duration::from_millis(50);
 /// Time after which people are told that a picture is being drawn.

@@ -89,8 +89,8 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
         ui.ctx().request_repaint();
     }
     if !model.presents && frame >= 1 {
-        time_line::show(ui, model);
-        if model.shows_panels && frame >= 2 {
+        time_line::show(ui, model, frame >= 2);
+        if model.shows_panels && frame >= 3 {
             // A window narrower than the panel is all panel; `H` hides it.
             let width = WIDTH.min(ui.available_width());
             Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
@@ -107,7 +107,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     draw_line(model, &mut picture);
     let probes = model.tool == Tool::Probe;
     model.probe.point(picture.hovered.filter(|_| probes), picture.clicked && probes);
-    if !model.stands_alone && frame >= 2 {
+    if !model.stands_alone && frame >= 3 {
         over_picture(ui.ctx(), picture.rect, model);
     }
     picture
@@ -191,13 +191,13 @@ fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
 
 /// Frames of egui until everything stands there. A browser compiles code when it first runs, and all of it at once would hold its page for a fifth of
 /// a second.
-pub const FRAMES: u64 = 6;
+pub const FRAMES: u64 = 7;
 
 fn sections(ui: &mut Ui, model: &mut Model) {
     header::show(ui, model);
     let frame = ui.ctx().cumulative_frame_nr();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        if frame >= 3 {
+        if frame >= 4 {
             if let Some(course) = &model.course {
                 let title = format!("Lesson: {}", course.lesson.title);
                 section(ui, &title, true, |ui| lesson::show(ui, model));
@@ -205,11 +205,11 @@ fn sections(ui: &mut Ui, model: &mut Model) {
             section(ui, "Film", true, |ui| film::show(ui, model));
             section(ui, "Generators", !model.scene.generators.is_empty(), |ui| generators::show(ui, model));
         }
-        if frame >= 4 {
+        if frame >= 5 {
             section(ui, "Motion", true, |ui| motion::show(ui, model));
             section(ui, "Light", true, |ui| light::show(ui, model));
         }
-        if frame >= 5 {
+        if frame >= 6 {
             section(ui, "View", true, |ui| view::show(ui, model));
             section(ui, "Measure", true, |ui| overlay::choices(ui, &mut model.overlay));
             section(ui, "All keys", false, |ui| all_keys::show(ui, model));

@@ -13,8 +13,8 @@ const STRIP: f32 = 12.0;
 /// How far from a mark a click still means it, points.
 const REACH: f32 = 6.0;
 
-/// Shows the time line along the bottom of the window.
-pub fn show(ui: &mut Ui, model: &mut Model) {
+/// Shows the time line along the bottom of the window: all of it, or the buttons of the clock alone.
+pub fn show(ui: &mut Ui, model: &mut Model, is_whole: bool) {
     model.furthest_tick = model.furthest_tick.max(model.clock.tick);
     Panel::bottom("time line").resizable(false).default_size(64.0).show(ui, |ui| {
         ui.add_space(2.0);
@@ -22,6 +22,9 @@ pub fn show(ui: &mut Ui, model: &mut Model) {
             clock(ui, model);
             told(ui, model);
         });
+        if !is_whole {
+            return;
+        }
         let end_tick = end_tick(model);
         let rail = time(ui, model, end_tick);
         let scale = Scale { rail, end_tick };
