@@ -52,7 +52,7 @@ fn make_environment(
     notes: &mut Vec<String>,
 ) -> Result<(Arc<CubeMap>, Vec<SpectralLight>), LoadError> {
     let map = match &light.environment {
-        // Without lamps its colour is a factor on white, which half floats do not round.
+        // Without lamps its colour is a factor on white, which texels do not round.
         _ if let Some(constant) = light.constant => {
             let is_factor = light.lamps.is_empty();
             Arc::new(CubeMap::constant(if is_factor { DVec3::ONE } else { linear(constant) }))

@@ -222,7 +222,7 @@ fn plate(scene: &Scene, resources: &Resources, size: [u32; 2]) -> Option<PlateKe
 }
 
 fn light(scene: &Scene, resources: &Resources, defocus_rad: f64, camera: &CameraKey) -> LightKey {
-    // A constant environment is a white cube times this factor: exact, where half floats in the cube would round.
+    // A constant environment is a white cube times this factor: exact, where texels of a cube would round.
     let constant = scene.light.constant.filter(|_| scene.light.lamps.is_empty());
     let constant = constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
     let backdrop = match scene.view.backdrop {

@@ -8,7 +8,7 @@ pub(super) fn smoothstep(start: f64, end: f64, value: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// A bell of height 1 at 0 and width `sigma`; nothing beyond six widths, where a half float beside it does not see the 1.5e-8 that are left.
+/// A bell of height 1 at 0 and width `sigma`; nothing beyond six widths, where a texel beside it does not see the 1.5e-8 that are left.
 pub(super) fn bell(distance: f64, sigma: f64) -> f64 {
     let widths = distance / sigma;
     if widths.abs() > 6.0 { 0.0 } else { (-0.5 * widths * widths).exp() }
