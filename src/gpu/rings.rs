@@ -47,7 +47,7 @@ struct Care {
     limb_reflections: u32,
     /// Samples of a pixel there.
     limb_samples: LimbSamples,
-    /// The ring begins where a reflection turns by this angle from pixel to pixel, in radians; if that is infinite, [`LIMB_PIXELS`] from the limb.
+    /// The ring begins where a reflection turns by this angle from pixel to pixel, in radians; if that is infinite, as far from the limb as [`Care::least_limb_pixels`].
     limb_turn_rad: f64,
 }
 
@@ -63,8 +63,10 @@ enum LimbSamples {
 /// Lookups of the surroundings in a reflection, at most. Pixels span more of them in the plane of incidence than across it: twice as much at a
 /// cosine of incidence of 0.7, and eight times at 0.35.
 const ENVIRONMENT_TAPS: u32 = 4;
-/// Width of the outermost ring, in pixels, at least: beyond it the cosine of incidence changes by a tenth at most from pixel to pixel.
+/// Width of the outermost ring, in pixels, at least: beyond it the cosine of incidence changes by a tenth at most from pixel to pixel. Where the ring's
+/// pixels take many samples, on a grid, it is narrower, and beyond it the cosine changes by a sixth.
 const LIMB_PIXELS: f64 = 5.0;
+const LIMB_PIXELS_OF_GRID: f64 = 3.0;
 /// Contrast of the surroundings from which light is hard: black before it shows what is wrong with the edges of lamps, and with what films reflect
 /// several times. Cloth and sky have 3; windows of a dark room and trees before the sky have 200, and more samples there would not bring them nearer
 /// to the truth; lamps before black velvet have a thousand.
@@ -124,7 +126,14 @@ impl Care {
     /// Width of the ring at the limb of a bubble, whose radius is given, in pixels. A reflection turns by twice as much as the wall: by 2 / (r cos θ)
     /// from pixel to pixel, where cos² θ is 2 / r for each pixel from the limb.
     fn limb_pixels(&self, radius_pixels: f64) -> f64 {
-        LIMB_PIXELS.max(2.0 / (self.limb_turn_rad.powi(2) * radius_pixels))
+        self.least_limb_pixels().max(2.0 / (self.limb_turn_rad.powi(2) * radius_pixels))
+    }
+
+    fn least_limb_pixels(&self) -> f64 {
+        match self.limb_samples {
+            LimbSamples::Line(_) => LIMB_PIXELS,
+            LimbSamples::Grid(_) => LIMB_PIXELS_OF_GRID,
+        }
     }
 }
 
@@ -313,7 +322,9 @@ mod tests {
 
     #[test]
     fn hard_light_takes_more_of_everything_at_the_limb_the_smaller_the_bubble_the_farther_inside() {
-        let (camera, bubble) = seen(DMat3::IDENTITY);
+        let (mut camera, bubble) = seen(DMat3::IDENTITY);
+        // From farther away: beyond 160 pixels the ring of soft light is as wide at `standard`.
+        camera.pixel_height_m *= 3.0;
         let limb = |quality, contrast| {
             let rings = rings(&camera, &bubble, quality, &FilmMaterial::default(), contrast);
             rings.last().copied().expect("a limb")
@@ -324,7 +335,10 @@ mod tests {
             assert!(hard.samples >= soft.samples && hard.inner_reflections >= soft.inner_reflections);
             assert!(begin(hard) < begin(soft), "{quality:?}");
             let care = Care::in_hard_light(quality);
-            assert!(care.limb_pixels(50.0) > care.limb_pixels(100.0) && care.limb_pixels(2000.0) == LIMB_PIXELS);
+            assert!(
+                care.limb_pixels(50.0) > care.limb_pixels(100.0)
+                    && care.limb_pixels(2000.0) == care.least_limb_pixels()
+            );
         }
     }
 }
