@@ -53,7 +53,7 @@ fn frame_request(flow: Flow, cells: u32, tick: u64) -> anyhow::Result<FrameReque
     loaded.scene.bubbles[0].film.cells = cells;
     loaded.scene.motion.flow = flow;
     let moment = Moment { tick, fraction: 0.0 };
-    let shot = Shot { size: [256, 144], moment, full_precision: false, gamut: Gamut::Srgb, pace: Pace::FRAME };
+    let shot = Shot { size: [256, 144], moment, full_precision: false, gamut: Gamut::Srgb, pace: Pace::UNMEASURED };
     Ok(request(&loaded.scene, &loaded.resources, &shot)?)
 }
 

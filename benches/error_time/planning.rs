@@ -61,7 +61,7 @@ fn planned(story: &Story, resources: &Resources, from: u64, frames: u64) -> anyh
     for _ in 0..RUNS {
         let ticks = from + 1..=from + frames;
         let (_, cpu_ms, _) =
-            timed(|| ticks.into_iter().try_fold(there.clone(), |state, tick| frame(tick, Pace::FRAME, &state)))?;
+            timed(|| ticks.into_iter().try_fold(there.clone(), |state, tick| frame(tick, Pace::UNMEASURED, &state)))?;
         min_ms = min_ms.min(cpu_ms);
     }
     Ok([1e3 * min_ms / frames as f64, arrive_ms])

@@ -17,7 +17,7 @@ const CELLS: [u32; 4] = [64, 128, 256, 512];
 const TICKS: u64 = 2;
 /// A picture so small that it costs next to nothing.
 const SIZE: [u32; 2] = [64, 36];
-/// Copies in one submission: so many that what it takes to submit them does not count.
+/// Copies in one submission, so that the cost of submitting is negligible.
 const COPIES: u32 = 200;
 
 /// Prints the table. One round shows that it works: it is of the smallest film alone.

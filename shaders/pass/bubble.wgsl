@@ -95,6 +95,7 @@ struct ListPart {
 @group(0) @binding(20) var<storage, read> part: ListPart;
 // The environment as it is seen behind the bubbles.
 @group(0) @binding(21) var backdrop_map: texture_cube<f32>;
+@group(0) @binding(22) var backdrop_sampler: sampler;
 
 // Sides of the polygons that rings are made of.
 override SIDES: u32;
@@ -119,7 +120,7 @@ fn everywhere(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 }
 
 fn backdrop(direction: vec3f, footprint: f32) -> vec3f {
-    return backdrop_radiance(backdrop_map, environment_sampler, light, upward(direction), footprint);
+    return backdrop_radiance(backdrop_map, backdrop_sampler, light, upward(direction), footprint);
 }
 
 // Light from what is drawn behind the bubble, at a position in the picture.

@@ -77,7 +77,7 @@ mod tests {
             moment: Moment { tick: 0, fraction: 0.0 },
             full_precision: false,
             gamut: Gamut::Srgb,
-            pace: Pace::FRAME,
+            pace: Pace::UNMEASURED,
         };
         let plan = plan(&model.scene.request(&model.resources, &shot).unwrap(), &GpuState::default());
         let (count, mut prepared) = (Work::of_plan(&plan).count(), Prepared::default());

@@ -61,7 +61,7 @@ impl StepPace {
     pub fn of_frame(&self) -> Pace {
         let rest_ms = self.rest.shortest().unwrap_or(0.0);
         let steps_ms = SHORT_MS.max(PART_OF_REST * rest_ms);
-        self.cell.shortest().map_or(Pace::FRAME, |cell_ms| Pace::Frame { cells: (steps_ms / cell_ms) as u64 })
+        self.cell.shortest().map_or(Pace::UNMEASURED, |cell_ms| Pace::Frame { cells: (steps_ms / cell_ms) as u64 })
     }
 }
 
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn a_frame_steps_what_the_device_steps_in_the_time_that_it_has() {
-        assert_eq!(StepPace::default().of_frame(), Pace::FRAME);
+        assert_eq!(StepPace::default().of_frame(), Pace::UNMEASURED);
         let million_in = |ms, draw_ms| cells(&measured([ms], Some(draw_ms))) as f64 / 1e6;
         assert!((million_in(100.0, 5.0) * 15.0 - 10.0).abs() < 1e-4, "a fifteenth of a second");
         assert!((million_in(1.0, 5.0) * 15.0 - 1000.0).abs() < 1e-4, "on a fast device");

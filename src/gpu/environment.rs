@@ -13,8 +13,9 @@ pub struct Environment {
     pub view: wgpu::TextureView,
     /// Angle between neighbouring texels at the center of a face of the finest level, in radians.
     pub texel_angle: f32,
-    /// Linear within a level, and between levels or from the nearest one; cube maps have no seams.
+    /// Linear within a level and between levels.
     between_levels: wgpu::Sampler,
+    /// Linear within the nearest level.
     nearest_level: wgpu::Sampler,
 }
 
@@ -85,7 +86,7 @@ impl Environment {
         }
     }
 
-    /// How a quality samples reflections. A second level is half of the cost of a lookup, and brings the picture of a room 1.4 dB nearer to many
+    /// How a quality samples reflections. A second level is half of the cost of a lookup, and brings the picture of a room 1.3 dB nearer to many
     /// samples per pixel.
     #[must_use]
     pub fn sampler(&self, quality: Quality) -> &wgpu::Sampler {

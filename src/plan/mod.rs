@@ -54,7 +54,7 @@ pub enum Pace {
 
 impl Pace {
     /// A frame on a device of which nothing is known.
-    pub const FRAME: Self = Self::Frame { cells: 800_000 };
+    pub const UNMEASURED: Self = Self::Frame { cells: 800_000 };
 }
 
 /// What a picture needs.

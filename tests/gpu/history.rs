@@ -53,7 +53,7 @@ fn seconds(ticks: f64) -> f64 {
 
 /// What a window requests at a moment: a frame's worth.
 fn frame(loaded: &LoadedScene, ticks: f64) -> FrameRequest {
-    FrameRequest { pace: Pace::FRAME, ..still(loaded, SIZE, seconds(ticks)) }
+    FrameRequest { pace: Pace::UNMEASURED, ..still(loaded, SIZE, seconds(ticks)) }
 }
 
 /// Between two ticks, and within a step.

@@ -21,9 +21,9 @@ use crate::{
 };
 
 /// Redraws of the panels alone that come before the first picture: until all of them stand there.
-const PANELS_FIRST: u64 = panels::FRAMES;
+const PANELS_FIRST: u64 = panels::Part::LAST.frames();
 /// The redraw of them after which the picture's size is known.
-const PICTURE_SIZED: u64 = 4;
+const PICTURE_SIZED: u64 = panels::Part::Header.frames();
 /// How long a redraw waits for its picture. Most pictures come sooner; a window that waits longer is felt to stick.
 const PATIENCE: Duration = Duration::from_millis(50);
 /// Time after which people are told that a picture is being drawn.
@@ -178,7 +178,7 @@ impl View {
     /// Has what the first picture begins with computed, while the panels come.
     fn prepare_first(&mut self, model: &Model) {
         // What fails here fails again where the picture is drawn, and is told there.
-        let request = request(model, self.picture_size, Pace::FRAME);
+        let request = request(model, self.picture_size, Pace::UNMEASURED);
         if let (Some(renderer), Ok(request)) = (self.stage.drawing.renderer(), request) {
             let plan = plan(&request, renderer.state());
             self.pictures.producer.prepare(&plan, &mut renderer.prepared);

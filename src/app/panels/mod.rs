@@ -84,13 +84,14 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
         model.act(*action);
     }
     fold(ui, model);
-    let frame = ui.ctx().cumulative_frame_nr();
-    if frame + 1 < FRAMES {
+    let has_come = |part: Part| part.has_come(ui.ctx());
+    let (has_clock, has_time, has_header) = (has_come(Part::Clock), has_come(Part::Time), has_come(Part::Header));
+    if !has_come(Part::LAST) {
         ui.ctx().request_repaint();
     }
-    if !model.presents && frame >= 1 {
-        time_line::show(ui, model, frame >= 2);
-        if model.shows_panels && frame >= 3 {
+    if !model.presents && has_clock {
+        time_line::show(ui, model, has_time);
+        if model.shows_panels && has_header {
             // A window narrower than the panel is all panel; `H` hides it.
             let width = WIDTH.min(ui.available_width());
             Panel::right("panels").exact_size(width).resizable(false).show(ui, |ui| sections(ui, model));
@@ -107,7 +108,7 @@ pub fn show(ui: &mut Ui, model: &mut Model) -> Picture {
     draw_line(model, &mut picture);
     let probes = model.tool == Tool::Probe;
     model.probe.point(picture.hovered.filter(|_| probes), picture.clicked && probes);
-    if !model.stands_alone && frame >= 3 {
+    if !model.stands_alone && has_header {
         over_picture(ui.ctx(), picture.rect, model);
     }
     picture
@@ -189,15 +190,45 @@ fn over_picture(ctx: &Context, picture: Rect, model: &mut Model) {
     window::show(ctx, model);
 }
 
-/// Frames of egui until everything stands there. A browser compiles code when it first runs, and all of it at once would hold its page for a fifth of
-/// a second.
-pub const FRAMES: u64 = 7;
+/// What comes one after the other when a window opens, a frame of egui each. A browser compiles code when it first runs, and all of it at once would
+/// hold its page for a fifth of a second.
+#[derive(Clone, Copy, Debug)]
+pub enum Part {
+    /// The picture alone.
+    Picture,
+    /// The buttons of the clock.
+    Clock,
+    /// The rest of the time line.
+    Time,
+    /// The head of the panels, which take their place beside the picture, and what stands over that.
+    Header,
+    /// A lesson, the film and generators.
+    Film,
+    /// Motion and light.
+    Motion,
+    /// All that is below.
+    View,
+}
+
+impl Part {
+    /// With it everything stands there.
+    pub const LAST: Self = Self::View;
+
+    /// Frames of egui until it stands there.
+    pub const fn frames(self) -> u64 {
+        self as u64 + 1
+    }
+
+    /// Whether it is there in this frame.
+    fn has_come(self, ctx: &Context) -> bool {
+        ctx.cumulative_frame_nr() + 1 >= self.frames()
+    }
+}
 
 fn sections(ui: &mut Ui, model: &mut Model) {
     header::show(ui, model);
-    let frame = ui.ctx().cumulative_frame_nr();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        if frame >= 4 {
+        if Part::Film.has_come(ui.ctx()) {
             if let Some(course) = &model.course {
                 let title = format!("Lesson: {}", course.lesson.title);
                 section(ui, &title, true, |ui| lesson::show(ui, model));
@@ -205,11 +236,11 @@ fn sections(ui: &mut Ui, model: &mut Model) {
             section(ui, "Film", true, |ui| film::show(ui, model));
             section(ui, "Generators", !model.scene.generators.is_empty(), |ui| generators::show(ui, model));
         }
-        if frame >= 5 {
+        if Part::Motion.has_come(ui.ctx()) {
             section(ui, "Motion", true, |ui| motion::show(ui, model));
             section(ui, "Light", true, |ui| light::show(ui, model));
         }
-        if frame >= 6 {
+        if Part::View.has_come(ui.ctx()) {
             section(ui, "View", true, |ui| view::show(ui, model));
             section(ui, "Measure", true, |ui| overlay::choices(ui, &mut model.overlay));
             section(ui, "All keys", false, |ui| all_keys::show(ui, model));

@@ -312,6 +312,7 @@ impl Shared<'_> {
             light: &light.light,
             environment: &environment.view,
             environment_sampler: environment.sampler(film_colours.quadrature.quality),
+            backdrop_sampler: backdrop.backdrop_sampler(),
             bubble,
             axes: &table.axes,
             table: &table.view,

@@ -183,6 +183,7 @@ kernels! {
         @19 films: Texture2dArray;
         @20 part: Read<ListPart>;
         @21 backdrop_map: TextureCube;
+        @22 backdrop_sampler: Sampler;
     }
     draw ring, everywhere as shade;
 
@@ -201,6 +202,7 @@ kernels! {
         @15 picture_behind: Texture2d;
         @16 picture_so_far: Texture2d;
         @21 backdrop_map: TextureCube;
+        @22 backdrop_sampler: Sampler;
     }
     draw ring, everywhere as shade_mirror;
 }
@@ -210,7 +212,7 @@ impl<'a> ShadeMirror<'a> {
     pub fn in_place_of(shade: &Shade<'a>) -> Self {
         let Shade { shape, table_kind, summed, lit, view, light, environment, environment_sampler, bubble, .. } =
             *shade;
-        let Shade { picture_behind, picture_so_far, backdrop_map, lamps, .. } = *shade;
+        let Shade { picture_behind, picture_so_far, backdrop_map, backdrop_sampler, lamps, .. } = *shade;
         Self {
             shape,
             table_kind,
@@ -224,6 +226,7 @@ impl<'a> ShadeMirror<'a> {
             picture_behind,
             picture_so_far,
             backdrop_map,
+            backdrop_sampler,
             lamps,
         }
     }

@@ -13,7 +13,7 @@ fn going_back_in_time_seeds_again() {
 fn go(scene: &Scene, tick: u64, state: &mut GpuState) -> (u64, Vec<&'static str>) {
     let (mut steps, mut passes) = (0, Vec::new());
     for _ in 0..100_000 {
-        let next = plan(&frame_request(scene, tick, Pace::FRAME), state);
+        let next = plan(&frame_request(scene, tick, Pace::UNMEASURED), state);
         for (pass, _) in &next.steps {
             if let Pass::StepField { key, ticks, .. } = pass {
                 steps += key.steps_from(ticks.start).count() as u64;

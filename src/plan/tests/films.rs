@@ -127,7 +127,7 @@ fn a_film_that_was_found_at_rest_plans_nothing_until_something_acts_on_it() {
         state.fields[0].as_mut().unwrap().rest = Some(RestingFilm { since_tick: 240, law });
         state
     };
-    let then = |scene: &Scene, state: &GpuState, tick| plan(&frame_request(scene, tick, Pace::FRAME), state);
+    let then = |scene: &Scene, state: &GpuState, tick| plan(&frame_request(scene, tick, Pace::UNMEASURED), state);
     let shown = then(&scene, &resting(240), 7000);
     assert!(shown.is_empty(), "{shown}");
     let event = |change| Scene { events: vec![Event { tick: 400, change }], ..scene.clone() };
@@ -208,7 +208,7 @@ fn side_by_side(count: usize) -> Scene {
 fn films_share_the_cells_of_a_frame_and_all_get_on() {
     let mut scene = side_by_side(4);
     scene.bubbles.iter_mut().for_each(|bubble| bubble.film.cells = 256);
-    let (request, mut state) = (frame_request(&scene, 40, Pace::FRAME), GpuState::default());
+    let (request, mut state) = (frame_request(&scene, 40, Pace::UNMEASURED), GpuState::default());
     let cells = |pass: &Pass| match pass {
         Pass::StepField { key, ticks, .. } => {
             key.cell_count() * key.at(Moment::tick(ticks.end)).steps_from(ticks.start).count() as u64
@@ -265,7 +265,7 @@ fn films_that_take_the_same_steps_take_them_side_by_side() {
     };
     assert_eq!(stepped(&GpuState::default(), 9, Pace::Whole), [vec![0..9; 3]]);
     // With a checkpoint on the way.
-    let rounds = stepped(&GpuState::default(), 61, Pace::FRAME);
+    let rounds = stepped(&GpuState::default(), 61, Pace::UNMEASURED);
     assert!(rounds.len() > 1 && rounds.iter().all(|round| *round == vec![round[0].clone(); 3]), "{rounds:?}");
     // The second was out of sight meanwhile.
     let mut state = after(&scene, 9);

@@ -216,7 +216,7 @@ fn a_bubble_below_a_pixel_is_not_simulated() {
 
 #[test]
 fn a_window_gets_a_coarse_table_first_and_the_full_one_soon() {
-    let request = frame_request(&uniform_scene(), 0, Pace::FRAME);
+    let request = frame_request(&uniform_scene(), 0, Pace::UNMEASURED);
     let full = request.picture.draw.lighting.films[0].table.clone().unwrap();
     let mut state = GpuState::default();
     let first = plan(&request, &state);
@@ -237,7 +237,7 @@ fn a_window_gets_a_coarse_table_first_and_the_full_one_soon() {
 
 #[test]
 fn a_window_catches_up_with_a_film_in_portions() {
-    let request = frame_request(&stirred_scene(), 160, Pace::FRAME);
+    let request = frame_request(&stirred_scene(), 160, Pace::UNMEASURED);
     let (mut state, mut frames) = (GpuState::default(), 0);
     loop {
         let next = plan(&request, &state);
@@ -325,7 +325,7 @@ proptest! {
     fn the_way_there_does_not_matter(way in proptest::collection::vec((scenes(), 0..80_u64, any::<bool>()), 1..6), end in scenes(), tick in 0..80_u64) {
         let mut state = GpuState::default();
         for (scene, tick, whole) in way {
-            state = plan(&frame_request(&scene, tick, if whole { Pace::Whole } else { Pace::FRAME }), &state).after;
+            state = plan(&frame_request(&scene, tick, if whole { Pace::Whole } else { Pace::UNMEASURED }), &state).after;
         }
         let request = frame_request(&end, tick, Pace::Whole);
         let arrived = plan(&request, &state);
@@ -334,13 +334,13 @@ proptest! {
         prop_assert_eq!(decided(&arrived.after, &request), decided(&fresh.after, &request));
         prop_assert_eq!(arrived.after.picture.as_ref(), Some(&request.picture));
         prop_assert!(plan(&request, &arrived.after).is_empty());
-        let frame_paced = FrameRequest { pace: Pace::FRAME, ..request };
+        let frame_paced = FrameRequest { pace: Pace::UNMEASURED, ..request };
         prop_assert!(plan(&frame_paced, &arrived.after).is_empty());
     }
 
     #[test]
     fn frames_end_where_one_go_does(scene in scenes(), tick in 0..80_u64) {
-        let (request, mut state) = (frame_request(&scene, tick, Pace::FRAME), GpuState::default());
+        let (request, mut state) = (frame_request(&scene, tick, Pace::UNMEASURED), GpuState::default());
         for _ in 0..200 {
             let next = plan(&request, &state);
             state = next.after;

@@ -53,7 +53,7 @@ fn the_gpu_state_shares_the_history_that_it_was_planned_by() {
     story.change(|scene| scene.bubbles[0].film.cells = 16);
     let mut state = GpuState::default();
     let mut go = |story: &Story, tick| loop {
-        let next = plan(&story.request(&resources(), &shot(tick, Pace::FRAME)).unwrap(), &state);
+        let next = plan(&story.request(&resources(), &shot(tick, Pace::UNMEASURED)).unwrap(), &state);
         state = next.after;
         if next.complete {
             return state.fields[0].clone().unwrap();

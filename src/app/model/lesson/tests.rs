@@ -34,7 +34,7 @@ fn at_step(model: &mut Model, step: usize) {
 /// What the window draws of a model, and its films in f64: none is moved by the device.
 fn drawn(model: &Model) -> (DrawKey, FilmsRead) {
     let moment = model.clock.moment(&model.scene.motion);
-    let shot = Shot { size: SIZE, moment, full_precision: false, gamut: Gamut::Srgb, pace: Pace::FRAME };
+    let shot = Shot { size: SIZE, moment, full_precision: false, gamut: Gamut::Srgb, pace: Pace::UNMEASURED };
     let draw = request(&model.scene, &model.resources, &shot).unwrap().picture.draw;
     let mut films = FilmsRead::default();
     for (index, film) in draw.films() {

@@ -19,7 +19,7 @@ fn a_direction_finds_its_own_radiance() {
         // edge the nearest neighbour may lie half a texel, 1/64, along it, weighed by a half at most.
         let error = (map.sample(direction) - source(direction)).abs().max_element();
         let on_edge = CubeFace::of_direction(direction).1.abs().max_element() > 1.0 - 1.0 / 64.0;
-        assert!(error < 0.5f64.powi(9) + if on_edge { 7.5e-3 } else { 0.5e-3 }, "{direction}: {error}");
+        assert!(error < if on_edge { 8e-3 } else { 0.5e-3 + 0.5f64.powi(9) }, "{direction}: {error}");
     }
 }
 
@@ -75,11 +75,7 @@ fn mips_have_gpu_sizes_and_keep_the_mean() {
             };
             for level in map.mips() {
                 // A texel holds values below 2 to 2⁻⁹, in each of three components.
-                assert!(
-                    (mean(level) - mean(&map.mips()[0])).abs().max_element() < 0.5f64.powi(9),
-                    "size {size}, level {}",
-                    level.size
-                );
+                assert!(mean(level).distance(mean(&map.mips()[0])) < 2e-3, "size {size}, level {}", level.size);
             }
         }
     }
@@ -103,7 +99,7 @@ fn values_beyond_what_texels_hold_are_repaired_and_counted() {
         _ => DVec3::ONE,
     });
     assert_eq!(map.repairs(), Repairs { not_a_number: 4, negative: 4, too_bright: 4 });
-    assert!((map.sample(DVec3::X).x - f64::from(MAX_RADIANCE)).abs() <= 64.0, "texels step by 128 there");
+    assert!((map.sample(DVec3::X).x - f64::from(MAX_RADIANCE)).abs() < 32.0, "the nearest texel holds 65024");
     assert_eq!(map.sample(DVec3::NEG_Z), DVec3::ZERO);
     assert!(map.mips().iter().flat_map(|level| level.faces.iter().flatten()).all(|texel| texel.radiance().is_finite()));
 }
