@@ -1,12 +1,22 @@
 // Thin film collapses to black film, which a real film does within a fraction of a second once its surfaces attract each other: the
-// difference to black film decays at a constant rate. It is the film around a cell that must be thin: black spots are round, and as wide as
-// their rims, while cells that went one by one would leave a maze. What a cell loses goes to the thicker film around it, as the rim of a
-// black spot gathers it; the nearest thick film may be too far, then the film as a whole gets it with the correction of its liquid.
+// difference to black film decays at a constant rate. It is the film around a cell that must be thin: black spots are round, while cells that
+// went one by one would leave a maze. Silver film collapses around nuclei. What cells lose is missing until the film's liquid is restored. The
+// f64 truth, with the reasons, is src/physics/film/model/blacken.rs.
+//
 // The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation per cell, halo
 // included.
 
 import package::film::control::Control;
-import package::sphere::cubed::{HALO, is_cell};
+import package::sphere::cubed::{HALO, is_cell, locate, padded_index, panel_direction};
+
+// A place where a black spot opens. Mirrors `NucleusValue` in src/gpu/passes/blacken.rs.
+struct Nucleus {
+    middle: vec3f,
+    // Angle, radians.
+    radius: f32,
+    // Ticks since it formed.
+    age: u32,
+}
 
 // Mirrors `BlackenUniform` in src/gpu/passes/blacken.rs.
 struct Blacken {
@@ -18,22 +28,29 @@ struct Blacken {
     // Thickness of black film, and that below which film collapses, nm.
     black_nm: f32,
     onset_nm: f32,
+    // Thickness below which film collapses around a nucleus, nm.
+    nucleation_nm: f32,
     // Rate of the collapse, 1/tick.
     rate: f32,
+    nuclei_count: u32,
+    nuclei: array<Nucleus, 32>,
 }
 
 @group(0) @binding(0) var<uniform> blacken: Blacken;
 @group(0) @binding(1) var<storage, read_write> control: Control;
 @group(0) @binding(2) var<storage, read> tracer: array<f32>;
 @group(0) @binding(3) var<storage, read_write> result: array<f32>;
-@group(0) @binding(4) var<storage, read> shares_around: array<f32>;
 // Means of the tracer around cells.
-@group(0) @binding(5) var<storage, read> means: array<f32>;
+@group(0) @binding(4) var<storage, read> means: array<f32>;
+// tan(alpha) of each cell coordinate, halo included.
+@group(0) @binding(5) var<storage, read> tangents: array<f32>;
 
-// Cells on each side that a cell's liquid goes to, and that count for its mean.
+// Cells on each side that count for a cell's mean.
 const REACH: u32 = 3u;
 // Part of the onset within which the collapse sets in: borders are smooth, and some cells wide.
 const ONSET_WIDTH: f32 = 0.1;
+// Part of a nucleus's radius within which film collapses entirely.
+const CORE: f32 = 0.7;
 
 fn thickness_nm(place: u32) -> f32 {
     return tracer[place] + blacken.remaining_level_nm;
@@ -43,15 +60,25 @@ fn mean_nm(place: u32) -> f32 {
     return means[place] + blacken.remaining_level_nm;
 }
 
-fn is_thin(place: u32) -> bool {
-    return mean_nm(place) < blacken.onset_nm;
-}
-
-// What a cell loses since the last remap.
-fn lost_nm(place: u32) -> f32 {
-    let below = (blacken.onset_nm - mean_nm(place)) / (ONSET_WIDTH * blacken.onset_nm);
-    let decayed = 1.0 - exp(-clamp(below, 0.0, 1.0) * blacken.rate * f32(control.ticks_remapped));
-    return max(thickness_nm(place) - blacken.black_nm, 0.0) * decayed;
+// How far nuclei that formed since the last remap let film collapse at a direction, 0 to 1.
+fn nucleated(x: vec3f) -> f32 {
+    var most = 0.0;
+    // The youngest come first.
+    for (var k = 0u; k < blacken.nuclei_count; k++) {
+        let nucleus = blacken.nuclei[k];
+        if (nucleus.age >= control.ticks_remapped) {
+            break;
+        }
+        let away = distance(x, nucleus.middle) / nucleus.radius;
+        if (away < 1.0) {
+            let at = locate(nucleus.middle, blacken.cells);
+            let cell = vec2i(round(at.cell));
+            if (thickness_nm(padded_index(at.panel, cell.x, cell.y, blacken.cells)) < blacken.nucleation_nm) {
+                most = max(most, 1.0 - smoothstep(CORE, 1.0, away));
+            }
+        }
+    }
+    return most;
 }
 
 fn place_of(id: vec3u) -> u32 {
@@ -105,42 +132,15 @@ fn mean_along_columns(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-// What each cell gives to each thicker one around it.
 @compute @workgroup_size(8, 8)
-fn redistribute(@builtin(global_invocation_id) id: vec3u) {
+fn collapse(@builtin(global_invocation_id) id: vec3u) {
     if (is_halo(id)) {
         return;
     }
     let place = place_of(id);
-    let lost = lost_nm(place);
-    var share = 0.0;
-    if (lost > 0.0) {
-        let side = blacken.cells + 2u * HALO;
-        var thicker = 0u;
-        for (var row = 0u; row <= 2u * REACH; row++) {
-            for (var column = 0u; column <= 2u * REACH; column++) {
-                thicker += select(1u, 0u, is_thin(place + row * side + column - REACH * (side + 1u)));
-            }
-        }
-        share = select(0.0, lost / f32(thicker), thicker > 0u);
-    }
-    result[place] = share;
-}
-
-@compute @workgroup_size(8, 8)
-fn gather(@builtin(global_invocation_id) id: vec3u) {
-    if (is_halo(id)) {
-        return;
-    }
-    let place = place_of(id);
-    var gained = 0.0;
-    if (!is_thin(place)) {
-        let side = blacken.cells + 2u * HALO;
-        for (var row = 0u; row <= 2u * REACH; row++) {
-            for (var column = 0u; column <= 2u * REACH; column++) {
-                gained += shares_around[place + row * side + column - REACH * (side + 1u)];
-            }
-        }
-    }
-    result[place] = tracer[place] - lost_nm(place) + gained;
+    let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
+    let below = (blacken.onset_nm - mean_nm(place)) / (ONSET_WIDTH * blacken.onset_nm);
+    let decayed = 1.0 - exp(-clamp(below, 0.0, 1.0) * blacken.rate * f32(control.ticks_remapped));
+    let lost = max(thickness_nm(place) - blacken.black_nm, 0.0) * max(decayed, nucleated(x));
+    result[place] = tracer[place] - lost;
 }

@@ -195,7 +195,7 @@ impl MovingFilm {
     /// Sets what a step brings besides motion.
     fn prepare(&mut self, gpu: &Gpu, step: &FilmStep, tick_s: f64) {
         self.field.diffuse(gpu, step.law.diffusion(), tick_s);
-        self.field.collapse(gpu, step.blackening);
+        self.field.collapse(gpu, step.blackening.clone());
         self.field.drain(step.drain.clone());
     }
 

@@ -91,7 +91,7 @@ impl Field {
     }
 
     /// Lets thin film collapse to black film: evaporation has ended where it is black, and what collapsing film loses goes to the film
-    /// around it.
+    /// as a whole.
     fn blacken(&self, recorder: &mut Recorder<'_>, black: &BlackFilm) -> Result<(), GpuError> {
         let (grid, due) = (self.tracer_grid(), &self.control);
         // Each account rounds: it is not taken where nothing can have changed.

@@ -1,5 +1,7 @@
 //! Lets thin film collapse to black film.
 
+use bytemuck::Zeroable;
+
 use super::flow_halo::halo_of_thickness;
 use crate::gpu::{
     control::{Control, ControlBlock},
@@ -9,7 +11,23 @@ use crate::gpu::{
     timing::{Recorder, STEP_FIELD},
     uniform_buffer::UniformBuffer,
 };
-use crate::physics::film::model::BlackeningLaw;
+use crate::physics::film::{
+    NUCLEATION_NM, Nucleus,
+    model::{BlackeningLaw, MAX_NUCLEI},
+};
+
+shader_struct! {
+    /// See `shaders/pass/blacken.wgsl`.
+    pub struct NucleusValue {
+        /// Middle.
+        pub middle: [f32; 3],
+        /// Radius, radians.
+        pub radius: f32,
+        /// Ticks since it formed.
+        pub age: u32,
+        pad: [u32; 3],
+    }
+}
 
 shader_struct! {
     /// See `shaders/pass/blacken.wgsl`.
@@ -24,9 +42,14 @@ shader_struct! {
         pub black_nm: f32,
         /// Thickness below which film collapses, nm.
         pub onset_nm: f32,
+        /// Thickness below which film collapses around a nucleus, nm.
+        pub nucleation_nm: f32,
         /// Rate of the collapse, 1/tick.
         pub rate: f32,
-        pad: [u32; 2],
+        /// Nuclei in use.
+        pub nuclei_count: u32,
+        /// Nuclei; those in use come first.
+        pub nuclei: [NucleusValue; MAX_NUCLEI],
     }
 }
 
@@ -48,26 +71,16 @@ kernels! {
     }
     compute mean_along_rows, mean_along_columns;
 
-    /// What each cell gives to each of those around it.
-    struct Redistribute {
+    /// What each cell has after it has collapsed.
+    struct Collapse {
         @0 blacken: Uniform<BlackenUniform>;
         @1 control: ReadWrite<ControlBlock>;
         @2 tracer: Read<[f32]>;
         @3 result: ReadWrite<[f32]>;
-        @5 means: Read<[f32]>;
+        @4 means: Read<[f32]>;
+        @5 tangents: Read<[f32]>;
     }
-    compute redistribute;
-
-    /// What each cell has after it has given and taken.
-    struct Gather {
-        @0 blacken: Uniform<BlackenUniform>;
-        @1 control: ReadWrite<ControlBlock>;
-        @2 tracer: Read<[f32]>;
-        @3 result: ReadWrite<[f32]>;
-        @4 shares_around: Read<[f32]>;
-        @5 means: Read<[f32]>;
-    }
-    compute gather;
+    compute collapse;
 }
 
 /// The collapse of a film, done at remaps.
@@ -76,8 +89,8 @@ pub struct BlackFilm {
     pub law: BlackeningLaw,
     /// What the tracer departs from, nm.
     level_nm: f32,
-    /// What each cell gives to each of those around it, nm; before that, means along rows.
-    shares: wgpu::Buffer,
+    /// The tracer's means along rows, nm.
+    row_means: wgpu::Buffer,
     /// The tracer's means around cells, nm.
     means: wgpu::Buffer,
 }
@@ -86,24 +99,28 @@ impl BlackFilm {
     /// On a film's tracer grid, for a tracer that departs from a level in nm.
     #[must_use]
     pub fn new(gpu: &Gpu, grid: &Grid, law: BlackeningLaw, level_nm: f32) -> Self {
-        let [shares, means] = ["shares", "means"].map(|label| grid.field(gpu, label, 4));
-        Self { law, level_nm, shares, means }
+        let [row_means, means] = ["means along rows", "means"].map(|label| grid.field(gpu, label, 4));
+        Self { law, level_nm, row_means, means }
     }
 
     fn uniform(&self, recorder: &Recorder<'_>, grid: &Grid) -> UniformBuffer<BlackenUniform> {
-        let BlackeningLaw { evaporated_nm, black_nm, onset_nm, rate } = self.law;
-        recorder.gpu.uniform(
-            "blacken",
-            &BlackenUniform {
-                cells: grid.cells,
-                level_nm: self.level_nm,
-                remaining_level_nm: (f64::from(self.level_nm) - evaporated_nm) as f32,
-                black_nm: black_nm as f32,
-                onset_nm: onset_nm as f32,
-                rate: rate as f32,
-                pad: [0; 2],
-            },
-        )
+        let BlackeningLaw { evaporated_nm, black_nm, onset_nm, rate, nuclei } = &self.law;
+        let mut uniform = BlackenUniform {
+            cells: grid.cells,
+            level_nm: self.level_nm,
+            remaining_level_nm: (f64::from(self.level_nm) - evaporated_nm) as f32,
+            black_nm: *black_nm as f32,
+            onset_nm: *onset_nm as f32,
+            nucleation_nm: NUCLEATION_NM as f32,
+            rate: *rate as f32,
+            nuclei_count: nuclei.len().min(MAX_NUCLEI) as u32,
+            nuclei: [NucleusValue::zeroed(); MAX_NUCLEI],
+        };
+        for (slot, (Nucleus { middle, radius }, age)) in uniform.nuclei.iter_mut().zip(nuclei) {
+            let (middle, radius) = (middle.as_vec3().to_array(), *radius as f32);
+            *slot = NucleusValue { middle, radius, age: *age, ..NucleusValue::zeroed() };
+        }
+        recorder.gpu.uniform("blacken", &uniform)
     }
 
     /// If a remap is due, gives back to the tracer what did not evaporate from film that was black already.
@@ -128,16 +145,13 @@ impl BlackFilm {
         to: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
         let (blacken, block) = (&self.uniform(recorder, grid), &control.block);
-        let Self { shares, means, .. } = self;
+        let Self { row_means, means, .. } = self;
         let (all, one) = (control.tracer_groups(), control.one_group());
-        MeanAlong { blacken, tracer, result: shares }.mean_along_rows(recorder, STEP_FIELD, all)?;
-        MeanAlong { blacken, tracer: shares, result: means }.mean_along_columns(recorder, STEP_FIELD, all)?;
+        MeanAlong { blacken, tracer, result: row_means }.mean_along_rows(recorder, STEP_FIELD, all)?;
+        MeanAlong { blacken, tracer: row_means, result: means }.mean_along_columns(recorder, STEP_FIELD, all)?;
         halo_of_thickness(recorder, grid, means, one)?;
-        Redistribute { blacken, control: block, tracer, result: shares, means }
-            .redistribute(recorder, STEP_FIELD, all)?;
-        halo_of_thickness(recorder, grid, shares, one)?;
-        Gather { blacken, control: block, tracer, result: to, shares_around: shares, means }
-            .gather(recorder, STEP_FIELD, all)?;
+        Collapse { blacken, control: block, tracer, result: to, means, tangents: &grid.tangents }
+            .collapse(recorder, STEP_FIELD, all)?;
         halo_of_thickness(recorder, grid, to, one)
     }
 }

@@ -47,11 +47,11 @@
 //! black:
 //!
 //! ```text
-//! Dh/Dt = −ė + D Δh − ∇·(c h³ G_t) − k r(h̄) (h − h_b) + what borders of black film gather           (5)
+//! Dh/Dt = −ė + D Δh − ∇·(c h³ G_t) − k r(h̄) (h − h_b)                                             (5)
 //! ```
 //!
 //! Each term is an operation of [`model`], in a file of its own with its equation: the flow map (M1), (M2) for D/Dt; (M7) for ė; (M6) for D; (D1) and
-//! (D2) for drainage and [`Regeneration`]; (B1) for black film; and (M3), (M4) for what all of them leave as it is, the amount of liquid. All but the
+//! (D2) for drainage and [`Regeneration`]; (B1) and (B2) for black film; and (M3), (M4) for what all of them leave as it is, the amount of liquid. All but the
 //! first act at remaps, for the time since the one before.
 //!
 //! A step, from t to t + dt, is [`FREE_STEP`](model::FREE_STEP), and a remap is [`REMAP`](model::REMAP).
@@ -83,6 +83,7 @@ mod flow;
 mod law;
 mod marble;
 pub mod model;
+mod nucleation;
 mod presets;
 pub mod properties;
 mod push;
@@ -101,6 +102,7 @@ pub use flow::{
     FlowError, FrozenFlow, FrozenVortex, FrozenWave, MAX_VORTICES, MAX_WAVES, PrescribedFlow, Vortex, Wave,
 };
 pub use law::{FlowLaw, FreeFlow, Split};
+pub use nucleation::{NUCLEATION_NM, Nucleus, nuclei};
 pub use presets::Flow;
 pub use push::{FrozenPush, Push, gained};
 pub use pushes::Pushes;

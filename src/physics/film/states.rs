@@ -69,6 +69,15 @@ impl InitialFilm {
         }
     }
 
+    /// The seed that selects its pattern; 0 where it has none.
+    #[must_use]
+    pub fn seed(&self) -> u32 {
+        match *self {
+            Self::Blown { seed, .. } => seed,
+            Self::Uniform { .. } | Self::Rest { .. } => 0,
+        }
+    }
+
     /// About how thin the film is at the top once gravity has sorted it, nm. A blown film mixes while it sorts itself; of 700 nm on average
     /// it was seen to keep 390 to 430 nm there.
     pub fn sorted_top_nm(&self) -> f64 {

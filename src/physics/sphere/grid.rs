@@ -160,6 +160,12 @@ impl CubedSphere {
         self.direction(PanelPoint { panel: row / width, x, y })
     }
 
+    /// The place in padded storage of the cell that a unit vector is in.
+    pub fn padded_place(self, direction: DVec3) -> usize {
+        let PanelPoint { panel, x, y } = self.locate(direction);
+        self.padded_index(panel, x.round() as isize, y.round() as isize)
+    }
+
     /// [`Self::padded_direction`] as a function, with what many directions share computed once.
     pub fn padded_directions(self) -> impl Fn(usize) -> DVec3 + Sync {
         let width = self.padded_width();

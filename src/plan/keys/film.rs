@@ -5,8 +5,8 @@ use glam::DVec3;
 use crate::physics::{
     bubble::{CenterPath, Opening},
     film::{
-        Cap, Evaporation, FlowLaw, FreeFlow, InitialFilm, Patch, Push, Pushes, Regeneration, model::MAX_RIM_PATCHES,
-        properties::BLACK_FILM_ONSET,
+        Cap, Evaporation, FlowLaw, FreeFlow, InitialFilm, NUCLEATION_NM, Patch, Push, Pushes, Regeneration,
+        model::MAX_RIM_PATCHES, properties::BLACK_FILM_ONSET,
     },
     sphere::CubedSphere,
     timeline::{Moment, Timeline},
@@ -96,13 +96,13 @@ impl FieldKey {
         self.evaporation.nm(ticks)
     }
 
-    /// Whether any of the film may be thin enough to collapse to black film, at a time in ticks.
+    /// Whether any of the film may be thin enough to collapse to black film, or for nuclei of it, at a time in ticks.
     #[must_use]
     pub fn has_black_film(&self, ticks: f64) -> bool {
         let drains = matches!(self.law(ticks as u64), FlowLaw::Free(free) if free.drainage > 0.0);
-        drains
-            || self.regeneration().is_some()
-            || self.initial.range_nm().0 - self.evaporated_nm(ticks) < 1e9 * BLACK_FILM_ONSET
+        let evaporated_nm = self.evaporated_nm(ticks);
+        let begins_nm = if evaporated_nm > 0.0 { NUCLEATION_NM } else { 1e9 * BLACK_FILM_ONSET };
+        drains || self.regeneration().is_some() || self.initial.range_nm().0 - evaporated_nm < begins_nm
     }
 
     /// Patches that leave the film's rim between two times in ticks, under the law at the later one: the first [`MAX_RIM_PATCHES`].

@@ -5,8 +5,9 @@ use std::ops::Range;
 use super::{FieldKey, FlowLaw, FreeFlow};
 use crate::physics::{
     film::{
-        Patch, Split,
-        model::{BlackeningLaw, DROP_RAD, DrainLaw, FilmStep, FreePart, latest_ticks},
+        Nucleus, Patch, Split,
+        model::{BlackeningLaw, DROP_RAD, DrainLaw, FilmStep, FreePart, MAX_NUCLEI, latest_ticks},
+        nuclei,
         properties::BLACK_FILM_NM,
     },
     flow::FlowForces,
@@ -24,8 +25,7 @@ impl FieldKey {
         if let FlowLaw::Free(free) = law {
             found.parts = self.parts(&free, step.start as f64, ticks);
             found.drain = self.draining(&free, end);
-            found.blackening =
-                self.has_black_film(end).then(|| BlackeningLaw::new(self.evaporated_nm(end), self.tick_s));
+            found.blackening = self.has_black_film(end).then(|| self.blackening(&free, end));
         }
         found
     }
@@ -51,6 +51,25 @@ impl FieldKey {
             }
         };
         (0..split.parts).map(part).collect()
+    }
+
+    /// How film collapses to black film until a time in ticks.
+    fn blackening(&self, free: &FreeFlow, ticks: f64) -> BlackeningLaw {
+        // A remap that is due comes with a step's end.
+        let window = f64::from(self.remap_ticks) + free.ticks_per_step(self.tick_s) as f64;
+        let from = (ticks - window).max(0.0);
+        let [from_nm, evaporated_nm] = [from, ticks].map(|ticks| self.evaporated_nm(ticks));
+        let ticks_per_nm = (ticks - from) / (evaporated_nm - from_nm);
+        let aged = |(nucleus, nm): (Nucleus, f64)| {
+            // A spot that is narrower than cells would not be round.
+            let radius = nucleus.radius.max(2.0 * self.cell_angle());
+            (Nucleus { radius, ..nucleus }, ((evaporated_nm - nm) * ticks_per_nm) as u32)
+        };
+        let seed = free.seed ^ self.initial.seed();
+        BlackeningLaw {
+            nuclei: nuclei(seed, from_nm, evaporated_nm).rev().take(MAX_NUCLEI).map(aged).collect(),
+            ..BlackeningLaw::new(evaporated_nm, self.tick_s)
+        }
     }
 
     /// How film leaves at its rim until a time in ticks, if it does, and the maximum ticks between two remaps.

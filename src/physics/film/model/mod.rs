@@ -17,7 +17,7 @@ mod trace_step;
 
 use glam::DVec3;
 
-pub use blacken::{BlackeningLaw, collapse, remaining_nm, stop_evaporation};
+pub use blacken::{BlackeningLaw, MAX_NUCLEI, collapse, remaining_nm, stop_evaporation};
 pub use compose_map::compose_map;
 pub use conserve::{Liquid, film_areas};
 pub use decide_remap::{RemapClock, RemapRule, distortion};
@@ -236,7 +236,7 @@ impl Film {
         }
     }
 
-    /// Evaporation has ended where film is black, and what collapsing film loses goes to the film around it.
+    /// Evaporation has ended where film is black, and what collapsing film loses goes to the film as a whole.
     fn blacken(&mut self, law: &BlackeningLaw, ticks: u32) {
         if law.evaporated_nm > 0.0 {
             self.tracer = stop_evaporation(&self.tracer, law, self.level_nm);
