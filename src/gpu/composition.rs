@@ -92,6 +92,17 @@ pub struct Placed {
     pub mirrored: Vec<usize>,
     /// Whether it is drawn by the shaders that mirror others.
     pub mirrors: bool,
+    /// What its film ends at, if that is drawn.
+    pub body: Option<PlacedBody>,
+}
+
+/// What a film ends at, in the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedBody {
+    /// Its pixels.
+    pub rect: PixelRect,
+    /// The layer of what is seen through the bubble, and of the rest.
+    pub layers: [usize; 2],
 }
 
 /// How a picture is put together.
@@ -117,7 +128,9 @@ impl Composition {
     #[must_use]
     pub fn layers(&self) -> usize {
         let small = self.small.keys().map(|[layer, _]| *layer);
-        self.placed.iter().map(|placed| placed.layer).chain(small).max().map_or(1, |last| last + 1)
+        let bodies = self.placed.iter().filter_map(|placed| placed.body.as_ref()).map(|body| body.layers[1]);
+        let bubbles = self.placed.iter().map(|placed| placed.layer);
+        bubbles.chain(bodies).chain(small).max().map_or(1, |last| last + 1)
     }
 }
 
@@ -179,7 +192,19 @@ impl<'a> Stack<'a> {
         rect.tiles(self.across).map(|tile| self.tiles[tile].free).max().unwrap_or(0)
     }
 
+    /// Takes a layer of its own wherever a rectangle is, and gives its number.
+    fn take_layer(&mut self, rect: &PixelRect) -> usize {
+        let layer = self.first_free(rect);
+        rect.tiles(self.across).for_each(|tile| self.tiles[tile] = TileState { free: layer + 1, small: None });
+        layer
+    }
+
     fn add_cluster(&mut self, cluster: &[usize]) {
+        let body_rect = |member: &usize| {
+            self.key.bubbles[*member].body.map(|body| (*member, PixelRect::around(body.bounds, self.key.size)))
+        };
+        let bodies: Vec<(usize, PixelRect)> = cluster.iter().filter_map(body_rect).collect();
+        let far: Vec<usize> = bodies.iter().map(|(_, rect)| self.take_layer(rect)).collect();
         let behind_layer = cluster.iter().map(|member| self.first_free(&self.rects[*member])).max().unwrap_or(0);
         for &member in cluster {
             let rect = self.rects[member].clone();
@@ -189,7 +214,13 @@ impl<'a> Stack<'a> {
             let among: Vec<usize> = cluster.iter().copied().filter(overlaps).collect();
             let mirrored = mirrored(self.key, member, &among);
             let mirrors = !among.is_empty() || !mirrored.is_empty();
-            self.placed[member] = Some(Placed { rect, layer, behind_layer, among, mirrored, mirrors });
+            self.placed[member] = Some(Placed { rect, layer, behind_layer, among, mirrored, mirrors, body: None });
+        }
+        for ((member, rect), far) in bodies.into_iter().zip(far) {
+            let layers = [far, self.take_layer(&rect)];
+            if let Some(placed) = &mut self.placed[member] {
+                placed.body = Some(PlacedBody { rect, layers });
+            }
         }
     }
 
@@ -216,6 +247,7 @@ fn share_pipelines(key: &DrawKey, composition: &mut Composition) {
     if !small.is_empty() || placed.iter().any(|placed| placed.layer > 0 || !placed.among.is_empty()) {
         for placed in &mut *placed {
             (placed.layer, placed.behind_layer) = (placed.layer + 1, placed.behind_layer + 1);
+            placed.body.iter_mut().for_each(|body| body.layers = body.layers.map(|layer| layer + 1));
         }
         *small = std::mem::take(small).into_iter().map(|([layer, of], places)| ([layer + 1, of], places)).collect();
     }

@@ -27,10 +27,10 @@ pub use checkpoints::Checkpoints;
 pub use detail::{film_grids, settle_detail};
 use fields::StepBudget;
 pub use keys::{
-    BLACK_FILM_NM, BackdropKey, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FieldKey, FilmBoundary,
-    FilmColours, FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment, OpenHoleKey,
-    Opening, OpticsKey, PlateKey, QuadratureKey, Rendering, RestingFilm, SmallBubble, TableKey, TonemapKey, exposed_ev,
-    range_nm, remaining_nm,
+    BLACK_FILM_NM, BackdropKey, Body, BodyKind, BubbleKey, CameraKey, DefocusKey, DrawKey, EnvironmentKey, FieldKey,
+    FilmBoundary, FilmColours, FilmKey, FlowLaw, FreeFlow, LentFilm, LightKey, Lighting, MAX_RIM_PATCHES, Moment,
+    OpenHoleKey, Opening, OpticsKey, PlateKey, QuadratureKey, Rendering, RestingFilm, SmallBubble, TableKey,
+    TonemapKey, exposed_ev, range_nm, remaining_nm,
 };
 pub use lender::film_owners;
 pub use pass::{Pass, Reason};

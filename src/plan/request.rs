@@ -6,9 +6,9 @@ use glam::{DMat3, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LensSample,
-    LentFilm, LightKey, Lighting, Moment, OpticsKey, PlateKey, QuadratureKey, Rendering, Shot, Story, TableKey,
-    TonemapKey,
+    BackdropKey, Body, BodyKind, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest,
+    LensSample, LentFilm, LightKey, Lighting, Moment, OpticsKey, PlateKey, QuadratureKey, Rendering, Shot, Story,
+    TableKey, TonemapKey,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
@@ -358,8 +358,10 @@ fn thickest_nm(film: &FilmKey) -> f64 {
 /// A bubble as the picture sees it, if any pixel can.
 fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
     let center_m = story.center_m(index, shot.moment.ticks() * story.motion.tick_s);
-    let radius_m = bubble.radius_mm * 1e-3;
     let age = story.age(index, shot.moment)?;
+    // What a film ends at does not grow with it.
+    let size = if bubble.boundary == Boundary::Free { age.size() } else { 1.0 };
+    let radius_m = Some(bubble.radius_mm * 1e-3 * size).filter(|radius_m| *radius_m > 0.0)?;
     // The bath holds a bubble's foot, and it does not oscillate as a sphere does.
     let is_held = bubble.boundary == Boundary::Bath;
     let stretch = if is_held { DMat3::IDENTITY } else { age.life.shape(age.moment).stretch() };
@@ -393,7 +395,28 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         thickness_factor: 1.0,
         hole: age.hole,
         cap: cap(bubble),
+        body: body(bubble, center_m, camera, shot),
     })
+}
+
+/// What the film of a bubble at a place ends at, if it is drawn and any pixel can see it.
+fn body(bubble: &Bubble, center_m: DVec3, camera: &CameraKey, shot: &Shot) -> Option<Body> {
+    /// Reach from the middle of its rim of what a drop is drawn on, over the rim's radius.
+    const DROP_REACH: f64 = 2.7;
+    let kind = match bubble.boundary {
+        Boundary::Free | Boundary::Bath => return None,
+        Boundary::Ring if bubble.wire_mm == 0.0 => return None,
+        Boundary::Ring => BodyKind::Wire(0.5e-3 * bubble.wire_mm),
+        Boundary::Drop => BodyKind::Drop,
+    };
+    let (rim_rad, radius_m) = (bubble.rim_deg.to_radians(), 1e-3 * bubble.radius_mm);
+    let rim_m = radius_m * rim_rad.sin();
+    let reach_m = match kind {
+        BodyKind::Wire(wire_m) => rim_m + 1.2 * wire_m,
+        BodyKind::Drop => DROP_REACH * rim_m,
+    };
+    let bounds = bounds(camera, shot.size, center_m + radius_m * rim_rad.cos() * DVec3::Z, reach_m)?;
+    Some(Body { kind, rim_rad, bounds })
 }
 
 /// Samples along a pixel's side of a film that ends on a ring: its edge is not smoothed otherwise.

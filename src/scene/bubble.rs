@@ -26,6 +26,7 @@ section! {
     radius_mm: f64 = 50.0, [0.1 ..= 5000.0], "Radius", " mm", "radius, mm";
     boundary: Boundary = Boundary::Free, [word], "Boundary", "", "boundary of the film";
     rim_deg: f64 = 120.0, [30.0 ..= 175.0], "Rim", "°", "colatitude of the rim at a ring (at most 150) or a drop; at a bath it is 90";
+    wire_mm: f64 = 1.5, [0.0 ..= 20.0], "Wire", " mm", "diameter of the wire that a ring is made of, mm; 0 draws none";
     regeneration: f64 = 1.0, [0.0 ..= 10.0], "Regeneration", "", "factor on the rate at which thin patches rise from the rim of the film";
     patch_mm: f64 = 3.0, [0.1 ..= 100.0], "Patches", " mm", "radius of these patches, mm; at most a quarter of the bubble's radius";
 }

@@ -91,6 +91,9 @@ fn boundary(ui: &mut Ui, bubble: &mut Bubble, group: &mut Group) {
     if bubble.boundary == Boundary::Free {
         return;
     }
+    if bubble.boundary == Boundary::Ring {
+        number(ui, &keys.wire_mm, &mut bubble.wire_mm, |slider| shared(slider.max_decimals(1), group, &keys.wire_mm));
+    }
     number(ui, &keys.regeneration, &mut bubble.regeneration, |slider| {
         shared(slider.max_decimals(1), group, &keys.regeneration)
     });

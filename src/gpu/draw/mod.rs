@@ -1,5 +1,6 @@
 //! Draws the linear picture: the backdrop, then the bubbles, layer by layer, each ring by ring.
 
+mod bodies;
 mod small;
 mod values;
 
@@ -79,6 +80,8 @@ struct Layer {
     rings: Vec<(Drawable, u32)>,
     /// Small bubbles, of a material each.
     small: Vec<SmallDraw>,
+    /// What films end at, each with its number of vertices.
+    bodies: Vec<(Drawable, u32)>,
 }
 
 /// What stands behind all bubbles.
@@ -237,6 +240,12 @@ impl DrawPass {
                 let drawn = Drawn { bubble, placed, first_other, ring: &ring, colours: &colours, film: &film, hole };
                 pass.layers[placed.layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
             }
+            if let (Some(body), Some(placed), Rendering::Full) = (&bubble.body, &placed.body, key.rendering) {
+                for (layer, is_far) in placed.layers.into_iter().zip([true, false]) {
+                    pass.layers[layer].behind.push(placed.rect.clone());
+                    pass.layers[layer].bodies.push(shared.body(gpu, bubble, body, is_far)?);
+                }
+            }
             pass.layers[placed.behind_layer].behind.push(placed.rect.clone());
             if !placed.among.is_empty() {
                 pass.layers[placed.layer].so_far.push(placed.rect.clone());
@@ -270,8 +279,9 @@ impl DrawPass {
                 backdrop.into_iter().for_each(|backdrop| backdrop.draw(pass, 3));
                 layer.rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
                 layer.small.iter().for_each(|small| small.draw.draw(pass, 3));
+                layer.bodies.iter().for_each(|(body, vertices)| body.draw(pass, *vertices));
             });
-            let draws = usize::from(backdrop.is_some()) + layer.rings.len() + layer.small.len();
+            let draws = usize::from(backdrop.is_some()) + layer.rings.len() + layer.small.len() + layer.bodies.len();
             recorder.counts.draws += draws as u64;
         };
         let Some((first, later)) = self.layers.split_first() else { return };

@@ -6,6 +6,7 @@ pub mod add_light;
 pub mod backdrop;
 pub mod bake_table;
 pub mod blacken;
+pub mod bodies;
 pub mod bubble;
 pub mod compose_map;
 pub mod conserve;
@@ -54,6 +55,7 @@ pub fn kernels() -> Vec<Kernel> {
         backdrop::kernels(),
         bake_table::kernels(),
         blacken::kernels(),
+        bodies::kernels(),
         bubble::kernels(),
         compose_map::kernels(),
         conserve::kernels(),

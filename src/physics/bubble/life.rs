@@ -22,6 +22,15 @@ use crate::physics::{
 /// E-foldings after which nothing is left of an oscillation, beside any that is seen.
 const RUNG_DOWN: f64 = 100.0;
 
+/// How long a bubble takes to be blown, s.
+const BLOWN_S: f64 = 0.4;
+
+/// Radius of a bubble at an age in s, over that which it has once it is blown: air comes at an even rate.
+#[must_use]
+pub fn blown(age_s: f64) -> f64 {
+    (age_s / BLOWN_S).min(1.0).cbrt()
+}
+
 /// All that ever happens to a bubble, in ticks from the first one on, and what it is.
 #[derive(Clone, Debug)]
 pub struct Course {
@@ -125,6 +134,14 @@ pub struct Age {
     pub moment: Moment,
     /// The hole in it, while it bursts.
     pub hole: Option<Opening>,
+}
+
+impl Age {
+    /// Radius of the bubble over that which it has once it is blown. The first bubble is there from the beginning.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        if self.life.generation == 0 { 1.0 } else { blown(self.moment.ticks() * self.life.tick_s) }
+    }
 }
 
 /// When a film that bubbles share is blown anew, whatever became of it: at a tick, and again each time that a period has passed.

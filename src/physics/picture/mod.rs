@@ -24,6 +24,8 @@
 //! [`Uplift`](super::colour::Uplift)), so that coloured light too is the full spectral answer. Light of different paths does not interfere.
 //! Surroundings are unpolarised, and a bath mirrors without polarising (see `bath.rs`). Rays are straight (refraction shifts them by less than the
 //! film's thickness). What stands behind the bubbles is seen straight through them only, not in reflections.
+//! Wires and drops, at which films end, are not in it.
+//! What films end at, wires and drops, is not in it.
 
 mod aperture;
 mod bath;

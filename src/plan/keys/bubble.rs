@@ -41,6 +41,28 @@ pub struct BubbleKey {
     pub hole: Option<Opening>,
     /// The part of the sphere that has film, above a bath or within a ring; none for a whole sphere. On a bath its image is seen too.
     pub cap: Option<Cap>,
+    /// What its film ends at, if that is drawn.
+    pub body: Option<Body>,
+}
+
+/// What a film ends at, as it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// What it is.
+    pub kind: BodyKind,
+    /// Colatitude of its rim on the bubble, radians.
+    pub rim_rad: f64,
+    /// Bounding rectangle in clip coordinates.
+    pub bounds: [DVec2; 2],
+}
+
+/// What a film can end at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BodyKind {
+    /// A wire of a radius in metres.
+    Wire(f64),
+    /// A drop of water.
+    Drop,
 }
 
 impl BubbleKey {
@@ -122,6 +144,7 @@ impl SmallBubble {
             thickness_factor: self.thickness_factor,
             hole: None,
             cap: None,
+            body: None,
         }
     }
 }

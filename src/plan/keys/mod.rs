@@ -13,7 +13,7 @@ mod rest;
 mod step;
 
 pub(in crate::plan) use bubble::samples;
-pub use bubble::{BubbleKey, LentFilm, SmallBubble};
+pub use bubble::{Body, BodyKind, BubbleKey, LentFilm, SmallBubble};
 pub use camera::CameraKey;
 pub use environment::{DefocusKey, EnvironmentKey};
 pub use film::{FieldKey, FilmBoundary, FilmKey, OpenHoleKey};

@@ -22,13 +22,14 @@ fn film() -> impl Strategy<Value = Film> {
 }
 
 fn bubble() -> impl Strategy<Value = Bubble> {
-    let rim = (30.0..175.0, 0.0..10.0, 0.1..100.0);
+    let rim = (30.0..175.0, 0.0..20.0, 0.0..10.0, 0.1..100.0);
     (prop::array::uniform3(-1e3..1e3), 0.1..5e3, rim, film()).prop_map(
-        |(center_m, radius_mm, (rim_deg, regeneration, patch_mm), film)| Bubble {
+        |(center_m, radius_mm, (rim_deg, wire_mm, regeneration, patch_mm), film)| Bubble {
             center_m,
             radius_mm,
             boundary: Boundary::Free,
             rim_deg,
+            wire_mm,
             regeneration,
             patch_mm,
             film,

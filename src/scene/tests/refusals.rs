@@ -60,7 +60,7 @@ fn unknown_keys_name_the_nearest_known_one() {
         ),
         (
             "[[bubble]]\nqqq = 3",
-            "3: unknown key `qqq` in [[bubble]]; known here: `boundary`, `center_m`, `film`, `patch_mm`, `radius_mm`, `regeneration`, `rim_deg`",
+            "3: unknown key `qqq` in [[bubble]]; known here: `boundary`, `center_m`, `film`, `patch_mm`, `radius_mm`, `regeneration`, `rim_deg`, `wire_mm`",
         ),
         (
             "[[event]]\nkind = \"stir\"\nvelocity = 2",

@@ -19,7 +19,10 @@ use glam::{DMat3, DVec3};
 
 pub use lending::Lending;
 
-use super::shape::{Oscillator, Shape, traceless};
+use super::{
+    life::blown,
+    shape::{Oscillator, Shape, traceless},
+};
 use crate::physics::film::{
     pcg3d,
     properties::{AIR_DENSITY, DENSITY},
@@ -31,8 +34,6 @@ use lending::LIVES;
 const DRAG: f64 = 0.5;
 /// The speed that its drag is linear around, m/s.
 const DRAG_SPEED_M_S: f64 = 0.3;
-/// How long a bubble takes to be blown, s.
-const BLOWN_S: f64 = 0.4;
 /// How fast bubbles leave a wand, over the mean.
 const SPEEDS: [f64; 2] = [0.8, 1.2];
 /// Time after which gusts carry a bubble that has begun to move with the wand's air, s.
@@ -180,12 +181,12 @@ impl Swarm {
         let carried_m = start_m + self.carried(velocity_m_s, full_m, age_s);
         let taken = if self.lending.life_s.is_some() { 1.0 - (-age_s / GUSTS_TAKE_S).exp() } else { 1.0 };
         let gusts_m: DVec3 = common.gusts.iter().map(|gust| gust.at(carried_m, time_s)).sum();
-        let blown = if self.lending.life_s.is_some() { (age_s / BLOWN_S).min(1.0).cbrt() } else { 1.0 };
+        let size_now = if self.lending.life_s.is_some() { blown(age_s) } else { 1.0 };
         Some(Member {
             slot,
             generation,
             center_m: carried_m + taken * gusts_m,
-            radius_m: full_m * blown,
+            radius_m: full_m * size_now,
             film: self.lending.film(born_s, film),
             turn_rad: TAU * turn,
             thickness: 1.0 + self.thickness_spread * (2.0 * thicker - 1.0),
