@@ -1,6 +1,8 @@
-// What a film ends at: the wire of a ring, and the drop that hangs from a bubble. Each is drawn in two halves: what lies beyond the bubble's center
-// before the bubble is, which then shows it through its film, and the rest after it. Neither is mirrored by the film, nor mirrors it.
+// What is at a film: the wire of a ring, the drop that hangs from a bubble, the rim of a hole, and the droplets that fly off it. Each is drawn in two
+// halves: what lies beyond the bubble's center before the bubble is, which then shows it through its film, and the rest after it. None is mirrored
+// by the film, nor mirrors it.
 
+import package::film::hole::{HOLE_MERIDIANS, Rim, TAU, meridian_axes};
 import package::camera::view::{View, clip_position, pixel_angle, view_plane};
 import package::light::environment::{Light, environment_radiance};
 import package::light::lamps::Lamp;
@@ -9,7 +11,6 @@ import package::light::water::WATER_INDEX;
 import package::optics::airy::surface_reflectance;
 import package::sphere::axes::perpendicular;
 
-const TAU: f32 = 6.2831853;
 // Straight pieces that the wire is drawn in.
 override WIRE_SIDES: u32;
 // 1: what lies beyond the bubble's center. 0: the rest.
@@ -25,6 +26,20 @@ struct Body {
     to_rim_m: vec3f,
     // Radius of the wire.
     wire_m: f32,
+    // Takes directions of the film to the world.
+    to_world: mat3x3f,
+    // Radius of the bubble.
+    radius_m: f32,
+}
+
+// A droplet. Mirrors `Droplet` in src/gpu/passes/bodies.rs.
+struct Droplet {
+    // The meridian of the hole on which it leaves the rim, as a turn, and the angle from the hole's middle there.
+    turn: f32,
+    leaves_rad: f32,
+    radius_m: f32,
+    // How fast it flies over how fast the rim moves.
+    speed: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -35,6 +50,9 @@ struct Body {
 // No uniform, for llvmpipe crashes at loops over lamps where others of its branches depend on one.
 @group(0) @binding(5) var<storage, read> body: Body;
 @group(0) @binding(6) var picture_behind: texture_2d<f32>;
+@group(0) @binding(7) var<storage, read> hole_middle: vec4f;
+@group(0) @binding(8) var<storage, read> hole_rim: array<Rim>;
+@group(0) @binding(9) var<storage, read> droplets: array<Droplet>;
 
 fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
     return light.seen * environment_radiance(environment, environment_sampler, light, direction, footprint);
@@ -45,66 +63,136 @@ fn is_drawn(place_m: vec3f, ray: vec3f) -> bool {
     return (dot(place_m - body.to_center_m, ray) > 0.0) == (IS_FAR == 1u);
 }
 
-// ---- The wire: a ribbon along it that faces the eye, on which it is shaded as the round wire that it is.
+// ---- Threads, the wire and the rim of a hole: ribbons along them that face the eye, on which they are shaded as round as they are.
 
 // Part of light that steel reflects, and the angle that its grain spreads it over.
 const STEEL: f32 = 0.5;
 const GRAIN_RAD: f32 = 0.3;
 
-struct WirePoint {
-    @builtin(position) position: vec4f,
-    @location(0) turn: f32,
-}
-
-// The wire's axis: the point at a turn, from the eye, and the direction there.
+// A place on a thread's axis, from the eye, the direction of the axis there, not of unit length, and the thread's radius.
 struct Axis {
     point_m: vec3f,
     along: vec3f,
+    radius_m: f32,
 }
 
-fn axis_at(turn: f32) -> Axis {
+struct ThreadPoint {
+    @builtin(position) position: vec4f,
+    @location(0) point_m: vec3f,
+    @location(1) along: vec3f,
+    @location(2) radius_m: f32,
+}
+
+fn wire_axis(turn: f32) -> Axis {
     let outward = vec3f(cos(turn), sin(turn), 0.0);
-    return Axis(body.to_rim_m + body.rim_m * outward, vec3f(-outward.y, outward.x, 0.0));
+    return Axis(body.to_rim_m + body.rim_m * outward, vec3f(-outward.y, outward.x, 0.0), body.wire_m);
 }
 
-// Unit vector across the wire and the line of sight.
-fn across(axis: Axis, ray: vec3f) -> vec3f {
-    let across = cross(axis.along, ray);
-    return across / max(length(across), 1e-6);
+// A place on the rim of the hole on a meridian, from the eye, and in w the rim's radius.
+fn rim_place(meridian: u32) -> vec4f {
+    let rim = hole_rim[meridian % HOLE_MERIDIANS];
+    let turn = TAU * f32(meridian) / f32(HOLE_MERIDIANS);
+    let axes = meridian_axes(hole_middle.xyz);
+    let middle_rad = 0.5 * (rim.outer_rad + rim.inner_rad);
+    let along = cos(turn) * axes[0] + sin(turn) * axes[1];
+    let place = body.to_world * (cos(middle_rad) * hole_middle.xyz + sin(middle_rad) * along);
+    return vec4f(body.to_center_m + body.radius_m * place, 0.5 * body.radius_m * (rim.outer_rad - rim.inner_rad));
 }
 
-// A strip of pieces, each with its first and its last vertex twice, so that those of the other half can be left out.
-@vertex
-fn ribbon(@builtin(vertex_index) index: u32) -> WirePoint {
-    let piece = f32(index / 6u);
-    let corner = clamp(index % 6u, 1u, 4u) - 1u;
-    let middle_m = axis_at(TAU * (piece + 0.5) / f32(WIRE_SIDES)).point_m;
-    if (!is_drawn(middle_m, normalize(middle_m))) {
-        return WirePoint(vec4f(2.0, 2.0, 0.0, 1.0), 0.0);
-    }
-    let turn = TAU * (piece + f32(corner >> 1u)) / f32(WIRE_SIDES);
-    let axis = axis_at(turn);
-    let ray = normalize(axis.point_m);
+// Unit vector across a thread and the line of sight.
+fn across(along: vec3f, ray: vec3f) -> vec3f {
+    let across = cross(along, ray);
+    return across / max(length(across), 1e-9);
+}
+
+// A vertex of a ribbon at one of its ends.
+fn edge_of(axis: Axis, is_right: bool) -> ThreadPoint {
     // A pixel more on both sides, for the edges are smooth.
-    let half_m = 1.1 * body.wire_m + view.pixel_height * length(axis.point_m);
-    let edge_m = axis.point_m + select(-half_m, half_m, (corner & 1u) == 1u) * across(axis, ray);
-    return WirePoint(clip_position(view, edge_m), turn);
+    let half_m = 1.1 * axis.radius_m + view.pixel_height * length(axis.point_m);
+    let edge_m = axis.point_m + select(-half_m, half_m, is_right) * across(normalize(axis.along), normalize(axis.point_m));
+    return ThreadPoint(clip_position(view, edge_m), axis.point_m, axis.along, axis.radius_m);
+}
+
+// Strips are of pieces, each with its first and its last vertex twice, so that those of the other half can be left out: corners in order.
+fn corner_of(index: u32) -> u32 {
+    return clamp(index % 6u, 1u, 4u) - 1u;
+}
+
+fn left_out() -> ThreadPoint {
+    return ThreadPoint(vec4f(2.0, 2.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0), 1.0);
+}
+
+@vertex
+fn along_wire(@builtin(vertex_index) index: u32) -> ThreadPoint {
+    let piece = f32(index / 6u);
+    let middle_m = wire_axis(TAU * (piece + 0.5) / f32(WIRE_SIDES)).point_m;
+    if (!is_drawn(middle_m, normalize(middle_m))) {
+        return left_out();
+    }
+    let corner = corner_of(index);
+    return edge_of(wire_axis(TAU * (piece + f32(corner >> 1u)) / f32(WIRE_SIDES)), (corner & 1u) == 1u);
+}
+
+@vertex
+fn along_hole(@builtin(vertex_index) index: u32) -> ThreadPoint {
+    let corner = corner_of(index);
+    let meridian = index / 6u + HOLE_MERIDIANS;
+    let middle_m = 0.5 * (rim_place(meridian).xyz + rim_place(meridian + 1u).xyz);
+    if (!is_drawn(middle_m, normalize(middle_m))) {
+        return left_out();
+    }
+    let at = meridian + (corner >> 1u);
+    let place = rim_place(at);
+    let along = rim_place(at + 1u).xyz - rim_place(at - 1u).xyz;
+    return edge_of(Axis(place.xyz, along, place.w), (corner & 1u) == 1u);
+}
+
+// Where a pixel sees a thread: the part of it that is covered, the outward normal there, and how many radii it is wide.
+struct OnThread {
+    ray: vec3f,
+    coverage: f32,
+    normal: vec3f,
+    pixel: f32,
+}
+
+fn on_thread(point: ThreadPoint) -> OnThread {
+    let ray = normalize(view_plane(view, point.position.xy));
+    let aside = across(normalize(point.along), ray);
+    let offset = -dot(point.point_m, aside) / point.radius_m;
+    let pixel = pixel_angle(view, ray) * length(point.point_m) / point.radius_m;
+    let coverage = clamp((1.0 - abs(offset)) / pixel + 0.5, 0.0, min(1.0, 2.0 / pixel));
+    let facing = cross(aside, normalize(point.along));
+    let toward_eye = select(facing, -facing, dot(facing, ray) > 0.0);
+    let inside = clamp(offset, -0.98, 0.98);
+    return OnThread(ray, coverage, inside * aside + sqrt(1.0 - inside * inside) * toward_eye, pixel);
+}
+
+fn over_behind(position: vec4f, seen: vec3f, coverage: f32) -> vec4f {
+    let behind = textureLoad(picture_behind, vec2u(position.xy), 0).rgb;
+    return vec4f(storable(mix(behind, seen, coverage)), 1.0);
 }
 
 @fragment
-fn wire(point: WirePoint) -> @location(0) vec4f {
-    let ray = normalize(view_plane(view, point.position.xy));
-    let axis = axis_at(point.turn);
-    let aside = across(axis, ray);
-    let offset = -dot(axis.point_m, aside) / body.wire_m;
-    let pixel = pixel_angle(view, ray) * length(axis.point_m) / body.wire_m;
-    let coverage = clamp((1.0 - abs(offset)) / pixel + 0.5, 0.0, min(1.0, 2.0 / pixel));
-    let facing = cross(aside, axis.along);
-    let toward_eye = select(facing, -facing, dot(facing, ray) > 0.0);
-    let normal = offset * aside + sqrt(max(1.0 - offset * offset, 0.0)) * toward_eye;
-    let seen = STEEL * surroundings(reflect(ray, normalize(normal)), GRAIN_RAD);
-    let behind = textureLoad(picture_behind, vec2u(point.position.xy), 0).rgb;
-    return vec4f(storable(mix(behind, seen, coverage)), 1.0);
+fn wire(point: ThreadPoint) -> @location(0) vec4f {
+    let at = on_thread(point);
+    return over_behind(point.position, STEEL * surroundings(reflect(at.ray, at.normal), GRAIN_RAD), at.coverage);
+}
+
+@fragment
+fn rim(point: ThreadPoint) -> @location(0) vec4f {
+    let at = on_thread(point);
+    return over_behind(point.position, round_water(at.ray, at.normal, at.pixel), at.coverage);
+}
+
+// What is seen through round water, a ball or a thread, where a ray enters it; a pixel is so many of its radii wide.
+fn round_water(ray: vec3f, normal: vec3f, pixel: f32) -> vec3f {
+    let inside = refract(ray, normal, 1.0 / WATER_INDEX);
+    // Where it leaves: straight on across the round section.
+    let exit = normal - 2.0 * dot(normal, inside) * inside;
+    let leaving = refract(inside, -normalize(exit), WATER_INDEX);
+    let footprint = min(2.0 * pixel, 1.0);
+    let mirrored = 0.5 * dot(surface_reflectance(WATER_INDEX, -dot(ray, normal)), vec2f(1.0));
+    return mix(surroundings(leaving, footprint), surroundings(reflect(ray, normal), footprint), mirrored);
 }
 
 // ---- The drop: the part below the rim of a spheroid around the vertical, of water, with a level surface above.
@@ -204,4 +292,52 @@ fn drop(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let behind = textureLoad(picture_behind, vec2u(position.xy), 0).rgb;
     let samples = f32(SAMPLES * SAMPLES);
     return vec4f(storable((seen + (samples - covered) * behind) / samples), 1.0);
+}
+
+// ---- Spray: droplets leave the rim of a hole along the sphere and fly on straight, at a part of the rim's mean speed.
+
+struct DropletPoint {
+    @builtin(position) position: vec4f,
+    // From the eye to its middle.
+    @location(0) middle_m: vec3f,
+    @location(1) radius_m: f32,
+}
+
+@vertex
+fn around_droplet(@builtin(vertex_index) index: u32) -> DropletPoint {
+    let droplet = droplets[index / 6u];
+    let corner = corner_of(index);
+    let meridian = droplet.turn * f32(HOLE_MERIDIANS);
+    let low = hole_rim[u32(meridian) % HOLE_MERIDIANS].outer_rad;
+    let high = hole_rim[(u32(meridian) + 1u) % HOLE_MERIDIANS].outer_rad;
+    let rim_rad = mix(low, high, fract(meridian));
+    let axes = meridian_axes(hole_middle.xyz);
+    let along = cos(TAU * droplet.turn) * axes[0] + sin(TAU * droplet.turn) * axes[1];
+    let leaves = vec2f(cos(droplet.leaves_rad), sin(droplet.leaves_rad));
+    let start = leaves.x * hole_middle.xyz + leaves.y * along;
+    let ahead = leaves.x * along - leaves.y * hole_middle.xyz;
+    let flown = droplet.speed * (rim_rad - droplet.leaves_rad);
+    let middle_m = body.to_center_m + body.radius_m * (body.to_world * (start + flown * ahead));
+    let ray = normalize(middle_m);
+    if (flown <= 0.0 || !is_drawn(middle_m, ray)) {
+        return DropletPoint(vec4f(2.0, 2.0, 0.0, 1.0), vec3f(0.0), 1.0);
+    }
+    let right = perpendicular(ray);
+    let half_m = 1.1 * droplet.radius_m + view.pixel_height * length(middle_m);
+    let side = vec2f(vec2u(corner & 1u, corner >> 1u)) * 2.0 - 1.0;
+    let corner_m = middle_m + half_m * (side.x * right + side.y * cross(right, ray));
+    return DropletPoint(clip_position(view, corner_m), middle_m, droplet.radius_m);
+}
+
+@fragment
+fn droplet(point: DropletPoint) -> @location(0) vec4f {
+    let ray = normalize(view_plane(view, point.position.xy));
+    let aside = (dot(point.middle_m, ray) * ray - point.middle_m) / point.radius_m;
+    let pixel = pixel_angle(view, ray) * length(point.middle_m) / point.radius_m;
+    // Those of less than a pixel cover a part of it.
+    let inside = clamp((1.0 - length(aside)) / pixel + 0.5, 0.0, 1.0);
+    let coverage = inside * min(1.0, 3.14159265 / (pixel * pixel));
+    let offset = aside * min(1.0, 0.95 / max(length(aside), 1e-6));
+    let normal = offset - sqrt(max(1.0 - dot(offset, offset), 0.0)) * ray;
+    return over_behind(point.position, round_water(ray, normal, pixel), coverage);
 }

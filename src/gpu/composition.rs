@@ -92,11 +92,11 @@ pub struct Placed {
     pub mirrored: Vec<usize>,
     /// Whether it is drawn by the shaders that mirror others.
     pub mirrors: bool,
-    /// What its film ends at, if that is drawn.
-    pub body: Option<PlacedBody>,
+    /// What is drawn at its film.
+    pub bodies: Vec<PlacedBody>,
 }
 
-/// What a film ends at, in the picture.
+/// What is drawn at a film, in the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedBody {
     /// Its pixels.
@@ -128,7 +128,7 @@ impl Composition {
     #[must_use]
     pub fn layers(&self) -> usize {
         let small = self.small.keys().map(|[layer, _]| *layer);
-        let bodies = self.placed.iter().filter_map(|placed| placed.body.as_ref()).map(|body| body.layers[1]);
+        let bodies = self.placed.iter().flat_map(|placed| &placed.bodies).map(|body| body.layers[1]);
         let bubbles = self.placed.iter().map(|placed| placed.layer);
         bubbles.chain(bodies).chain(small).max().map_or(1, |last| last + 1)
     }
@@ -200,10 +200,13 @@ impl<'a> Stack<'a> {
     }
 
     fn add_cluster(&mut self, cluster: &[usize]) {
-        let body_rect = |member: &usize| {
-            self.key.bubbles[*member].body.map(|body| (*member, PixelRect::around(body.bounds, self.key.size)))
+        let key = self.key;
+        let body_rects = |member: &usize| {
+            let member = *member;
+            let bodies = key.bubbles[member].bodies.iter();
+            bodies.map(move |body| (member, PixelRect::around(body.bounds, key.size)))
         };
-        let bodies: Vec<(usize, PixelRect)> = cluster.iter().filter_map(body_rect).collect();
+        let bodies: Vec<(usize, PixelRect)> = cluster.iter().flat_map(body_rects).collect();
         let far: Vec<usize> = bodies.iter().map(|(_, rect)| self.take_layer(rect)).collect();
         let behind_layer = cluster.iter().map(|member| self.first_free(&self.rects[*member])).max().unwrap_or(0);
         for &member in cluster {
@@ -214,12 +217,13 @@ impl<'a> Stack<'a> {
             let among: Vec<usize> = cluster.iter().copied().filter(overlaps).collect();
             let mirrored = mirrored(self.key, member, &among);
             let mirrors = !among.is_empty() || !mirrored.is_empty();
-            self.placed[member] = Some(Placed { rect, layer, behind_layer, among, mirrored, mirrors, body: None });
+            self.placed[member] =
+                Some(Placed { rect, layer, behind_layer, among, mirrored, mirrors, bodies: Vec::new() });
         }
         for ((member, rect), far) in bodies.into_iter().zip(far) {
             let layers = [far, self.take_layer(&rect)];
             if let Some(placed) = &mut self.placed[member] {
-                placed.body = Some(PlacedBody { rect, layers });
+                placed.bodies.push(PlacedBody { rect, layers });
             }
         }
     }
@@ -247,7 +251,7 @@ fn share_pipelines(key: &DrawKey, composition: &mut Composition) {
     if !small.is_empty() || placed.iter().any(|placed| placed.layer > 0 || !placed.among.is_empty()) {
         for placed in &mut *placed {
             (placed.layer, placed.behind_layer) = (placed.layer + 1, placed.behind_layer + 1);
-            placed.body.iter_mut().for_each(|body| body.layers = body.layers.map(|layer| layer + 1));
+            placed.bodies.iter_mut().for_each(|body| body.layers = body.layers.map(|layer| layer + 1));
         }
         *small = std::mem::take(small).into_iter().map(|([layer, of], places)| ([layer + 1, of], places)).collect();
     }
@@ -331,20 +335,23 @@ mod tests {
             environment::CubeMap,
         },
         plan::{Moment, Pace, Resources, Shot, request},
-        scene::{Bubble, Camera, Film, FilmStateName, Scene, View},
+        scene::{Boundary, Bubble, Camera, Film, FilmStateName, Scene, View},
     };
 
-    /// Bubbles of 40 mm at places before an eye at (0.6, 0, 0) m that looks along -x, by the place in the scene of each.
-    fn placed(centers_m: &[[f64; 3]], quality: Quality) -> Vec<Placed> {
+    /// A bubble of 40 mm at a place.
+    fn bubble(center_m: [f64; 3]) -> Bubble {
         let film = Film { state: FilmStateName::Uniform, ..Film::default() };
-        let bubble = |center_m: &[f64; 3]| Bubble {
-            center_m: *center_m,
-            radius_mm: 40.0,
-            film: film.clone(),
-            ..Bubble::default()
-        };
+        Bubble { center_m, radius_mm: 40.0, film, ..Bubble::default() }
+    }
+
+    /// Bubbles at places before an eye at (0.6, 0, 0) m that looks along -x, by the place in the scene of each.
+    fn placed(centers_m: &[[f64; 3]], quality: Quality) -> Vec<Placed> {
+        placed_bubbles(centers_m.iter().copied().map(bubble).collect(), quality)
+    }
+
+    fn placed_bubbles(bubbles: Vec<Bubble>, quality: Quality) -> Vec<Placed> {
         let scene = Scene {
-            bubbles: centers_m.iter().map(bubble).collect(),
+            bubbles,
             camera: Camera { azimuth_deg: 0.0, elevation_deg: 0.0, distance_m: 0.6, ..Camera::default() },
             view: View { quality, ..View::default() },
             ..Scene::default()
@@ -396,6 +403,15 @@ mod tests {
         let among: Vec<_> = placed.iter().map(|placed| placed.among.len()).collect();
         assert_eq!(among, [1, 1, 0, 0]);
         assert!(placed[0].mirrors && !placed[3].mirrors);
+    }
+
+    #[test]
+    fn a_wire_is_drawn_before_its_bubble_and_after_it() {
+        let ring = Bubble { boundary: Boundary::Ring, ..bubble([0.0; 3]) };
+        let placed = placed_bubbles(vec![ring, bubble([0.15, 0.0, 0.0])], Quality::Standard);
+        let [ring, near] = &placed[..] else { panic!("{placed:?}") };
+        assert_eq!((ring.bodies[0].layers, ring.layer, ring.behind_layer), ([1, 3], 2, 2));
+        assert!(near.layer == 4 && near.bodies.is_empty());
     }
 
     #[test]

@@ -373,6 +373,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         film => film,
     };
     let ticks = age.moment.ticks();
+    let has_edge = bubble.boundary == Boundary::Ring || age.hole.is_some();
     Some(BubbleKey {
         id: index as u32 + 1,
         index,
@@ -387,7 +388,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
             FilmKey::Field(_) => DMat3::from_quat(story.film_turn(age.life.born as f64 + ticks).inverse()),
         },
         evaporated_nm: age.life.evaporation.nm(ticks),
-        samples: samples(radius_pixels).max(if bubble.boundary == Boundary::Ring { RING_SAMPLES } else { 1 }),
+        samples: samples(radius_pixels).max(if has_edge { EDGE_SAMPLES } else { 1 }),
         // The edge of a hole is no thickness between others.
         thicknesses: if age.hole.is_none() { thicknesses(&film, radius_pixels) } else { 1 },
         magnified: is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m)),
@@ -395,29 +396,34 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         thickness_factor: 1.0,
         hole: age.hole,
         cap: cap(bubble),
-        body: body(bubble, center_m, camera, shot),
+        bodies: bodies(bubble, center_m, age.hole.is_some(), camera, shot),
     })
 }
 
-/// What the film of a bubble at a place ends at, if it is drawn and any pixel can see it.
-fn body(bubble: &Bubble, center_m: DVec3, camera: &CameraKey, shot: &Shot) -> Option<Body> {
+/// What is drawn at the film of a bubble at a place, of which any pixel can see something.
+fn bodies(bubble: &Bubble, center_m: DVec3, is_bursting: bool, camera: &CameraKey, shot: &Shot) -> Vec<Body> {
     /// Reach from the middle of its rim of what a drop is drawn on, over the rim's radius.
     const DROP_REACH: f64 = 2.7;
-    let kind = match bubble.boundary {
-        Boundary::Free | Boundary::Bath => return None,
-        Boundary::Ring if bubble.wire_mm == 0.0 => return None,
-        Boundary::Ring => BodyKind::Wire(0.5e-3 * bubble.wire_mm),
-        Boundary::Drop => BodyKind::Drop,
-    };
+    /// How far droplets fly, over the bubble's radius.
+    const SPRAY_REACH: f64 = 3.0;
     let (rim_rad, radius_m) = (bubble.rim_deg.to_radians(), 1e-3 * bubble.radius_mm);
-    let rim_m = radius_m * rim_rad.sin();
-    let reach_m = match kind {
-        BodyKind::Wire(wire_m) => rim_m + 1.2 * wire_m,
-        BodyKind::Drop => DROP_REACH * rim_m,
+    let (rim_m, wire_m) = (radius_m * rim_rad.sin(), 0.5e-3 * bubble.wire_mm);
+    let at_rim = match bubble.boundary {
+        Boundary::Ring if wire_m > 0.0 => Some((BodyKind::Wire { rim_rad, wire_m }, rim_m + 1.2 * wire_m)),
+        Boundary::Drop => Some((BodyKind::Drop { rim_rad }, DROP_REACH * rim_m)),
+        Boundary::Ring | Boundary::Free | Boundary::Bath => None,
     };
-    let bounds = bounds(camera, shot.size, center_m + radius_m * rim_rad.cos() * DVec3::Z, reach_m)?;
-    Some(Body { kind, rim_rad, bounds })
+    let rim_center_m = center_m + radius_m * rim_rad.cos() * DVec3::Z;
+    let at_rim = at_rim.map(|(kind, reach_m)| (kind, rim_center_m, reach_m));
+    let hole = [(BodyKind::HoleRim, center_m, 1.1 * radius_m), (BodyKind::Spray, center_m, SPRAY_REACH * radius_m)];
+    // A bath would mirror them.
+    let hole = hole.into_iter().filter(|_| is_bursting && bubble.boundary != Boundary::Bath);
+    let seen = |(kind, center_m, reach_m)| {
+        let bounds = bounds(camera, shot.size, center_m, reach_m)?;
+        Some(Body { kind, bounds })
+    };
+    at_rim.into_iter().chain(hole).filter_map(seen).collect()
 }
 
-/// Samples along a pixel's side of a film that ends on a ring: its edge is not smoothed otherwise.
-const RING_SAMPLES: u32 = 2;
+/// Samples along a pixel's side of a film that ends on a ring or at a hole: its edge is not smoothed otherwise.
+const EDGE_SAMPLES: u32 = 2;

@@ -1,4 +1,4 @@
-//! What films end at, ready to be drawn.
+//! What is drawn at films, made ready.
 
 use glam::DVec3;
 
@@ -8,70 +8,127 @@ use crate::{
         device::{Gpu, GpuError},
         formats::radiance_format,
         kernel::Drawable,
-        passes::bodies::{BodyUniform, WIRE_SIDES, WaterDrop, Wire},
+        passes::{
+            bodies::{BodyOverrides, BodyValue, Droplet, HoleRim, Spray, WIRE_SIDES, WaterDrop, Wire},
+            open_hole::OpenHole,
+        },
     },
+    physics::film::{HOLE_MERIDIANS, droplets},
     plan::{Body, BodyKind, BubbleKey},
     scene::Quality,
 };
 
-fn uniform(bubble: &BubbleKey, body: &Body, eye_m: DVec3) -> BodyUniform {
+/// Vertices of a piece of a strip that is cut into quadrilaterals.
+const PIECE: u32 = 6;
+
+fn value(bubble: &BubbleKey, kind: BodyKind, eye_m: DVec3) -> BodyValue {
+    let (rim_rad, wire_m) = match kind {
+        BodyKind::Wire { rim_rad, wire_m } => (rim_rad, wire_m),
+        BodyKind::Drop { rim_rad } => (rim_rad, 0.0),
+        BodyKind::HoleRim | BodyKind::Spray => (0.0, 0.0),
+    };
     let to_center_m = bubble.center_m - eye_m;
-    let (sin, cos) = body.rim_rad.sin_cos();
-    BodyUniform {
+    let (sin, cos) = rim_rad.sin_cos();
+    BodyValue {
         to_center_m: to_center_m.as_vec3().to_array(),
         rim_m: (bubble.radius_m * sin) as f32,
         to_rim_m: (to_center_m + bubble.radius_m * cos * DVec3::Z).as_vec3().to_array(),
-        wire_m: match body.kind {
-            BodyKind::Wire(radius_m) => radius_m as f32,
-            BodyKind::Drop => 0.0,
-        },
+        wire_m: wire_m as f32,
+        to_world: bubble.to_film.transpose().into(),
+        radius_m: bubble.radius_m as f32,
+        padding: [0.0; 3],
     }
 }
 
+/// The droplets of a bubble that bursts.
+fn spray(bubble: &BubbleKey) -> Vec<Droplet> {
+    let droplet = |found: crate::physics::film::Droplet| Droplet {
+        turn: found.turn as f32,
+        leaves_rad: found.leaves_rad as f32,
+        radius_m: found.radius_m as f32,
+        speed: found.speed as f32,
+    };
+    droplets(bubble.id, bubble.radius_m).map(droplet).collect()
+}
+
 impl Shared<'_> {
-    /// Makes ready what lies beyond the bubble's center of the body that its film ends at, or the rest, with its number of vertices.
+    /// Makes ready what lies beyond the bubble's center of a body, or the rest, with its number of vertices.
     pub(super) fn body(
         &self,
         gpu: &Gpu,
-        bubble: &BubbleKey,
+        (bubble, hole): (&BubbleKey, &OpenHole),
         body: &Body,
         is_far: bool,
     ) -> Result<(Drawable, u32), GpuError> {
         let Self { key, view, light, environment, .. } = self;
         let format = radiance_format(key.full_precision);
-        let uniform = &gpu.storage("body", &[uniform(bubble, body, key.camera.eye_m)]);
+        let value = &gpu.storage("body", &[value(bubble, body.kind, key.camera.eye_m)]);
+        let shape = BodyOverrides { IS_FAR: is_far, FULL_PRECISION: key.full_precision };
         // Smoother than `fast` has it: they are as sharp as mirrors and cover few pixels.
-        let environment_sampler = environment.sampler(Quality::Standard);
+        let (environment_sampler, environment) = (environment.sampler(Quality::Standard), &environment.view);
+        let (lit, lamps, light, picture_behind) = (light.lit, &light.lamps, &light.light, self.behind);
         match body.kind {
-            BodyKind::Wire(_) => {
+            BodyKind::Wire { .. } => {
                 let wire = Wire {
-                    IS_FAR: is_far,
-                    FULL_PRECISION: key.full_precision,
-                    lit: light.lit,
+                    shape,
+                    lit,
                     view,
-                    light: &light.light,
-                    environment: &environment.view,
+                    light,
+                    environment,
                     environment_sampler,
-                    lamps: &light.lamps,
-                    body: uniform,
-                    picture_behind: self.behind,
+                    lamps,
+                    body: value,
+                    picture_behind,
                 };
-                Ok((wire.ribbon(gpu, format)?, 6 * WIRE_SIDES))
+                Ok((wire.along_wire(gpu, format)?, PIECE * WIRE_SIDES))
             }
-            BodyKind::Drop => {
+            BodyKind::Drop { .. } => {
                 let drop = WaterDrop {
-                    IS_FAR: is_far,
-                    FULL_PRECISION: key.full_precision,
-                    lit: light.lit,
+                    shape,
+                    lit,
                     view,
-                    light: &light.light,
-                    environment: &environment.view,
+                    light,
+                    environment,
                     environment_sampler,
-                    lamps: &light.lamps,
-                    body: uniform,
-                    picture_behind: self.behind,
+                    lamps,
+                    body: value,
+                    picture_behind,
                 };
                 Ok((drop.around_drop(gpu, format)?, 4))
+            }
+            BodyKind::HoleRim => {
+                let rim = HoleRim {
+                    shape,
+                    lit,
+                    view,
+                    light,
+                    environment,
+                    environment_sampler,
+                    lamps,
+                    body: value,
+                    picture_behind,
+                    hole_middle: &hole.middle,
+                    hole_rim: &hole.rim,
+                };
+                Ok((rim.along_hole(gpu, format)?, PIECE * HOLE_MERIDIANS as u32))
+            }
+            BodyKind::Spray => {
+                let droplets = spray(bubble);
+                let spray = Spray {
+                    shape,
+                    lit,
+                    view,
+                    light,
+                    environment,
+                    environment_sampler,
+                    lamps,
+                    body: value,
+                    picture_behind,
+                    hole_middle: &hole.middle,
+                    hole_rim: &hole.rim,
+                    droplets: &gpu.storage("droplets", &droplets),
+                };
+                Ok((spray.around_droplet(gpu, format)?, PIECE * droplets.len() as u32))
             }
         }
     }

@@ -80,7 +80,7 @@ struct Layer {
     rings: Vec<(Drawable, u32)>,
     /// Small bubbles, of a material each.
     small: Vec<SmallDraw>,
-    /// What films end at, each with its number of vertices.
+    /// What is drawn at films, each with its number of vertices.
     bodies: Vec<(Drawable, u32)>,
 }
 
@@ -240,10 +240,11 @@ impl DrawPass {
                 let drawn = Drawn { bubble, placed, first_other, ring: &ring, colours: &colours, film: &film, hole };
                 pass.layers[placed.layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
             }
-            if let (Some(body), Some(placed), Rendering::Full) = (&bubble.body, &placed.body, key.rendering) {
+            let bodies = bubble.bodies.iter().zip(&placed.bodies);
+            for (body, placed) in bodies.filter(|_| key.rendering == Rendering::Full) {
                 for (layer, is_far) in placed.layers.into_iter().zip([true, false]) {
                     pass.layers[layer].behind.push(placed.rect.clone());
-                    pass.layers[layer].bodies.push(shared.body(gpu, bubble, body, is_far)?);
+                    pass.layers[layer].bodies.push(shared.body(gpu, (bubble, hole), body, is_far)?);
                 }
             }
             pass.layers[placed.behind_layer].behind.push(placed.rect.clone());

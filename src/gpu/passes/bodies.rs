@@ -1,14 +1,20 @@
-//! What films end at: wires and drops.
+//! What is drawn at films: wires, drops, rims of holes, and droplets.
 
-use super::backdrop::{LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform};
-use crate::gpu::kernel::{Read, Sampler, Texture2d, TextureCube, Uniform, kernels, shader_struct};
+use super::{
+    backdrop::{LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
+    open_hole::RimValue,
+};
+use crate::{
+    gpu::kernel::{Matrix, Read, Sampler, Texture2d, TextureCube, Uniform, kernels, overrides, shader_struct},
+    physics::film::HOLE_MERIDIANS,
+};
 
 /// Straight pieces that a wire is drawn in.
 pub const WIRE_SIDES: u32 = 192;
 
 shader_struct! {
     /// See `shaders/pass/bodies.wgsl`.
-    pub struct BodyUniform {
+    pub struct BodyValue {
         /// From the eye to the bubble's center.
         pub to_center_m: [f32; 3],
         /// Radius of the rim.
@@ -17,6 +23,40 @@ shader_struct! {
         pub to_rim_m: [f32; 3],
         /// Radius of the wire.
         pub wire_m: f32,
+        /// Takes directions of the film to the world.
+        pub to_world: Matrix,
+        /// Radius of the bubble.
+        pub radius_m: f32,
+        /// Fills 16 bytes.
+        pub padding: [f32; 3],
+    }
+}
+
+shader_struct! {
+    /// A droplet: see `shaders/pass/bodies.wgsl`.
+    pub struct Droplet {
+        /// The meridian of the hole on which it leaves the rim, as a turn.
+        pub turn: f32,
+        /// Angle from the hole's middle there, radians.
+        pub leaves_rad: f32,
+        /// Radius.
+        pub radius_m: f32,
+        /// How fast it flies over how fast the rim moves.
+        pub speed: f32,
+    }
+}
+
+overrides! {
+    /// What all bodies have.
+    pub struct BodyOverrides {
+        const WIRE_SIDES: u32 = WIRE_SIDES;
+        const HOLE_MERIDIANS: u32 = HOLE_MERIDIANS as u32;
+        const ON_BATH: bool = false;
+        const BACKDROP_IS_ENVIRONMENT: bool = false;
+        /// Whether what lies beyond the bubble's center is drawn, or the rest.
+        override IS_FAR: bool;
+        /// Whether the linear picture is made in full precision.
+        override FULL_PRECISION: bool;
     }
 }
 
@@ -25,32 +65,62 @@ kernels! {
 
     /// A wire.
     struct Wire {
-        const WIRE_SIDES: u32 = WIRE_SIDES;
-        override IS_FAR: bool;
-        override FULL_PRECISION: bool;
+        overrides shape: BodyOverrides;
         overrides lit: LampOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
         @3 environment_sampler: Sampler;
         @4 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
-        @5 body: Read<BodyUniform>;
+        @5 body: Read<BodyValue>;
         @6 picture_behind: Texture2d;
     }
-    draw ribbon as wire;
+    draw along_wire as wire;
 
     /// A drop of water.
     struct WaterDrop {
-        override IS_FAR: bool;
-        override FULL_PRECISION: bool;
+        overrides shape: BodyOverrides;
         overrides lit: LampOverrides;
         @0 view: Uniform<ViewUniform>;
         @1 light: Uniform<LightUniform>;
         @2 environment: TextureCube;
         @3 environment_sampler: Sampler;
         @4 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
-        @5 body: Read<BodyUniform>;
+        @5 body: Read<BodyValue>;
         @6 picture_behind: Texture2d;
     }
     draw around_drop as drop;
+
+    /// The rim of a hole.
+    struct HoleRim {
+        overrides shape: BodyOverrides;
+        overrides lit: LampOverrides;
+        @0 view: Uniform<ViewUniform>;
+        @1 light: Uniform<LightUniform>;
+        @2 environment: TextureCube;
+        @3 environment_sampler: Sampler;
+        @4 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
+        @5 body: Read<BodyValue>;
+        @6 picture_behind: Texture2d;
+        @7 hole_middle: Read<[f32; 4]>;
+        @8 hole_rim: Read<[RimValue]>;
+    }
+    draw along_hole as rim;
+
+    /// Droplets that fly off the rim of a hole.
+    struct Spray {
+        overrides shape: BodyOverrides;
+        overrides lit: LampOverrides;
+        @0 view: Uniform<ViewUniform>;
+        @1 light: Uniform<LightUniform>;
+        @2 environment: TextureCube;
+        @3 environment_sampler: Sampler;
+        @4 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
+        @5 body: Read<BodyValue>;
+        @6 picture_behind: Texture2d;
+        @7 hole_middle: Read<[f32; 4]>;
+        @8 hole_rim: Read<[RimValue]>;
+        @9 droplets: Read<[Droplet]>;
+    }
+    draw around_droplet as droplet;
 }

@@ -92,6 +92,7 @@ mod random;
 mod regeneration;
 mod rest;
 mod seed;
+mod spray;
 mod states;
 mod thinning;
 
@@ -110,6 +111,7 @@ pub use random::{Random, fold_seed, pcg3d};
 pub use regeneration::{PATCH_THICKNESS, Patch, Regeneration, patch_speed};
 pub use rest::{ASKING_S, STEADY, resting_speed, rests};
 pub use seed::{Seed, SeedGrids, Seeded};
+pub use spray::{Droplet, droplets};
 pub use states::{InitialFilm, Profile};
 pub use thinning::{Thinning, thins_at_tick};
 

@@ -41,28 +41,38 @@ pub struct BubbleKey {
     pub hole: Option<Opening>,
     /// The part of the sphere that has film, above a bath or within a ring; none for a whole sphere. On a bath its image is seen too.
     pub cap: Option<Cap>,
-    /// What its film ends at, if that is drawn.
-    pub body: Option<Body>,
+    /// What its film ends at, and what flies off it, if that is drawn.
+    pub bodies: Vec<Body>,
 }
 
-/// What a film ends at, as it is drawn.
+/// What is drawn at a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
     /// What it is.
     pub kind: BodyKind,
-    /// Colatitude of its rim on the bubble, radians.
-    pub rim_rad: f64,
     /// Bounding rectangle in clip coordinates.
     pub bounds: [DVec2; 2],
 }
 
-/// What a film can end at.
+/// What can be drawn at a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BodyKind {
-    /// A wire of a radius in metres.
-    Wire(f64),
-    /// A drop of water.
-    Drop,
+    /// The wire of a ring that the film hangs on.
+    Wire {
+        /// Colatitude of the rim, radians.
+        rim_rad: f64,
+        /// Radius of the wire, m.
+        wire_m: f64,
+    },
+    /// A drop of water that hangs from the film.
+    Drop {
+        /// Colatitude of the rim, radians.
+        rim_rad: f64,
+    },
+    /// The rim of a hole, a thread of water.
+    HoleRim,
+    /// Droplets that fly off it.
+    Spray,
 }
 
 impl BubbleKey {
@@ -144,7 +154,7 @@ impl SmallBubble {
             thickness_factor: self.thickness_factor,
             hole: None,
             cap: None,
-            body: None,
+            bodies: Vec::new(),
         }
     }
 }

@@ -192,12 +192,14 @@ fn agrees_with_spectral(
     Ok(())
 }
 
-/// The white furnace: in the same light from everywhere nothing is seen of a bubble. A bath is dark below. The light is of the scene's own
+/// The white furnace: in the same light from everywhere nothing is seen of a bubble, nor of drops. A bath is dark below. The light is of the scene's own
 /// illuminant, and coloured where the scene's is, so that it is drawn by the scene's own pipelines.
 fn vanishes(renderer: &mut Renderer, mut loaded: LoadedScene, moment: Moment) -> Result<(), TestCaseError> {
     let (light, is_neutral) = (&mut loaded.scene.light, loaded.resources.environment.is_neutral());
     light.constant.get_or_insert(if is_neutral { [1.0; 3] } else { [1.0, 0.5, 0.25] });
     (light.patches, loaded.scene.view.backdrop) = (Vec::new(), Backdrop::Environment);
+    // Wires are darker than light.
+    loaded.scene.bubbles.iter_mut().for_each(|bubble| bubble.wire_mm = 0.0);
     (loaded.resources.environment, loaded.resources.spectral_lights) =
         (Arc::new(CubeMap::constant(DVec3::ONE)), Vec::new());
     let request = frame_request(&loaded, moment).unwrap();
