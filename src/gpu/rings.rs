@@ -283,7 +283,7 @@ mod tests {
             thickness_factor: 1.0,
             hole: None,
             cap: None,
-            body: None,
+            bodies: Vec::new(),
         };
         (camera, bubble)
     }

@@ -140,7 +140,8 @@ impl Park {
         let place = DVec2::new(azimuth * 7.0, slope);
         let coarse = self.noise.at(place * DVec2::new(1.0, 1.4));
         let fine = self.noise.at(place * DVec2::new(4.0, 4.9));
-        let ragged = 0.030 * coarse + 0.014 * fine;
+        let leaves = self.noise.at(place * DVec2::new(13.0, 15.1));
+        let ragged = 0.030 * coarse + 0.014 * fine + 0.010 * leaves;
         let soft = 0.006;
         let cover = |inside: f64| smoothstep(-soft, soft, inside);
         // How much the sun shines on what is seen of the trees: all opposite of it, nothing before it.
@@ -148,11 +149,19 @@ impl Park {
         let leaf = (0.35 + 0.3 * coarse + 0.4 * fine).max(0.05);
         let high = smoothstep(-0.05, 0.7, slope);
 
-        let crown = |top: f64, bottom: f64| cover((top - slope).min(slope - bottom) + 1.2 * ragged);
-        let (middle, near) = (crown(top, bottom), crown(near_top, near_bottom));
+        let inside = |top: f64, bottom: f64| (top - slope).min(slope - bottom) + 1.2 * ragged;
+        let (inside_middle, inside_near) = (inside(top, bottom), inside(near_top, near_bottom));
+        let (middle, near) = (cover(inside_middle), cover(inside_near));
+        // Thin foliage at the edge of a crown lets light through, here more and there less.
+        let through = |inside: f64| {
+            let thin = (-inside.max(0.0) / 0.022).exp() * (0.35 + 0.65 * leaves).max(0.0) * high;
+            thin * DVec3::new(0.42, 0.56, 0.14)
+        };
         let foliage = DVec3::new(0.0105, 0.0144, 0.0052) * leaf * (0.25 + 0.8 * high + 1.1 * front);
+        let near_foliage = 0.55 * foliage + through(inside_near);
+        let foliage = foliage + through(inside_middle);
         let seen = if near == 1.0 {
-            0.55 * foliage
+            near_foliage
         } else if middle == 1.0 && near == 0.0 && near_trunk == 0.0 {
             foliage
         } else {
@@ -169,8 +178,12 @@ impl Park {
                 behind.lerp(woods, woods_cover)
             };
             let behind = open.lerp(bark, trunk(trunk_cover, bottom)).lerp(foliage, middle);
-            behind.lerp(0.55 * bark, trunk(near_trunk, near_bottom)).lerp(0.55 * foliage, near)
+            behind.lerp(0.55 * bark, trunk(near_trunk, near_bottom)).lerp(near_foliage, near)
         };
+        // Shrubs around the trees' feet.
+        let shrubs = 0.035 * self.noise.at(DVec2::new(azimuth * 21.0, 0.3)) + 0.8 * ragged - slope;
+        let shrubs = cover(shrubs) * smoothstep(-0.066, -0.054, slope + 0.2 * ragged);
+        let seen = seen.lerp(DVec3::new(0.011, 0.015, 0.006) * leaf * (0.5 + front), shrubs);
         self.gaps(seen, place, top.max(near_top))
     }
 
@@ -187,8 +200,8 @@ impl Park {
             let cell = (column as u64).wrapping_mul(4096).wrapping_add(row as u64);
             let center = DVec2::new(0.2 + 0.6 * random(cell, seed + 1), 0.2 + 0.6 * random(cell, seed + 2));
             let out = DVec2::new(x, y) - center;
-            // Holes of no shape, smaller than a leaf is long.
-            let size = 0.045 + 0.05 * random(cell, seed + 4);
+            // Holes of no shape, of all sizes below that of a leaf.
+            let size = 0.03 + 0.10 * random(cell, seed + 4).powi(3);
             let ragged = size * (1.0 + 0.5 * self.noise.at(place * DVec2::new(6.0, 7.0)));
             let cover = smoothstep(1.3 * ragged, 0.7 * ragged, out.length());
             if cover == 0.0 {
@@ -197,7 +210,8 @@ impl Park {
             // Each gap as a whole is as bright as the leaves in its middle are open.
             let middle = place - DVec2::new(turn.x, -turn.y).rotate(out) / (turn.length_squared() * level);
             let open = smoothstep(0.08, 0.24, middle.y) * smoothstep(top, top - 0.06, middle.y);
-            let gaps = open * smoothstep(-0.9, 1.6, self.noise.at(middle * 0.6 + 0.5));
+            // Where branches part.
+            let gaps = open * smoothstep(-0.1, 1.3, self.noise.at(middle * DVec2::new(1.3, 1.8) + 0.5));
             let bright = (1.0 - 3.2 * random(cell, seed) / gaps.max(1e-3)).max(0.0);
             let light = DVec3::new(6.6, 6.4, 5.2).lerp(DVec3::new(2.4, 3.2, 1.2), random(cell, seed + 3));
             seen + cover * bright * bright * light
@@ -213,7 +227,8 @@ impl Park {
         let shadow = DVec2::new(place.dot(self.sun_level) * 0.004, place.perp_dot(self.sun_level) * 0.016);
         let lit = smoothstep(-0.1, 1.5, self.noise.at(shadow));
         let detail = self.noise.at(place * 0.11) * smoothstep(0.03, 0.3, -direction.z);
-        let tufts = (1.0 + 0.16 * detail).max(0.3);
+        let worn = self.noise.at(place * 0.031 + 0.4);
+        let tufts = (1.0 + 0.16 * detail + 0.22 * worn).max(0.3);
         let shade = DVec3::new(0.052, 0.066, 0.030);
         let sunny = DVec3::new(0.122, 0.122, 0.050);
         shade.lerp(sunny, lit) * tufts
