@@ -96,7 +96,9 @@ fn rim_place(meridian: u32) -> vec4f {
     let middle_rad = 0.5 * (rim.outer_rad + rim.inner_rad);
     let along = cos(turn) * axes[0] + sin(turn) * axes[1];
     let place = body.to_world * (cos(middle_rad) * hole_middle.xyz + sin(middle_rad) * along);
-    return vec4f(body.to_center_m + body.radius_m * place, 0.5 * body.radius_m * (rim.outer_rad - rim.inner_rad));
+    // Opposite of where the hole began the rim runs together, and what it has gathered is no thread any more.
+    let width_rad = min(rim.outer_rad - rim.inner_rad, 0.03) * smoothstep(3.1, 2.7, rim.outer_rad);
+    return vec4f(body.to_center_m + body.radius_m * place, 0.5 * body.radius_m * max(width_rad, 1e-6));
 }
 
 // Unit vector across a thread and the line of sight.
