@@ -216,7 +216,7 @@ impl Park {
             let light = DVec3::new(6.6, 6.4, 5.2).lerp(DVec3::new(2.4, 3.2, 1.2), random(cell, seed + 3));
             seen + cover * bright * bright * light
         };
-        let turns = [(16.0, 5.0, 24), (-11.0, 13.0, 34), (8.0, -15.0, 44)];
+        let turns = [(10.0, 3.0, 24), (-7.0, 8.0, 34)];
         turns.into_iter().fold(seen, |seen, (x, y, seed)| layer(seen, DVec2::new(x, y), seed))
     }
 
