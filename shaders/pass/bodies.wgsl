@@ -1,4 +1,5 @@
-// What is at a film: the wire of a ring, the drop that hangs from a bubble, the rim of a hole, and the droplets that fly off it. Each is drawn in two
+// What is at a film: the wire of a ring, the foot of a bubble on a bath, where water climbs, the drop that hangs from a bubble, the rim of a hole, and
+// the droplets that fly off it. Each is drawn in two
 // halves: what lies beyond the bubble's center before the bubble is, which then shows it through its film, and the rest after it. None is mirrored
 // by the film, nor mirrors it.
 
@@ -7,7 +8,7 @@ import package::camera::view::{View, clip_position, pixel_angle, view_plane};
 import package::light::environment::{Light, environment_radiance};
 import package::light::lamps::Lamp;
 import package::light::stored::storable;
-import package::light::water::WATER_INDEX;
+import package::light::water::{WATER_INDEX, crossing, upward};
 import package::optics::airy::surface_reflectance;
 import package::sphere::axes::perpendicular;
 
@@ -24,7 +25,7 @@ struct Body {
     rim_m: f32,
     // From the eye to the middle of the rim.
     to_rim_m: vec3f,
-    // Radius of the wire.
+    // Radius of the wire, or of the foot.
     wire_m: f32,
     // Takes directions of the film to the world.
     to_world: mat3x3f,
@@ -55,7 +56,8 @@ struct Droplet {
 @group(0) @binding(9) var<storage, read> droplets: array<Droplet>;
 
 fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
-    return light.seen * environment_radiance(environment, environment_sampler, light, direction, footprint);
+    let far = environment_radiance(environment, environment_sampler, light, upward(direction), footprint);
+    return light.seen * (crossing(1.0, direction.z, direction) * far);
 }
 
 // Whether a place, from the eye, belongs to the half that is drawn.
@@ -63,7 +65,7 @@ fn is_drawn(place_m: vec3f, ray: vec3f) -> bool {
     return (dot(place_m - body.to_center_m, ray) > 0.0) == (IS_FAR == 1u);
 }
 
-// ---- Threads, the wire and the rim of a hole: ribbons along them that face the eye, on which they are shaded as round as they are.
+// ---- Threads, the wire, the foot and the rim of a hole: ribbons along them that face the eye, on which they are shaded as round as they are.
 
 // Part of light that steel reflects, and the angle that its grain spreads it over.
 const STEEL: f32 = 0.5;
@@ -181,7 +183,7 @@ fn wire(point: ThreadPoint) -> @location(0) vec4f {
 }
 
 @fragment
-fn rim(point: ThreadPoint) -> @location(0) vec4f {
+fn water(point: ThreadPoint) -> @location(0) vec4f {
     let at = on_thread(point);
     return over_behind(point.position, round_water(at.ray, at.normal, at.pixel), at.coverage);
 }

@@ -404,16 +404,21 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
 fn bodies(bubble: &Bubble, center_m: DVec3, is_bursting: bool, camera: &CameraKey, shot: &Shot) -> Vec<Body> {
     /// Reach from the middle of its rim of what a drop is drawn on, over the rim's radius.
     const DROP_REACH: f64 = 2.7;
+    /// Half of how thick the part of a meniscus is that shines, m: water climbs six times as high.
+    const FOOT_M: f64 = 0.35e-3;
     /// How far droplets fly, over the bubble's radius.
     const SPRAY_REACH: f64 = 3.0;
     let (rim_rad, radius_m) = (bubble.rim_deg.to_radians(), 1e-3 * bubble.radius_mm);
     let (rim_m, wire_m) = (radius_m * rim_rad.sin(), 0.5e-3 * bubble.wire_mm);
+    let foot_m = FOOT_M.min(0.02 * radius_m);
     let at_rim = match bubble.boundary {
         Boundary::Ring if wire_m > 0.0 => Some((BodyKind::Wire { rim_rad, wire_m }, rim_m + 1.2 * wire_m)),
         Boundary::Drop => Some((BodyKind::Drop { rim_rad }, DROP_REACH * rim_m)),
-        Boundary::Ring | Boundary::Free | Boundary::Bath => None,
+        Boundary::Bath => Some((BodyKind::Foot { foot_m }, radius_m + 1.2 * foot_m)),
+        Boundary::Ring | Boundary::Free => None,
     };
-    let rim_center_m = center_m + radius_m * rim_rad.cos() * DVec3::Z;
+    let rim_z = if bubble.boundary == Boundary::Bath { 0.0 } else { rim_rad.cos() };
+    let rim_center_m = center_m + radius_m * rim_z * DVec3::Z;
     let at_rim = at_rim.map(|(kind, reach_m)| (kind, rim_center_m, reach_m));
     let hole = [(BodyKind::HoleRim, center_m, 1.1 * radius_m), (BodyKind::Spray, center_m, SPRAY_REACH * radius_m)];
     // A bath would mirror them.

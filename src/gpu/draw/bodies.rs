@@ -1,5 +1,7 @@
 //! What is drawn at films, made ready.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::DVec3;
 
 use super::Shared;
@@ -9,7 +11,7 @@ use crate::{
         formats::radiance_format,
         kernel::Drawable,
         passes::{
-            bodies::{BodyOverrides, BodyValue, Droplet, HoleRim, Spray, WIRE_SIDES, WaterDrop, Wire},
+            bodies::{BodyOverrides, BodyValue, Droplet, Foot, HoleRim, Spray, WIRE_SIDES, WaterDrop, Wire},
             open_hole::OpenHole,
         },
     },
@@ -24,6 +26,7 @@ const PIECE: u32 = 6;
 fn value(bubble: &BubbleKey, kind: BodyKind, eye_m: DVec3) -> BodyValue {
     let (rim_rad, wire_m) = match kind {
         BodyKind::Wire { rim_rad, wire_m } => (rim_rad, wire_m),
+        BodyKind::Foot { foot_m } => (FRAC_PI_2, foot_m),
         BodyKind::Drop { rim_rad } => (rim_rad, 0.0),
         BodyKind::HoleRim | BodyKind::Spray => (0.0, 0.0),
     };
@@ -63,7 +66,7 @@ impl Shared<'_> {
         let Self { key, view, light, environment, .. } = self;
         let format = radiance_format(key.full_precision);
         let value = &gpu.storage("body", &[value(bubble, body.kind, key.camera.eye_m)]);
-        let shape = BodyOverrides { IS_FAR: is_far, FULL_PRECISION: key.full_precision };
+        let shape = BodyOverrides { IS_FAR: is_far, ON_BATH: key.on_bath, FULL_PRECISION: key.full_precision };
         // Smoother than `fast` has it: they are as sharp as mirrors and cover few pixels.
         let (environment_sampler, environment) = (environment.sampler(Quality::Standard), &environment.view);
         let (lit, lamps, light, picture_behind) = (light.lit, &light.lamps, &light.light, self.behind);
@@ -81,6 +84,20 @@ impl Shared<'_> {
                     picture_behind,
                 };
                 Ok((wire.along_wire(gpu, format)?, PIECE * WIRE_SIDES))
+            }
+            BodyKind::Foot { .. } => {
+                let foot = Foot {
+                    shape,
+                    lit,
+                    view,
+                    light,
+                    environment,
+                    environment_sampler,
+                    lamps,
+                    body: value,
+                    picture_behind,
+                };
+                Ok((foot.along_wire(gpu, format)?, PIECE * WIRE_SIDES))
             }
             BodyKind::Drop { .. } => {
                 let drop = WaterDrop {

@@ -1,4 +1,4 @@
-//! What is drawn at films: wires, drops, rims of holes, and droplets.
+//! What is drawn at films: wires, feet, drops, rims of holes, and droplets.
 
 use super::{
     backdrop::{LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
@@ -21,7 +21,7 @@ shader_struct! {
         pub rim_m: f32,
         /// From the eye to the middle of the rim.
         pub to_rim_m: [f32; 3],
-        /// Radius of the wire.
+        /// Radius of the wire, or of the foot.
         pub wire_m: f32,
         /// Takes directions of the film to the world.
         pub to_world: Matrix,
@@ -51,10 +51,11 @@ overrides! {
     pub struct BodyOverrides {
         const WIRE_SIDES: u32 = WIRE_SIDES;
         const HOLE_MERIDIANS: u32 = HOLE_MERIDIANS as u32;
-        const ON_BATH: bool = false;
         const BACKDROP_IS_ENVIRONMENT: bool = false;
         /// Whether what lies beyond the bubble's center is drawn, or the rest.
         override IS_FAR: bool;
+        /// Whether there is a bath.
+        override ON_BATH: bool;
         /// Whether the linear picture is made in full precision.
         override FULL_PRECISION: bool;
     }
@@ -76,6 +77,20 @@ kernels! {
         @6 picture_behind: Texture2d;
     }
     draw along_wire as wire;
+
+    /// The foot of a bubble on a bath.
+    struct Foot {
+        overrides shape: BodyOverrides;
+        overrides lit: LampOverrides;
+        @0 view: Uniform<ViewUniform>;
+        @1 light: Uniform<LightUniform>;
+        @2 environment: TextureCube;
+        @3 environment_sampler: Sampler;
+        @4 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
+        @5 body: Read<BodyValue>;
+        @6 picture_behind: Texture2d;
+    }
+    draw along_wire as water;
 
     /// A drop of water.
     struct WaterDrop {
@@ -105,7 +120,7 @@ kernels! {
         @7 hole_middle: Read<[f32; 4]>;
         @8 hole_rim: Read<[RimValue]>;
     }
-    draw along_hole as rim;
+    draw along_hole as water;
 
     /// Droplets that fly off the rim of a hole.
     struct Spray {

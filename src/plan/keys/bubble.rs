@@ -64,6 +64,11 @@ pub enum BodyKind {
         /// Radius of the wire, m.
         wire_m: f64,
     },
+    /// The foot of a bubble on a bath: the water that climbs at it.
+    Foot {
+        /// How thick it is, its half, m.
+        foot_m: f64,
+    },
     /// A drop of water that hangs from the film.
     Drop {
         /// Colatitude of the rim, radians.

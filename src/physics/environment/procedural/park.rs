@@ -141,8 +141,8 @@ impl Park {
         let coarse = self.noise.at(place * DVec2::new(1.0, 1.4));
         let fine = self.noise.at(place * DVec2::new(4.0, 4.9));
         let leaves = self.noise.at(place * DVec2::new(13.0, 15.1));
-        let ragged = 0.030 * coarse + 0.014 * fine + 0.010 * leaves;
-        let soft = 0.006;
+        let ragged = 0.030 * coarse + 0.016 * fine + 0.016 * leaves;
+        let soft = 0.012;
         let cover = |inside: f64| smoothstep(-soft, soft, inside);
         // How much the sun shines on what is seen of the trees: all opposite of it, nothing before it.
         let front = 0.5 - 0.5 * direction.truncate().dot(self.sun_level);
