@@ -1,7 +1,6 @@
 // What is at a film: the wire of a ring, the foot of a bubble on a bath, where water climbs, the drop that hangs from a bubble, the rim of a hole, and
-// the droplets that fly off it. Each is drawn in two
-// halves: what lies beyond the bubble's center before the bubble is, which then shows it through its film, and the rest after it. None is mirrored
-// by the film, nor mirrors it.
+// the droplets that fly off it. Each is drawn in two halves: what lies beyond the bubble's center is drawn before the bubble, which shows it through its
+// film, and the rest after it. No film mirrors them, and they mirror no film.
 
 import package::film::hole::{HOLE_MERIDIANS, Rim, TAU, meridian_axes};
 import package::camera::view::{View, clip_position, pixel_angle, view_plane};
@@ -12,12 +11,12 @@ import package::light::water::{WATER_INDEX, crossing, upward};
 import package::optics::airy::surface_reflectance;
 import package::sphere::axes::perpendicular;
 
-// Straight pieces that the wire is drawn in.
+// Straight pieces that a wire is drawn in.
 override WIRE_SIDES: u32;
 // 1: what lies beyond the bubble's center. 0: the rest.
 override IS_FAR: u32;
 
-// Mirrors `BodyUniform` in src/gpu/passes/bodies.rs.
+// Mirrors `BodyValue` in src/gpu/passes/bodies.rs.
 struct Body {
     // From the eye to the bubble's center.
     to_center_m: vec3f,
@@ -99,7 +98,7 @@ fn rim_place(meridian: u32) -> vec4f {
     let along = cos(turn) * axes[0] + sin(turn) * axes[1];
     let place = body.to_world * (cos(middle_rad) * hole_middle.xyz + sin(middle_rad) * along);
     // Opposite of where the hole began the rim runs together, and what it has gathered is no thread any more.
-    let width_rad = min(rim.outer_rad - rim.inner_rad, 0.03) * smoothstep(3.1, 2.7, rim.outer_rad);
+    let width_rad = min(rim.outer_rad - rim.inner_rad, 0.03) * (1.0 - smoothstep(2.7, 3.1, rim.outer_rad));
     return vec4f(body.to_center_m + body.radius_m * place, 0.5 * body.radius_m * max(width_rad, 1e-6));
 }
 

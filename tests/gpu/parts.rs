@@ -30,7 +30,9 @@ fn a_photograph_is_seen_through_films_as_in_f64() {
     for (preset, illuminant) in [("bath", "D65"), ("tent", "sodium")] {
         let mut loaded = plated(preset);
         loaded.resources.illuminant = Arc::new(illuminant.parse().unwrap());
-        let request = still(&loaded, [64, 36], 0.0);
+        let mut request = still(&loaded, [64, 36], 0.0);
+        // The reference has no foot.
+        request.picture.draw.bubbles[0].bodies.clear();
         let seen = radiance(&mut renderer, &request);
         let truth = reference::radiance(&request.picture.draw, &Default::default(), &|| ()).unwrap();
         let errors = seen.iter().zip(&truth).map(|(a, b)| (*a - *b).abs().max_element());
