@@ -1,6 +1,6 @@
 // Thin film collapses to black film, which a real film does within a fraction of a second once its surfaces attract each other: the
 // difference to black film decays at a constant rate. It is the film around a cell that must be thin: black spots are round, while cells that
-// went one by one would leave a maze. Silver film collapses around nuclei. What cells lose is missing until the film's liquid is restored. The
+// went one by one would leave a maze. Film thinner than `nucleation_nm` collapses around nuclei. What cells lose is missing until the film's liquid is restored. The
 // f64 truth, with the reasons, is src/physics/film/model/blacken.rs.
 //
 // The tracer holds the thickness and what has evaporated of it, as their departure from the film's level. One invocation per cell, halo
@@ -49,7 +49,7 @@ struct Blacken {
 const REACH: u32 = 3u;
 // Part of the onset within which the collapse sets in: borders are smooth, and some cells wide.
 const ONSET_WIDTH: f32 = 0.1;
-// Part of a nucleus's radius within which film collapses entirely.
+// Part of a nucleus's radius within which film collapses entirely: `CORE` in src/physics/film/nucleation.rs.
 const CORE: f32 = 0.7;
 
 fn thickness_nm(place: u32) -> f32 {

@@ -15,6 +15,8 @@ import package::sphere::axes::perpendicular;
 override WIRE_SIDES: u32;
 // 1: what lies beyond the bubble's center. 0: the rest.
 override IS_FAR: u32;
+// What is drawn. 0: a wire. 1: the foot of a bubble. 2: the rim of a hole. 3: a drop. 4: droplets.
+override KIND: u32;
 
 // Mirrors `BodyValue` in src/gpu/passes/bodies.rs.
 struct Body {
@@ -59,6 +61,16 @@ fn surroundings(direction: vec3f, footprint: f32) -> vec3f {
     return light.seen * (crossing(1.0, direction.z, direction) * far);
 }
 
+struct BodyPoint {
+    @builtin(position) position: vec4f,
+    // From the eye to the thread's axis or to the droplet's middle.
+    @location(0) middle_m: vec3f,
+    // Along the thread's axis, not of unit length.
+    @location(1) along: vec3f,
+    // Radius of the thread or of the droplet.
+    @location(2) radius_m: f32,
+}
+
 // Whether a place, from the eye, belongs to the half that is drawn.
 fn is_drawn(place_m: vec3f, ray: vec3f) -> bool {
     return (dot(place_m - body.to_center_m, ray) > 0.0) == (IS_FAR == 1u);
@@ -75,13 +87,6 @@ struct Axis {
     point_m: vec3f,
     along: vec3f,
     radius_m: f32,
-}
-
-struct ThreadPoint {
-    @builtin(position) position: vec4f,
-    @location(0) point_m: vec3f,
-    @location(1) along: vec3f,
-    @location(2) radius_m: f32,
 }
 
 fn wire_axis(turn: f32) -> Axis {
@@ -109,11 +114,11 @@ fn across(along: vec3f, ray: vec3f) -> vec3f {
 }
 
 // A vertex of a ribbon at one of its ends.
-fn edge_of(axis: Axis, is_right: bool) -> ThreadPoint {
+fn edge_of(axis: Axis, is_right: bool) -> BodyPoint {
     // A pixel more on both sides, for the edges are smooth.
     let half_m = 1.1 * axis.radius_m + view.pixel_height * length(axis.point_m);
     let edge_m = axis.point_m + select(-half_m, half_m, is_right) * across(normalize(axis.along), normalize(axis.point_m));
-    return ThreadPoint(clip_position(view, edge_m), axis.point_m, axis.along, axis.radius_m);
+    return BodyPoint(clip_position(view, edge_m), axis.point_m, axis.along, axis.radius_m);
 }
 
 // Strips are of pieces, each with its first and its last vertex twice, so that those of the other half can be left out: corners in order.
@@ -121,12 +126,26 @@ fn corner_of(index: u32) -> u32 {
     return clamp(index % 6u, 1u, 4u) - 1u;
 }
 
-fn left_out() -> ThreadPoint {
-    return ThreadPoint(vec4f(2.0, 2.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0), 1.0);
+fn left_out() -> BodyPoint {
+    return BodyPoint(vec4f(2.0, 2.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0), 1.0);
 }
 
-@vertex
-fn along_wire(@builtin(vertex_index) index: u32) -> ThreadPoint {
+// A corner of a square that faces the eye.
+fn square_around(middle_m: vec3f, half_m: f32, corner: u32) -> BodyPoint {
+    let right = perpendicular(middle_m);
+    let up = cross(right, normalize(middle_m));
+    let side = vec2f(vec2u(corner & 1u, corner >> 1u)) * 2.0 - 1.0;
+    let corner_m = middle_m + half_m * (side.x * right + side.y * up);
+    return BodyPoint(clip_position(view, corner_m), middle_m, vec3f(0.0), half_m);
+}
+
+// What a pixel shows of a body: light from it, and the part of the pixel that it covers.
+struct Part {
+    seen: vec3f,
+    coverage: f32,
+}
+
+fn along_wire(index: u32) -> BodyPoint {
     let piece = f32(index / 6u);
     let middle_m = wire_axis(TAU * (piece + 0.5) / f32(WIRE_SIDES)).point_m;
     if (!is_drawn(middle_m, normalize(middle_m))) {
@@ -136,8 +155,7 @@ fn along_wire(@builtin(vertex_index) index: u32) -> ThreadPoint {
     return edge_of(wire_axis(TAU * (piece + f32(corner >> 1u)) / f32(WIRE_SIDES)), (corner & 1u) == 1u);
 }
 
-@vertex
-fn along_hole(@builtin(vertex_index) index: u32) -> ThreadPoint {
+fn along_hole(index: u32) -> BodyPoint {
     let corner = corner_of(index);
     let meridian = index / 6u + HOLE_MERIDIANS;
     let middle_m = 0.5 * (rim_place(meridian).xyz + rim_place(meridian + 1u).xyz);
@@ -158,11 +176,11 @@ struct OnThread {
     pixel: f32,
 }
 
-fn on_thread(point: ThreadPoint) -> OnThread {
+fn on_thread(point: BodyPoint) -> OnThread {
     let ray = normalize(view_plane(view, point.position.xy));
     let aside = across(normalize(point.along), ray);
-    let offset = -dot(point.point_m, aside) / point.radius_m;
-    let pixel = pixel_angle(view, ray) * length(point.point_m) / point.radius_m;
+    let offset = -dot(point.middle_m, aside) / point.radius_m;
+    let pixel = pixel_angle(view, ray) * length(point.middle_m) / point.radius_m;
     let coverage = clamp((1.0 - abs(offset)) / pixel + 0.5, 0.0, min(1.0, 2.0 / pixel));
     let facing = cross(aside, normalize(point.along));
     let toward_eye = select(facing, -facing, dot(facing, ray) > 0.0);
@@ -170,30 +188,25 @@ fn on_thread(point: ThreadPoint) -> OnThread {
     return OnThread(ray, coverage, inside * aside + sqrt(1.0 - inside * inside) * toward_eye, pixel);
 }
 
-fn over_behind(position: vec4f, seen: vec3f, coverage: f32) -> vec4f {
-    let behind = textureLoad(picture_behind, vec2u(position.xy), 0).rgb;
-    return vec4f(storable(mix(behind, seen, coverage)), 1.0);
-}
-
-@fragment
-fn wire(point: ThreadPoint) -> @location(0) vec4f {
+fn thread(point: BodyPoint) -> Part {
     let at = on_thread(point);
-    return over_behind(point.position, STEEL * surroundings(reflect(at.ray, at.normal), GRAIN_RAD), at.coverage);
+    if (KIND == 0u) {
+        return Part(at.coverage * STEEL * surroundings(reflect(at.ray, at.normal), GRAIN_RAD), at.coverage);
+    }
+    return Part(at.coverage * round_water(at.ray, at.normal, at.pixel), at.coverage);
 }
 
-@fragment
-fn water(point: ThreadPoint) -> @location(0) vec4f {
-    let at = on_thread(point);
-    return over_behind(point.position, round_water(at.ray, at.normal, at.pixel), at.coverage);
-}
-
-// What is seen through round water, a ball or a thread, where a ray enters it; a pixel is so many of its radii wide.
+// Light through a ball or a thread of water, from where a ray enters it. `pixel` is the width of a pixel over the radius.
 fn round_water(ray: vec3f, normal: vec3f, pixel: f32) -> vec3f {
     let inside = refract(ray, normal, 1.0 / WATER_INDEX);
     // Where it leaves: straight on across the round section.
     let exit = normal - 2.0 * dot(normal, inside) * inside;
     let leaving = refract(inside, -normalize(exit), WATER_INDEX);
-    let footprint = min(2.0 * pixel, 1.0);
+    return with_mirrored(ray, normal, leaving, min(2.0 * pixel, 1.0));
+}
+
+// Light that leaves water in a direction, and what its surface mirrors where the ray enters.
+fn with_mirrored(ray: vec3f, normal: vec3f, leaving: vec3f, footprint: f32) -> vec3f {
     let mirrored = 0.5 * dot(surface_reflectance(WATER_INDEX, -dot(ray, normal)), vec2f(1.0));
     return mix(surroundings(leaving, footprint), surroundings(reflect(ray, normal), footprint), mirrored);
 }
@@ -209,15 +222,12 @@ const SAMPLES: u32 = 3u;
 // How often light is reflected inside before it leaves, at most.
 const MAX_REFLECTIONS: u32 = 3u;
 
-// A square around it.
-@vertex
-fn around_drop(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let middle_m = body.to_rim_m - vec3f(0.0, 0.0, DROP_RIM * body.rim_m);
-    let right = perpendicular(middle_m);
-    let up = cross(right, normalize(middle_m));
-    let reach_m = 1.2 * DROP_HEIGHT * body.rim_m;
-    let side = vec2f(vec2u(index & 1u, index >> 1u)) * 2.0 - 1.0;
-    return clip_position(view, middle_m + reach_m * (side.x * right + side.y * up));
+fn drop_middle_m() -> vec3f {
+    return body.to_rim_m - vec3f(0.0, 0.0, DROP_RIM * body.rim_m);
+}
+
+fn around_drop(index: u32) -> BodyPoint {
+    return square_around(drop_middle_m(), 1.2 * DROP_HEIGHT * body.rim_m, index);
 }
 
 // Where a line is in the drop, by the distance along it, and the outward normals there. It misses where `enter` is not before `leave`.
@@ -271,18 +281,16 @@ fn drop_light(ray: vec3f, entry: vec3f, normal: vec3f, footprint: f32) -> vec3f 
         inside = reflect(inside, way.leave_normal);
     }
     leaving = select(inside, leaving, any(leaving != vec3f(0.0)));
-    let mirrored = 0.5 * dot(surface_reflectance(WATER_INDEX, -dot(ray, normal)), vec2f(1.0));
-    return mix(surroundings(leaving, footprint), surroundings(reflect(ray, normal), footprint), mirrored);
+    return with_mirrored(ray, normal, leaving, footprint);
 }
 
-@fragment
-fn drop(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let middle_m = body.to_rim_m - vec3f(0.0, 0.0, DROP_RIM * body.rim_m);
+fn drop(position: vec2f) -> Part {
+    let middle_m = drop_middle_m();
     var seen = vec3f(0.0);
     var covered = 0.0;
     for (var k = 0u; k < SAMPLES * SAMPLES; k++) {
         let offset = (vec2f(vec2u(k % SAMPLES, k / SAMPLES)) + 0.5) / f32(SAMPLES);
-        let ray = normalize(view_plane(view, floor(position.xy) + offset));
+        let ray = normalize(view_plane(view, floor(position) + offset));
         let met = chord(-middle_m / body.rim_m, ray);
         let place = -middle_m / body.rim_m + met.enter * ray;
         if (met.enter < met.leave && met.enter > 0.0 && is_drawn(body.rim_m * place + middle_m, ray)) {
@@ -292,24 +300,14 @@ fn drop(@builtin(position) position: vec4f) -> @location(0) vec4f {
             covered += 1.0;
         }
     }
-    let behind = textureLoad(picture_behind, vec2u(position.xy), 0).rgb;
     let samples = f32(SAMPLES * SAMPLES);
-    return vec4f(storable((seen + (samples - covered) * behind) / samples), 1.0);
+    return Part(seen / samples, covered / samples);
 }
 
 // ---- Spray: droplets leave the rim of a hole along the sphere and fly on straight, at a part of the rim's mean speed.
 
-struct DropletPoint {
-    @builtin(position) position: vec4f,
-    // From the eye to its middle.
-    @location(0) middle_m: vec3f,
-    @location(1) radius_m: f32,
-}
-
-@vertex
-fn around_droplet(@builtin(vertex_index) index: u32) -> DropletPoint {
+fn around_droplet(index: u32) -> BodyPoint {
     let droplet = droplets[index / 6u];
-    let corner = corner_of(index);
     let meridian = droplet.turn * f32(HOLE_MERIDIANS);
     let low = hole_rim[u32(meridian) % HOLE_MERIDIANS].outer_rad;
     let high = hole_rim[(u32(meridian) + 1u) % HOLE_MERIDIANS].outer_rad;
@@ -321,19 +319,16 @@ fn around_droplet(@builtin(vertex_index) index: u32) -> DropletPoint {
     let ahead = leaves.x * along - leaves.y * hole_middle.xyz;
     let flown = droplet.speed * (rim_rad - droplet.leaves_rad);
     let middle_m = body.to_center_m + body.radius_m * (body.to_world * (start + flown * ahead));
-    let ray = normalize(middle_m);
-    if (flown <= 0.0 || !is_drawn(middle_m, ray)) {
-        return DropletPoint(vec4f(2.0, 2.0, 0.0, 1.0), vec3f(0.0), 1.0);
+    if (flown <= 0.0 || !is_drawn(middle_m, normalize(middle_m))) {
+        return left_out();
     }
-    let right = perpendicular(ray);
     let half_m = 1.1 * droplet.radius_m + view.pixel_height * length(middle_m);
-    let side = vec2f(vec2u(corner & 1u, corner >> 1u)) * 2.0 - 1.0;
-    let corner_m = middle_m + half_m * (side.x * right + side.y * cross(right, ray));
-    return DropletPoint(clip_position(view, corner_m), middle_m, droplet.radius_m);
+    var point = square_around(middle_m, half_m, corner_of(index));
+    point.radius_m = droplet.radius_m;
+    return point;
 }
 
-@fragment
-fn droplet(point: DropletPoint) -> @location(0) vec4f {
+fn droplet(point: BodyPoint) -> Part {
     let ray = normalize(view_plane(view, point.position.xy));
     let aside = (dot(point.middle_m, ray) * ray - point.middle_m) / point.radius_m;
     let pixel = pixel_angle(view, ray) * length(point.middle_m) / point.radius_m;
@@ -342,5 +337,33 @@ fn droplet(point: DropletPoint) -> @location(0) vec4f {
     let coverage = inside * min(1.0, 3.14159265 / (pixel * pixel));
     let offset = aside * min(1.0, 0.95 / max(length(aside), 1e-6));
     let normal = offset - sqrt(max(1.0 - dot(offset, offset), 0.0)) * ray;
-    return over_behind(point.position, round_water(ray, normal, pixel), coverage);
+    return Part(coverage * round_water(ray, normal, pixel), coverage);
+}
+
+@vertex
+fn corner(@builtin(vertex_index) index: u32) -> BodyPoint {
+    if (KIND < 2u) {
+        return along_wire(index);
+    }
+    if (KIND == 2u) {
+        return along_hole(index);
+    }
+    if (KIND == 3u) {
+        return around_drop(index);
+    }
+    return around_droplet(index);
+}
+
+@fragment
+fn shade(point: BodyPoint) -> @location(0) vec4f {
+    var part: Part;
+    if (KIND < 3u) {
+        part = thread(point);
+    } else if (KIND == 3u) {
+        part = drop(point.position.xy);
+    } else {
+        part = droplet(point);
+    }
+    let behind = textureLoad(picture_behind, vec2u(point.position.xy), 0).rgb;
+    return vec4f(storable(part.seen + (1.0 - part.coverage) * behind), 1.0);
 }

@@ -5,6 +5,7 @@
 //! a scene that did not change plans nothing, a new exposure plans a tonemap, a film at rest is never stepped, and a film that is far away has
 //! fewer cells.
 
+mod bodies;
 mod checkpoints;
 mod crowd;
 mod detail;

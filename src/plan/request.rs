@@ -6,9 +6,10 @@ use glam::{DMat3, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BackdropKey, Body, BodyKind, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest,
-    LensSample, LentFilm, LightKey, Lighting, Moment, OpticsKey, PlateKey, QuadratureKey, Rendering, Shot, Story,
-    TableKey, TonemapKey,
+    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LensSample,
+    LentFilm, LightKey, Lighting, Moment, OpticsKey, PlateKey, QuadratureKey, Rendering, Shot, Story, TableKey,
+    TonemapKey,
+    bodies::bodies,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
@@ -398,36 +399,6 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         cap: cap(bubble),
         bodies: bodies(bubble, center_m, age.hole.is_some(), camera, shot),
     })
-}
-
-/// What is drawn at the film of a bubble at a place, of which any pixel can see something.
-fn bodies(bubble: &Bubble, center_m: DVec3, is_bursting: bool, camera: &CameraKey, shot: &Shot) -> Vec<Body> {
-    /// Reach from the middle of its rim of what a drop is drawn on, over the rim's radius.
-    const DROP_REACH: f64 = 2.7;
-    /// Half of how thick the part of a meniscus is that shines, m: water climbs six times as high.
-    const FOOT_M: f64 = 0.35e-3;
-    /// How far droplets fly, over the bubble's radius.
-    const SPRAY_REACH: f64 = 3.0;
-    let (rim_rad, radius_m) = (bubble.rim_deg.to_radians(), 1e-3 * bubble.radius_mm);
-    let (rim_m, wire_m) = (radius_m * rim_rad.sin(), 0.5e-3 * bubble.wire_mm);
-    let foot_m = FOOT_M.min(0.02 * radius_m);
-    let at_rim = match bubble.boundary {
-        Boundary::Ring if wire_m > 0.0 => Some((BodyKind::Wire { rim_rad, wire_m }, rim_m + 1.2 * wire_m)),
-        Boundary::Drop => Some((BodyKind::Drop { rim_rad }, DROP_REACH * rim_m)),
-        Boundary::Bath => Some((BodyKind::Foot { foot_m }, radius_m + 1.2 * foot_m)),
-        Boundary::Ring | Boundary::Free => None,
-    };
-    let rim_z = if bubble.boundary == Boundary::Bath { 0.0 } else { rim_rad.cos() };
-    let rim_center_m = center_m + radius_m * rim_z * DVec3::Z;
-    let at_rim = at_rim.map(|(kind, reach_m)| (kind, rim_center_m, reach_m));
-    let hole = [(BodyKind::HoleRim, center_m, 1.1 * radius_m), (BodyKind::Spray, center_m, SPRAY_REACH * radius_m)];
-    // A bath would mirror them.
-    let hole = hole.into_iter().filter(|_| is_bursting && bubble.boundary != Boundary::Bath);
-    let seen = |(kind, center_m, reach_m)| {
-        let bounds = bounds(camera, shot.size, center_m, reach_m)?;
-        Some(Body { kind, bounds })
-    };
-    at_rim.into_iter().chain(hole).filter_map(seen).collect()
 }
 
 /// Samples along a pixel's side of a film that ends on a ring or at a hole: its edge is not smoothed otherwise.

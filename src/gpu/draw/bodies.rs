@@ -1,7 +1,6 @@
 //! What is drawn at films, made ready.
 
-use std::f64::consts::FRAC_PI_2;
-
+use bytemuck::Zeroable;
 use glam::DVec3;
 
 use super::Shared;
@@ -11,12 +10,12 @@ use crate::{
         formats::radiance_format,
         kernel::Drawable,
         passes::{
-            bodies::{BodyOverrides, BodyValue, Droplet, Foot, HoleRim, Spray, WIRE_SIDES, WaterDrop, Wire},
+            bodies::{Bodies, BodyOverrides, BodyValue, Droplet, WIRE_SIDES},
             open_hole::OpenHole,
         },
     },
     physics::film::{HOLE_MERIDIANS, droplets},
-    plan::{Body, BodyKind, BubbleKey},
+    plan::{BodyKind, BubbleKey},
     scene::Quality,
 };
 
@@ -26,7 +25,7 @@ const PIECE: u32 = 6;
 fn value(bubble: &BubbleKey, kind: BodyKind, eye_m: DVec3) -> BodyValue {
     let (rim_rad, wire_m) = match kind {
         BodyKind::Wire { rim_rad, wire_m } => (rim_rad, wire_m),
-        BodyKind::Foot { foot_m } => (FRAC_PI_2, foot_m),
+        BodyKind::Foot { rim_rad, foot_m } => (rim_rad, foot_m),
         BodyKind::Drop { rim_rad } => (rim_rad, 0.0),
         BodyKind::HoleRim | BodyKind::Spray => (0.0, 0.0),
     };
@@ -43,8 +42,11 @@ fn value(bubble: &BubbleKey, kind: BodyKind, eye_m: DVec3) -> BodyValue {
     }
 }
 
-/// The droplets of a bubble that bursts.
-fn spray(bubble: &BubbleKey) -> Vec<Droplet> {
+/// The droplets of a bubble that bursts. Buffers hold at least one value: where there are none, it is never read.
+fn spray(bubble: &BubbleKey, kind: BodyKind) -> Vec<Droplet> {
+    if kind != BodyKind::Spray {
+        return vec![Droplet::zeroed()];
+    }
     let droplet = |found: crate::physics::film::Droplet| Droplet {
         turn: found.turn as f32,
         leaves_rad: found.leaves_rad as f32,
@@ -55,98 +57,46 @@ fn spray(bubble: &BubbleKey) -> Vec<Droplet> {
 }
 
 impl Shared<'_> {
-    /// Makes ready what lies beyond the bubble's center of a body, or the rest, with its number of vertices.
+    /// Makes a body ready: what of it lies beyond the bubble's center, and the rest, each with its number of vertices.
     pub(super) fn body(
         &self,
         gpu: &Gpu,
         (bubble, hole): (&BubbleKey, &OpenHole),
-        body: &Body,
-        is_far: bool,
-    ) -> Result<(Drawable, u32), GpuError> {
-        let Self { key, view, light, environment, .. } = self;
-        let format = radiance_format(key.full_precision);
-        let value = &gpu.storage("body", &[value(bubble, body.kind, key.camera.eye_m)]);
-        let shape = BodyOverrides { IS_FAR: is_far, ON_BATH: key.on_bath, FULL_PRECISION: key.full_precision };
-        // Smoother than `fast` has it: they are as sharp as mirrors and cover few pixels.
-        let (environment_sampler, environment) = (environment.sampler(Quality::Standard), &environment.view);
-        let (lit, lamps, light, picture_behind) = (light.lit, &light.lamps, &light.light, self.behind);
-        match body.kind {
-            BodyKind::Wire { .. } => {
-                let wire = Wire {
-                    shape,
-                    lit,
-                    view,
-                    light,
-                    environment,
-                    environment_sampler,
-                    lamps,
-                    body: value,
-                    picture_behind,
-                };
-                Ok((wire.along_wire(gpu, format)?, PIECE * WIRE_SIDES))
-            }
-            BodyKind::Foot { .. } => {
-                let foot = Foot {
-                    shape,
-                    lit,
-                    view,
-                    light,
-                    environment,
-                    environment_sampler,
-                    lamps,
-                    body: value,
-                    picture_behind,
-                };
-                Ok((foot.along_wire(gpu, format)?, PIECE * WIRE_SIDES))
-            }
-            BodyKind::Drop { .. } => {
-                let drop = WaterDrop {
-                    shape,
-                    lit,
-                    view,
-                    light,
-                    environment,
-                    environment_sampler,
-                    lamps,
-                    body: value,
-                    picture_behind,
-                };
-                Ok((drop.around_drop(gpu, format)?, 4))
-            }
-            BodyKind::HoleRim => {
-                let rim = HoleRim {
-                    shape,
-                    lit,
-                    view,
-                    light,
-                    environment,
-                    environment_sampler,
-                    lamps,
-                    body: value,
-                    picture_behind,
-                    hole_middle: &hole.middle,
-                    hole_rim: &hole.rim,
-                };
-                Ok((rim.along_hole(gpu, format)?, PIECE * HOLE_MERIDIANS as u32))
-            }
-            BodyKind::Spray => {
-                let droplets = spray(bubble);
-                let spray = Spray {
-                    shape,
-                    lit,
-                    view,
-                    light,
-                    environment,
-                    environment_sampler,
-                    lamps,
-                    body: value,
-                    picture_behind,
-                    hole_middle: &hole.middle,
-                    hole_rim: &hole.rim,
-                    droplets: &gpu.storage("droplets", &droplets),
-                };
-                Ok((spray.around_droplet(gpu, format)?, PIECE * droplets.len() as u32))
-            }
-        }
+        kind: BodyKind,
+    ) -> Result<[(Drawable, u32); 2], GpuError> {
+        let (key, droplets) = (self.key, spray(bubble, kind));
+        let body = gpu.storage("body", &[value(bubble, kind, key.camera.eye_m)]);
+        let droplet_buffer = gpu.storage("droplets", &droplets);
+        let (number, vertices) = match kind {
+            BodyKind::Wire { .. } => (0, PIECE * WIRE_SIDES),
+            BodyKind::Foot { .. } => (1, PIECE * WIRE_SIDES),
+            BodyKind::HoleRim => (2, PIECE * HOLE_MERIDIANS as u32),
+            BodyKind::Drop { .. } => (3, 4),
+            BodyKind::Spray => (4, PIECE * droplets.len() as u32),
+        };
+        let half = |is_far: bool| {
+            let bodies = Bodies {
+                shape: BodyOverrides {
+                    IS_FAR: is_far,
+                    KIND: number,
+                    ON_BATH: key.on_bath,
+                    FULL_PRECISION: key.full_precision,
+                },
+                lit: self.light.lit,
+                view: &self.view,
+                light: &self.light.light,
+                environment: &self.environment.view,
+                // Smoother than `fast` has it: bodies are as sharp as mirrors, and cover few pixels.
+                environment_sampler: self.environment.sampler(Quality::Standard),
+                lamps: &self.light.lamps,
+                body: &body,
+                picture_behind: self.behind,
+                hole_middle: &hole.middle,
+                hole_rim: &hole.rim,
+                droplets: &droplet_buffer,
+            };
+            Ok::<_, GpuError>((bodies.corner(gpu, radiance_format(key.full_precision))?, vertices))
+        };
+        Ok([half(true)?, half(false)?])
     }
 }

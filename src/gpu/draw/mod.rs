@@ -5,7 +5,7 @@ mod small;
 mod values;
 
 use super::{
-    composition::{Composition, PixelRect, Placed},
+    composition::{Composition, PixelRect, Placed, PlacedBody},
     device::{Gpu, GpuError},
     environment::Environment,
     film_atlas::FilmAtlas,
@@ -242,10 +242,7 @@ impl DrawPass {
             }
             let bodies = bubble.bodies.iter().zip(&placed.bodies);
             for (body, placed) in bodies.filter(|_| key.rendering == Rendering::Full) {
-                for (layer, is_far) in placed.layers.into_iter().zip([true, false]) {
-                    pass.layers[layer].behind.push(placed.rect.clone());
-                    pass.layers[layer].bodies.push(shared.body(gpu, (bubble, hole), body, is_far)?);
-                }
+                pass.add_body(placed, shared.body(gpu, (bubble, hole), body.kind)?);
             }
             pass.layers[placed.behind_layer].behind.push(placed.rect.clone());
             if !placed.among.is_empty() {
@@ -259,6 +256,14 @@ impl DrawPass {
             pass.layers[*layer].small.push(small);
         }
         Ok(pass)
+    }
+
+    /// Adds what is drawn of a body before its bubble, and after it.
+    fn add_body(&mut self, placed: &PlacedBody, halves: [(Drawable, u32); 2]) {
+        for (layer, half) in placed.layers.into_iter().zip(halves) {
+            self.layers[layer].behind.push(placed.rect.clone());
+            self.layers[layer].bodies.push(half);
+        }
     }
 
     /// Records some rows of the picture.

@@ -54,6 +54,8 @@ overrides! {
         const BACKDROP_IS_ENVIRONMENT: bool = false;
         /// Whether what lies beyond the bubble's center is drawn, or the rest.
         override IS_FAR: bool;
+        /// What is drawn: 0 a wire, 1 the foot of a bubble, 2 the rim of a hole, 3 a drop, 4 droplets.
+        override KIND: u32 in [0, 1, 2, 3, 4];
         /// Whether there is a bath.
         override ON_BATH: bool;
         /// Whether the linear picture is made in full precision.
@@ -64,66 +66,8 @@ overrides! {
 kernels! {
     pass bodies;
 
-    /// A wire.
-    struct Wire {
-        overrides shape: BodyOverrides;
-        overrides lit: LampOverrides;
-        @0 view: Uniform<ViewUniform>;
-        @1 light: Uniform<LightUniform>;
-        @2 environment: TextureCube;
-        @3 environment_sampler: Sampler;
-        @4 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
-        @5 body: Read<BodyValue>;
-        @6 picture_behind: Texture2d;
-    }
-    draw along_wire as wire;
-
-    /// The foot of a bubble on a bath.
-    struct Foot {
-        overrides shape: BodyOverrides;
-        overrides lit: LampOverrides;
-        @0 view: Uniform<ViewUniform>;
-        @1 light: Uniform<LightUniform>;
-        @2 environment: TextureCube;
-        @3 environment_sampler: Sampler;
-        @4 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
-        @5 body: Read<BodyValue>;
-        @6 picture_behind: Texture2d;
-    }
-    draw along_wire as water;
-
-    /// A drop of water.
-    struct WaterDrop {
-        overrides shape: BodyOverrides;
-        overrides lit: LampOverrides;
-        @0 view: Uniform<ViewUniform>;
-        @1 light: Uniform<LightUniform>;
-        @2 environment: TextureCube;
-        @3 environment_sampler: Sampler;
-        @4 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
-        @5 body: Read<BodyValue>;
-        @6 picture_behind: Texture2d;
-    }
-    draw around_drop as drop;
-
-    /// The rim of a hole.
-    struct HoleRim {
-        overrides shape: BodyOverrides;
-        overrides lit: LampOverrides;
-        @0 view: Uniform<ViewUniform>;
-        @1 light: Uniform<LightUniform>;
-        @2 environment: TextureCube;
-        @3 environment_sampler: Sampler;
-        @4 lamps: Uniform<[LampUniform; MAX_LAMPS]>;
-        @5 body: Read<BodyValue>;
-        @6 picture_behind: Texture2d;
-        @7 hole_middle: Read<[f32; 4]>;
-        @8 hole_rim: Read<[RimValue]>;
-    }
-    draw along_hole as water;
-
-    /// Droplets that fly off the rim of a hole.
-    struct Spray {
+    /// A body, or droplets, over what is behind.
+    struct Bodies {
         overrides shape: BodyOverrides;
         overrides lit: LampOverrides;
         @0 view: Uniform<ViewUniform>;
@@ -137,5 +81,5 @@ kernels! {
         @8 hole_rim: Read<[RimValue]>;
         @9 droplets: Read<[Droplet]>;
     }
-    draw around_droplet as droplet;
+    draw corner as shade;
 }

@@ -51,8 +51,8 @@
 //! ```
 //!
 //! Each term is an operation of [`model`], in a file of its own with its equation: the flow map (M1), (M2) for D/Dt; (M7) for ė; (M6) for D; (D1) and
-//! (D2) for drainage and [`Regeneration`]; (B1) and (B2) for black film; and (M3), (M4) for what all of them leave as it is, the amount of liquid. All but the
-//! first act at remaps, for the time since the one before.
+//! (D2) for drainage and [`Regeneration`]; (B1) and (B2) for black film and its [`Nucleus`]; and (M3), (M4) for what all of them leave as it is, the
+//! amount of liquid. All but the first act at remaps, for the time since the one before.
 //!
 //! A step, from t to t + dt, is [`FREE_STEP`](model::FREE_STEP), and a remap is [`REMAP`](model::REMAP).
 //!
@@ -73,7 +73,7 @@
 //!
 //! # Modules
 //!
-//! Closed forms first: [`InitialFilm`] (the elastic rest state, and freshly blown film), [`PrescribedFlow`], [`properties`], [`Hole`] (the burst), then the
+//! Closed forms first: [`InitialFilm`] (the elastic rest state, and freshly blown film), [`PrescribedFlow`], [`properties`], [`Hole`] (the burst) and its [`Droplet`]s, then the
 //! forces ([`Push`]) and laws ([`FlowLaw`]) of a film that moves by itself, and the [`model`].
 
 mod boundary;

@@ -66,7 +66,9 @@ pub enum BodyKind {
     },
     /// The foot of a bubble on a bath: the water that climbs at it.
     Foot {
-        /// How thick it is, its half, m.
+        /// Colatitude of the rim, radians.
+        rim_rad: f64,
+        /// Radius of the thread of water that shines there, m.
         foot_m: f64,
     },
     /// A drop of water that hangs from the film.

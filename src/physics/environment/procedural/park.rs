@@ -7,7 +7,7 @@
 //! | clear sky | 1 above, 3 at the horizon, 15 beside the sun | CIE standard clear sky (CIE S 011), sun 15° high |
 //! | clouds | 1.3 below, up to 7 where the sun meets them | albedo 0.8 in 40 klx, where the zenith has some 1.8 kcd/m² |
 //! | sun | 7 sr of the zenith in all | 40 klx, of which haze leaves a third |
-//! | foliage | 0.001 inside, 0.005 on average, 0.025 in the sun | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
+//! | foliage | 0.001 inside, 0.005 on average, 0.025 in the sun, 0.5 where sky shines through thin leaves | leaves reflect 5 % (Bowker et al. 1985, NASA RP-1139), and 1 to 2 % of the daylight reaches the inside of a forest (Chazdon and Fetcher 1984) |
 //! | meadow | 0.07 in shade, 0.12 in the sun | grass reflects 6 % (Bowker et al. 1985) |
 
 use std::sync::LazyLock;

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! It is the film *around* a cell that must be thin, and no cell counts there for more than makes a straight border stand still: borders then
-//! straighten, as a line under tension does (Merriman, Bence & Osher 1992), and black spots are round. Where silver film has a nucleus of black film
-//! in it (see [`Nucleus`]) it collapses too, so far within the nucleus's radius as s, a smooth step from its middle outwards, says:
+//! straighten, as a line under tension does (Merriman, Bence & Osher 1992), and black spots are round. Film thinner than [`NUCLEATION_NM`]
+//! collapses around a nucleus of black film too (see [`Nucleus`]). With s a smooth step from the nucleus's middle to its radius:
 //!
 //! ```text
 //! lost = max(h − h_b, 0) max(1 − e^(−k r t), s)                                                      (B2)
@@ -160,8 +160,8 @@ impl Collapse<'_> {
         let grid = self.tracer.grid();
         let x = grid.padded_direction(place);
         let new = self.law.nuclei.iter().take(MAX_NUCLEI).filter(|(_, age)| *age < self.ticks);
-        let is_silver = |middle: DVec3| self.thickness_nm(grid.padded_place(middle)) < NUCLEATION_NM;
-        new.filter(|(nucleus, _)| x.distance(nucleus.middle) < nucleus.radius && is_silver(nucleus.middle))
+        let has_nuclei = |middle: DVec3| self.thickness_nm(grid.padded_place(middle)) < NUCLEATION_NM;
+        new.filter(|(nucleus, _)| x.distance(nucleus.middle) < nucleus.radius && has_nuclei(nucleus.middle))
             .map(|(nucleus, _)| nucleus.collapsed(x))
             .fold(0.0, f64::max)
     }
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn a_nucleus_opens_a_round_spot_in_silver_film_and_none_in_thicker() {
+    fn a_nucleus_opens_a_round_spot_in_thin_film_and_none_in_thicker() {
         let (tracer, halo) = film(|x| if x.z > 0.0 { 100.0 } else { 200.0 });
         let nucleus = |middle: DVec3| Nucleus { middle, radius: 0.2 };
         let at = |middle: DVec3, age: u32| {
