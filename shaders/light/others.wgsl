@@ -38,21 +38,39 @@ fn mirrored_light(point: vec3f, direction: vec3f, footprint: f32) -> vec3f {
         }
     }
     var seen = surroundings(direction, footprint);
-    // The farther bubble first, and of each bubble the far wall, then the near one, unless the ray starts inside.
-    for (var wall = 0u; wall < 4u; wall++) {
-        var met = second;
-        if (wall > 1u) {
-            met = first;
-        }
-        let distance_m = select(met.chord.far_m, met.chord.near_m, (wall & 1u) == 1u);
-        if (distance_m > 0.0 && distance_m < FAR_M) {
-            let other = others[met.number];
-            let place = place_on(other, origin_m + distance_m * direction);
-            let step = surroundings(reflect(direction, place), footprint) - seen;
-            seen += reflected_light(other, place, met.chord.cos_theta, step);
-        }
+    for (var wall = next_wall(first, second, 0u); wall < 4u; wall = next_wall(first, second, wall + 1u)) {
+        let met = met_at(first, second, wall);
+        let other = others[met.number];
+        let place = place_on(other, origin_m + wall_distance_m(met, wall) * direction);
+        let step = surroundings(reflect(direction, place), footprint) - seen;
+        seen += reflected_light(other, place, met.chord.cos_theta, step);
     }
     return seen;
+}
+
+// The walls of the two nearest bubbles from behind: the far wall of the second, its near wall, then those of the first.
+fn met_at(first: Meeting, second: Meeting, wall: u32) -> Meeting {
+    var met = second;
+    if (wall > 1u) {
+        met = first;
+    }
+    return met;
+}
+
+fn wall_distance_m(met: Meeting, wall: u32) -> f32 {
+    return select(met.chord.far_m, met.chord.near_m, (wall & 1u) == 1u);
+}
+
+// The first wall from one on that lies on the ray: most rays meet none, and what is costly is done for the rest alone. A ray that starts inside a
+// bubble meets only its far wall.
+fn next_wall(first: Meeting, second: Meeting, from_wall: u32) -> u32 {
+    for (var wall = from_wall; wall < 4u; wall++) {
+        let distance_m = wall_distance_m(met_at(first, second, wall), wall);
+        if (distance_m > 0.0 && distance_m < FAR_M) {
+            return wall;
+        }
+    }
+    return 4u;
 }
 
 // What a wall of another bubble reflects of light, as light.
