@@ -42,7 +42,7 @@ struct Tile {
 @group(0) @binding(10) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(11) var picture_behind: texture_2d<f32>;
 
-// The whole picture; the pass cuts it to the tiles that have bubbles.
+// The whole picture, of which the pass draws the tiles that have bubbles.
 @vertex
 fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
@@ -170,9 +170,6 @@ fn small_bubbles(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy);
     let place = pixel / TILE;
     let tile = tiles[place.y * ((u32(view.width) + TILE - 1u) / TILE) + place.x];
-    if (tile.first == tile.end) {
-        discard;
-    }
     let behind = textureLoad(picture_behind, pixel, 0);
     let width = 1.0 / f32(SAMPLES);
     var total = vec3f(0.0);

@@ -280,14 +280,19 @@ impl DrawPass {
             BackdropDraw::Colour(colour) => (None, (rows.start == 0).then_some(*colour)),
         };
         let draw = |recorder: &mut Recorder<'_>, layer: &Layer, backdrop: Option<&Drawable>, clear| {
+            let small_parts = || layer.small.iter().flat_map(|small| small.parts(rows).map(|part| (&small.draw, part)));
             recorder.render("draw", &target.view, clear, |pass| {
                 pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
                 backdrop.into_iter().for_each(|backdrop| backdrop.draw(pass, 3));
                 layer.rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
-                layer.small.iter().for_each(|small| small.draw.draw(pass, 3));
                 layer.bodies.iter().for_each(|(body, vertices)| body.draw(pass, *vertices));
+                for (small, PixelRect { columns, rows }) in small_parts() {
+                    pass.set_scissor_rect(columns.start, rows.start, columns.len() as u32, rows.len() as u32);
+                    small.draw(pass, 3);
+                }
             });
-            let draws = usize::from(backdrop.is_some()) + layer.rings.len() + layer.small.len() + layer.bodies.len();
+            let draws =
+                usize::from(backdrop.is_some()) + layer.rings.len() + layer.bodies.len() + small_parts().count();
             recorder.counts.draws += draws as u64;
         };
         let Some((first, later)) = self.layers.split_first() else { return };

@@ -1,5 +1,7 @@
 //! Small bubbles of one layer and one material: which tiles show which of them.
 
+use std::ops::Range;
+
 use super::{Colours, Shared, values::max_small_samples};
 use crate::{
     gpu::{
@@ -46,12 +48,7 @@ impl TileLists {
                 ends[tile] += 1;
             }
         }
-        let rects = runs(&tiles, across);
-        let rects = rects.map(|[row, first, end]| PixelRect {
-            columns: first * TILE..(end * TILE).min(width),
-            rows: row * TILE..((row + 1) * TILE).min(height),
-        });
-        let rects = rects.collect();
+        let rects = rects_of(&tiles, across, [width, height]);
         Self { tiles, lists, rects }
     }
 
@@ -59,6 +56,26 @@ impl TileLists {
     fn most(&self) -> u32 {
         self.tiles.iter().map(|tile| tile.end - tile.first).max().unwrap_or(0)
     }
+}
+
+/// The pixels of all tiles that have bubbles, runs one below the other in one rectangle.
+fn rects_of(tiles: &[SmallTile], across: u32, [width, height]: [u32; 2]) -> Vec<PixelRect> {
+    let mut rects: Vec<PixelRect> = Vec::new();
+    // The last rectangle that begins in each column.
+    let mut last: Vec<Option<usize>> = vec![None; across as usize];
+    for [row, first, end] in runs(tiles, across) {
+        let columns = first * TILE..(end * TILE).min(width);
+        let rows = row * TILE..((row + 1) * TILE).min(height);
+        let above =
+            last[first as usize].filter(|rect| rects[*rect].rows.end == rows.start && rects[*rect].columns == columns);
+        if let Some(above) = above {
+            rects[above].rows.end = rows.end;
+        } else {
+            last[first as usize] = Some(rects.len());
+            rects.push(PixelRect { columns, rows });
+        }
+    }
+    rects
 }
 
 /// Tiles in a row that have bubbles: the row, the first column and the one after the last.
@@ -81,6 +98,13 @@ pub(super) struct SmallDraw {
     pub draw: Drawable,
     /// Pixels that show them.
     pub rects: Vec<PixelRect>,
+}
+
+impl SmallDraw {
+    /// The pixels that lie in some rows.
+    pub fn parts(&self, rows: &Range<u32>) -> impl Iterator<Item = PixelRect> {
+        self.rects.iter().filter_map(|rect| rect.within(rows))
+    }
 }
 
 impl Shared<'_> {
@@ -136,5 +160,14 @@ mod tests {
         assert_eq!(lists.most(), 3);
         assert_eq!(lists.rects, [rect(0..44, 0..16), rect(16..44, 16..32)]);
         assert!(TileLists::new(&[], [44, 32]).rects.is_empty());
+    }
+
+    #[test]
+    fn runs_of_tiles_that_lie_one_below_the_other_are_one_rectangle() {
+        let rect = |columns, rows| PixelRect { columns, rows };
+        let bubbles = [(0, rect(3..40, 0..40)), (1, rect(60..62, 17..31)), (2, rect(0..4, 50..60))];
+        let bubbles = bubbles.map(|(place, rect)| PlacedSmall { place, rect });
+        let lists = TileLists::new(&bubbles, [70, 60]);
+        assert_eq!(lists.rects, [rect(0..48, 0..48), rect(48..64, 16..32), rect(0..16, 48..60)]);
     }
 }
