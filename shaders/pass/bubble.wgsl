@@ -60,6 +60,8 @@ struct Bubble {
     rim_z: f32,
     // How much thicker the bubble is than the film shows.
     thickness_factor: f32,
+    // Sides of the polygons around the ring's edges.
+    sides: u32,
 }
 
 // The bubble's part of `lists`: the first, how many whose walls lie between its own, and with those that it mirrors only. They are no uniforms:
@@ -97,20 +99,26 @@ struct ListPart {
 @group(0) @binding(21) var backdrop_map: texture_cube<f32>;
 @group(0) @binding(22) var backdrop_sampler: sampler;
 
-// Sides of the polygons that rings are made of.
-override SIDES: u32;
-
-// A strip between two polygons around the direction to the center. Rings that share an edge compute its vertices alike, so that
-// every pixel belongs to one of them.
-@vertex
-fn ring(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+// A corner of the polygon around an edge of the ring.
+fn corner(number: u32, edge: vec2f) -> vec4f {
     let to_center = normalize(to_round(bubble.to_center_m));
     let right = perpendicular(to_center);
     let up = cross(right, to_center);
-    let turn = TAU * f32((index >> 1u) % SIDES) / f32(SIDES);
-    let edge = select(bubble.inner, bubble.outer, (index & 1u) == 1u);
+    let turn = TAU * f32(number % bubble.sides) / f32(bubble.sides);
     let ray = edge.x * to_center + edge.y * (cos(turn) * right + sin(turn) * up);
     return clip_position(view, from_round(ray));
+}
+
+// A strip between two polygons around the direction to the center, or the whole of the outer one, in a strip to and fro across it. Rings that share
+// an edge compute its vertices alike, so that every pixel belongs to one of them.
+@vertex
+fn ring(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    let half = index >> 1u;
+    let is_odd = (index & 1u) == 1u;
+    if (bubble.inner.y == 0.0) {
+        return corner(select(half, bubble.sides - 1u - half, is_odd), bubble.outer);
+    }
+    return corner(half, select(bubble.inner, bubble.outer, is_odd));
 }
 
 // The whole picture: what a bubble covers from inside.

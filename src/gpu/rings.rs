@@ -12,14 +12,19 @@ use crate::{
     scene::Quality,
 };
 
-/// Sides of the polygons that rings are made of.
-pub const SIDES: u32 = 96;
+/// How far the corners of the polygons that rings are made of lie beyond the circles that they touch, in pixels. Each side costs as many pixels as its
+/// triangles are long, since pixels beside a triangle are shaded along with it.
+const CORNER_PIXELS: f64 = 0.5;
+/// Sides of these polygons, at least and at most.
+const SIDES: [f64; 2] = [12.0, 512.0];
 
 /// A part of a bubble's picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
     /// Inner and outer edge: angle from the direction of the bubble's center, in radians, where the bubble is round. None: the whole picture.
     pub edges_rad: Option<[f64; 2]>,
+    /// Sides of the polygons around the edges: the same for all rings of a bubble, which join.
+    pub sides: u32,
     /// Inner reflections whose films are looked up: 1, 3, 7 or 11. After eleven, light is followed on: see `shaders/optics/walls.wgsl`.
     pub inner_reflections: u32,
     /// Samples along each side of a pixel, or in all where they stand in a line.
@@ -140,13 +145,31 @@ impl Care {
 impl Ring {
     /// The whole picture: what a bubble covers from inside.
     fn everywhere(inner_reflections: u32, samples: u32) -> Self {
-        Self { edges_rad: None, inner_reflections, samples, in_line: false, environment_taps: 1, outline: false }
+        Self {
+            edges_rad: None,
+            sides: 0,
+            inner_reflections,
+            samples,
+            in_line: false,
+            environment_taps: 1,
+            outline: false,
+        }
+    }
+
+    /// How many vertices its triangles have: see `ring` in `shaders/pass/bubble.wgsl`.
+    #[must_use]
+    pub fn vertices(&self) -> u32 {
+        match self.edges_rad {
+            None => 3,
+            Some([0.0, _]) => self.sides,
+            Some(_) => 2 * (self.sides + 1),
+        }
     }
 
     /// For the inner and the outer edge, a corner of the polygon around it: parts along the direction of the center and across.
     #[must_use]
     pub fn corners(&self) -> [[f32; 2]; 2] {
-        let half_side = std::f64::consts::PI / f64::from(SIDES);
+        let half_side = std::f64::consts::PI / f64::from(self.sides);
         self.edges_rad.unwrap_or_default().map(|angle| [angle.cos() * half_side.cos(), angle.sin()].map(|x| x as f32))
     }
 }
@@ -165,6 +188,12 @@ fn limb_rad(camera: &CameraKey, bubble: &BubbleKey) -> Option<f64> {
 /// The most that a pixel spans there, in radians: in the middle of the picture, less elsewhere.
 fn pixel_rad(camera: &CameraKey, bubble: &BubbleKey) -> f64 {
     camera.pixel_height_m * reach(bubble.stretch) * reach(bubble.stretch.inverse())
+}
+
+/// Sides of the polygons around an outline: as few as come near enough to it.
+fn sides(limb_rad: f64, pixel_rad: f64) -> u32 {
+    let half_side = (1.0 + CORNER_PIXELS * pixel_rad / limb_rad).recip().acos();
+    (std::f64::consts::PI / half_side).ceil().clamp(SIDES[0], SIDES[1]) as u32
 }
 
 /// The rings of a bubble, from the middle outwards, in surroundings of a contrast.
@@ -188,8 +217,10 @@ pub fn rings(
     let pixel_rad = pixel_rad(camera, bubble);
     let ring_rad = (limb_rad - care.limb_pixels(limb_rad / pixel_rad) * pixel_rad).max(0.0);
     let deep_rad = (deep_sin * limb_rad.sin()).asin().min(ring_rad);
+    let sides = sides(limb_rad, pixel_rad);
     let inner = |edges_rad: [f64; 2], inner_reflections: u32| Ring {
         edges_rad: Some(edges_rad),
+        sides,
         inner_reflections,
         samples: bubble.samples,
         in_line: false,
@@ -199,13 +230,13 @@ pub fn rings(
     let rings = [
         inner([0.0, deep_rad], care.middle_reflections),
         inner([deep_rad, ring_rad], care.deep_reflections),
-        limb_ring(bubble, &care, [ring_rad, limb_rad + MARGIN_PIXELS * pixel_rad]),
+        limb_ring(bubble, &care, [ring_rad, limb_rad + MARGIN_PIXELS * pixel_rad], sides),
     ];
     rings.into_iter().filter(|ring| ring.edges_rad.is_some_and(|[inner, outer]| outer > inner)).collect()
 }
 
 /// The outermost ring, which the outline crosses.
-fn limb_ring(bubble: &BubbleKey, care: &Care, edges_rad: [f64; 2]) -> Ring {
+fn limb_ring(bubble: &BubbleKey, care: &Care, edges_rad: [f64; 2], sides: u32) -> Ring {
     let (samples, in_line) = match care.limb_samples {
         LimbSamples::Line(samples) if is_sampled_in_line(bubble) => (samples, true),
         // As many samples as the line has.
@@ -214,6 +245,7 @@ fn limb_ring(bubble: &BubbleKey, care: &Care, edges_rad: [f64; 2]) -> Ring {
     };
     Ring {
         edges_rad: Some(edges_rad),
+        sides,
         inner_reflections: care.limb_reflections,
         samples,
         in_line,
@@ -245,8 +277,9 @@ pub fn middle_everywhere(camera: &CameraKey, bubble: &BubbleKey, middle: Ring) -
 #[must_use]
 pub fn disc(camera: &CameraKey, bubble: &BubbleKey) -> Ring {
     let Some(limb_rad) = limb_rad(camera, bubble) else { return Ring::everywhere(3, 1) };
-    let edges_rad = Some([0.0, limb_rad + MARGIN_PIXELS * pixel_rad(camera, bubble)]);
-    Ring { edges_rad, outline: true, ..Ring::everywhere(3, 1) }
+    let pixel_rad = pixel_rad(camera, bubble);
+    let edges_rad = Some([0.0, limb_rad + MARGIN_PIXELS * pixel_rad]);
+    Ring { edges_rad, sides: sides(limb_rad, pixel_rad), outline: true, ..Ring::everywhere(3, 1) }
 }
 
 #[cfg(test)]
@@ -286,6 +319,19 @@ mod tests {
             bodies: Vec::new(),
         };
         (camera, bubble)
+    }
+
+    #[test]
+    fn polygons_come_half_a_pixel_near_to_outlines_with_few_sides() {
+        let (mut camera, bubble) = seen(DMat3::IDENTITY);
+        for pixels in [8.0, 40.0, 300.0, 2000.0] {
+            camera.pixel_height_m = 0.1 / pixels;
+            let rings = rings(&camera, &bubble, Quality::Standard, &FilmMaterial::default(), 3.0);
+            let sides = f64::from(rings[0].sides);
+            assert!(rings.iter().all(|ring| ring.sides == rings[0].sides));
+            let beyond = |sides: f64| pixels * ((std::f64::consts::PI / sides).cos().recip() - 1.0);
+            assert!(beyond(sides) <= 0.51 && (sides == 12.0 || beyond(sides - 2.0) > 0.5), "{pixels}: {sides}");
+        }
     }
 
     #[test]

@@ -18,7 +18,7 @@ use super::{
         open_hole::OpenHole,
     },
     quadrature::Quadrature,
-    rings::{Ring, SIDES, disc, middle_everywhere, rings},
+    rings::{Ring, disc, middle_everywhere, rings},
     shown_film::{NoFilm, Shown},
     target::Target,
     timing::Recorder,
@@ -236,9 +236,8 @@ impl DrawPass {
             let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
             let first_other = shared.others.first[place];
             for ring in bubble_rings(key, lighting, bubble) {
-                let vertices = if ring.edges_rad.is_some() { 2 * (SIDES + 1) } else { 3 };
                 let drawn = Drawn { bubble, placed, first_other, ring: &ring, colours: &colours, film: &film, hole };
-                pass.layers[placed.layer].rings.push((shared.ring(gpu, &drawn)?, vertices));
+                pass.layers[placed.layer].rings.push((shared.ring(gpu, &drawn)?, ring.vertices()));
             }
             let bodies = bubble.bodies.iter().zip(&placed.bodies);
             for (body, placed) in bodies.filter(|_| key.rendering == Rendering::Full) {

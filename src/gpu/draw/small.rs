@@ -165,9 +165,9 @@ mod tests {
     #[test]
     fn runs_of_tiles_that_lie_one_below_the_other_are_one_rectangle() {
         let rect = |columns, rows| PixelRect { columns, rows };
-        let bubbles = [(0, rect(3..40, 0..40)), (1, rect(60..62, 17..31)), (2, rect(0..4, 50..60))];
+        let bubbles = [(0, rect(3..40, 0..40)), (1, rect(65..67, 17..31)), (2, rect(0..4, 50..60))];
         let bubbles = bubbles.map(|(place, rect)| PlacedSmall { place, rect });
         let lists = TileLists::new(&bubbles, [70, 60]);
-        assert_eq!(lists.rects, [rect(0..48, 0..48), rect(48..64, 16..32), rect(0..16, 48..60)]);
+        assert_eq!(lists.rects, [rect(0..48, 0..48), rect(64..70, 16..32), rect(0..16, 48..60)]);
     }
 }

@@ -182,7 +182,8 @@ pub(super) fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform 
         map_cells: shown.map_cells,
         rim_z: bubble.cap.map_or(-2.0, |cap| cap.rim_z as f32),
         thickness_factor: bubble.thickness_factor as f32,
-        padding: [0.0; 2],
+        sides: ring.sides,
+        padding: 0.0,
     }
 }
 

@@ -13,7 +13,6 @@ use crate::{
             shader_struct,
         },
         quadrature::{MAX_WAVELENGTHS, QuadratureOverrides, QuadratureSample},
-        rings::SIDES,
     },
     physics::{film::HOLE_MERIDIANS, transport::Scheme},
 };
@@ -55,8 +54,10 @@ shader_struct! {
         pub rim_z: f32,
         /// How much thicker the bubble is than the film shows.
         pub thickness_factor: f32,
+        /// Sides of the polygons around the ring's edges.
+        pub sides: u32,
         /// Fills 16 bytes.
-        pub padding: [f32; 2],
+        pub padding: f32,
     }
 }
 
@@ -107,7 +108,6 @@ shader_struct! {
 overrides! {
     /// The constants that distinguish rings. A film in a scene is moved as a flow map where it is looked up through one, and always limited.
     pub struct RingOverrides {
-        const SIDES: u32 = SIDES;
         const HOLE_MERIDIANS: u32 = HOLE_MERIDIANS as u32;
         const TAPS: u32 = Scheme::Map.taps();
         const LIMITER: bool = true;
