@@ -37,12 +37,17 @@ fn print_by(clock: Clock, renderer: &mut Renderer, size: [u32; 2], rounds: usize
         size[0],
         size[1]
     );
-    println!("\n{:<45}{:>8}{:>10}", "bubbles of equal area in all", "fast", "standard");
+    println!(
+        "\n{:<35}{:>10}{:>10}{:>10}{:>10}{:>10}",
+        "bubbles of equal area in all", "pixels", "fast", "ns/pixel", "standard", "ns/pixel"
+    );
     let base = planned_ms(renderer, clock, &with_bubbles(0, Quality::Fast), size, rounds);
     for count in [1, 100, 10_000] {
-        let costs =
+        let pixels = pixels_touched(count, size);
+        let [fast, standard] =
             QUALITIES.map(|quality| planned_ms(renderer, clock, &with_bubbles(count, quality), size, rounds) - base);
-        println!("{count:<45}{:>8.2}{:>10.2}", costs[0], costs[1]);
+        let [fast_ns, standard_ns] = [fast, standard].map(|ms| 1e6 * ms / pixels);
+        println!("{count:<35}{pixels:>10.0}{fast:>10.2}{fast_ns:>10.0}{standard:>10.2}{standard_ns:>10.0}");
     }
     let few = few_in_sight(size);
     let planned = planned_ms(renderer, clock, &few, size, rounds);
@@ -51,14 +56,18 @@ fn print_by(clock: Clock, renderer: &mut Renderer, size: [u32; 2], rounds: usize
     let alone = frame_ms(renderer, clock, &request, rounds);
     println!("\n{seen} of 10000 bubbles in sight: {planned:.2} ms; those alone, without planning: {alone:.2} ms");
     let large = size.map(|pixels| 3 * pixels);
-    let cloud = load("cloud");
-    let costs = [size, large].map(|size| planned_ms(renderer, clock, &cloud, size, rounds));
-    println!(
-        "the preset cloud: {:.2} ms; nine times the pixels: {:.2} ms, {:.1} times",
-        costs[0],
-        costs[1],
-        costs[1] / costs[0]
-    );
+    for name in ["tent", "cloud"] {
+        let scene = load(name);
+        let [cost, of_large] = [size, large].map(|size| planned_ms(renderer, clock, &scene, size, rounds));
+        let times = of_large / cost;
+        println!("the preset {name}: {cost:.2} ms; nine times the pixels: {of_large:.2} ms, {times:.1} times");
+    }
+}
+
+/// Pixels that bubbles on a lattice touch, each counted for each bubble: a disc of radius r touches π r² + 4 r of them.
+fn pixels_touched(count: u32, size: [u32; 2]) -> f64 {
+    let radius = RADIUS_PIXELS * f64::from(size[1]) / 720.0 / f64::from(count).sqrt();
+    f64::from(count) * (std::f64::consts::PI * radius.powi(2) + 4.0 * radius)
 }
 
 fn load(name: &str) -> LoadedScene {
