@@ -36,9 +36,6 @@ pub(super) fn thicknesses(film: &FilmKey, radius_pixels: f64) -> u32 {
 pub(super) fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
     let offset = center_m - camera.eye_m;
     let depth = offset.dot(camera.forward);
-    if depth < -radius_m {
-        return None;
-    }
     let half = size.map(|pixels| 0.5 * f64::from(pixels) * camera.pixel_height_m);
     let margin = DVec2::new(2.0 / f64::from(size[0]), 2.0 / f64::from(size[1]));
     // Clip coordinates point up.
@@ -50,13 +47,44 @@ pub(super) fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius
     (low.x < high.x && low.y < high.y).then_some([low, high])
 }
 
-/// Where the two lines from the eye that touch a circle cross the line one metre before it: the circle's projection.
-/// Everything if the circle reaches behind the eye.
+/// Where the two lines from the eye that touch a circle cross the line one metre before it: the circle's projection. One that turns to behind the eye
+/// crosses it at infinity, on the side of the circle; a circle around the eye covers everything.
 fn span(across: f64, depth: f64, radius: f64) -> [f64; 2] {
-    if depth <= radius {
+    let square = across * across + depth * depth - radius * radius;
+    if square <= 0.0 {
         return [f64::NEG_INFINITY, f64::INFINITY];
     }
-    let tangent = (across * across + depth * depth - radius * radius).sqrt();
-    let edge = |side: f64| (across * tangent + side * depth * radius) / (depth * tangent - side * across * radius);
-    [edge(-1.0), edge(1.0)]
+    let tangent = square.sqrt();
+    [-1.0, 1.0].map(|side| {
+        let (sine, cosine) = (across * tangent + side * depth * radius, depth * tangent - side * across * radius);
+        if cosine > 0.0 { sine / cosine } else { across.signum() * f64::INFINITY }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_beside_the_eye_is_seen_only_as_far_as_it_reaches_into_the_picture() {
+        let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
+        // Before the eye, on either side.
+        let [left, right] = span(0.0, 2.0, 1.0);
+        assert!((right - 3.0_f64.sqrt().recip()).abs() < 1e-12 && left == -right);
+        // Beside the eye and behind it, as seen by directions from 15 to 185, from 110 to 230 and from 91 to 131 degrees.
+        let circle = |middle_deg: f64, half_deg: f64| {
+            let (sine, cosine) = middle_deg.to_radians().sin_cos();
+            span(sine, cosine, half_deg.to_radians().sin())
+        };
+        let [near, far] = circle(100.0, 85.0);
+        assert!((near - 15_f64.to_radians().tan()).abs() < 1e-12 && far == high);
+        let [far, near] = circle(-100.0, 85.0);
+        assert!((near + 15_f64.to_radians().tan()).abs() < 1e-12 && far == low);
+        for behind in [circle(170.0, 60.0), circle(111.0, 20.0)] {
+            assert_eq!(behind, [high, high]);
+        }
+        assert_eq!(circle(-170.0, 60.0), [low, low]);
+        // The eye is inside.
+        assert_eq!(span(0.3, -0.2, 0.5), [low, high]);
+    }
 }
