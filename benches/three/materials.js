@@ -1,4 +1,5 @@
-// A sphere in materials of three.js, drawn again and again: what `run.mjs` measures. The canvas is on no page, so that nothing is composed.
+// A sphere in materials of three.js, or many of them, drawn again and again: what `run.mjs` measures. The canvas is on no page, so that nothing is
+// composed.
 
 import * as THREE from "three";
 
@@ -6,6 +7,8 @@ import * as THREE from "three";
 const RADIUS_M = 0.05;
 const DISTANCE_M = 0.1947;
 const FOV_Y_DEG = 30;
+// As the program's preset `origin`: spheres of 10 to 40 cm in a cube of 10 m, and the camera near its middle.
+const CROWD = { count: 500, seed: 1, size_m: 10, radii_m: [0.1, 0.4], distance_m: 3.2, fov_y_deg: 60 };
 
 /** Bright cloth with three lamps and a dark floor, as an equirectangular panorama. */
 function panorama() {
@@ -68,7 +71,30 @@ const MATERIALS = {
   "transmission, both sides": () => new THREE.MeshPhysicalMaterial({ ...IRIDESCENT, transmission: 1, thickness: 0, side: THREE.DoubleSide }),
 };
 
-/** Draws a sphere of a material, or nothing, a number of times, and waits until it is drawn. */
+/** Numbers from 0 to 1, the same in each run. */
+function* randomNumbers(seed) {
+  for (let state = seed; ; ) {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    yield state / 2 ** 32;
+  }
+}
+
+/** Spheres of one material that fill a cube. */
+function crowd(material) {
+  const numbers = randomNumbers(CROWD.seed);
+  const between = (low, high) => low + (high - low) * numbers.next().value;
+  const geometry = new THREE.SphereGeometry(1, 64, 32);
+  const group = new THREE.Group();
+  for (let number = 0; number < CROWD.count; number++) {
+    const sphere = new THREE.Mesh(geometry, material);
+    sphere.position.set(...[0, 1, 2].map(() => between(-CROWD.size_m / 2, CROWD.size_m / 2)));
+    sphere.scale.setScalar(between(...CROWD.radii_m));
+    group.add(sphere);
+  }
+  return group;
+}
+
+/** Draws a sphere of a material, many spheres or nothing, a number of times, and waits until it is drawn. */
 export function drawing(kind, [width, height]) {
   const renderer = new THREE.WebGLRenderer({ antialias: true });
   renderer.setSize(width, height, false);
@@ -77,13 +103,19 @@ export function drawing(kind, [width, height]) {
   scene.background = new THREE.Color(0.2, 0.2, 0.2);
   const light = panorama();
   scene.environment = new THREE.PMREMGenerator(renderer).fromEquirectangular(light).texture;
-  if (kind !== "nothing") {
-    const cube = new THREE.WebGLCubeRenderTarget(512, { type: THREE.HalfFloatType, generateMipmaps: true, minFilter: THREE.LinearMipmapLinearFilter });
-    if (kind === "fresnel") cube.fromEquirectangularTexture(renderer, light);
+  const cube = new THREE.WebGLCubeRenderTarget(512, { type: THREE.HalfFloatType, generateMipmaps: true, minFilter: THREE.LinearMipmapLinearFilter });
+  const camera = new THREE.PerspectiveCamera(FOV_Y_DEG, width / height, 0.01, 100);
+  camera.position.z = DISTANCE_M;
+  if (["fresnel", "crowd"].includes(kind)) cube.fromEquirectangularTexture(renderer, light);
+  if (kind === "crowd") {
+    scene.background = cube.texture;
+    scene.add(crowd(fresnelMaterial(cube.texture)));
+    camera.fov = CROWD.fov_y_deg;
+    camera.position.z = CROWD.distance_m;
+    camera.updateProjectionMatrix();
+  } else if (kind !== "nothing") {
     scene.add(new THREE.Mesh(new THREE.SphereGeometry(RADIUS_M, 64, 32), MATERIALS[kind](cube.texture)));
   }
-  const camera = new THREE.PerspectiveCamera(FOV_Y_DEG, width / height, 0.01, 10);
-  camera.position.z = DISTANCE_M;
   const gl = renderer.getContext();
   const pixel = new Uint8Array(4);
   return {
@@ -99,4 +131,4 @@ export function drawing(kind, [width, height]) {
   };
 }
 
-export const KINDS = ["nothing", ...Object.keys(MATERIALS)];
+export const KINDS = ["nothing", ...Object.keys(MATERIALS), "crowd"];

@@ -120,6 +120,7 @@ function framesOfOurs({ manifest }) {
     costs.mirror ??= cost.yardstick_cpu_ms_per_frame;
     costs[quality] = cost.cpu_ms_per_frame;
   }
+  costs.origin = measure("origin", "--quality", "fast").cpu_ms_per_frame;
   return costs;
 }
 
@@ -129,6 +130,7 @@ const PAIRS = [
   ["fast", "transmission"],
   ["standard", "transmission"],
   ["spectral", "transmission"],
+  ["origin", "crowd"],
 ];
 
 const server = await serve();
