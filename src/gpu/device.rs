@@ -123,12 +123,19 @@ impl Gpu {
         self.device.features().contains(wgpu::Features::TIMESTAMP_QUERY)
     }
 
-    /// Fails if the device was lost, or refused a command or a shader, since the last call.
+    /// Fails if the device was lost, ran out of memory, or refused a command or a shader, since the last call.
     pub fn check(&self) -> Result<(), GpuError> {
-        match self.failure.lock().map(|mut failure| failure.take()) {
-            Ok(Some(error)) => Err(error),
-            _ if self.is_lost() => Err(GpuError::Lost("make a new one".to_owned())),
-            _ => self.pipelines.late_error().map_or(Ok(()), |error| Err(error.into())),
+        let failure = self.failure.lock().map_or(None, |mut failure| failure.take());
+        if failure.is_some() {
+            // A lost device refuses everything. That it is lost is told when it is polled.
+            let _ = self.device.poll(wgpu::PollType::Poll);
+        }
+        if self.is_lost() {
+            return Err(GpuError::Lost("make a new one".to_owned()));
+        }
+        match failure {
+            Some(error) => Err(error),
+            None => self.pipelines.late_error().map_or(Ok(()), |error| Err(error.into())),
         }
     }
 
@@ -268,8 +275,13 @@ fn watch(device: &wgpu::Device, lost: &Arc<Loss>, failure: &Arc<Mutex<Option<Gpu
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
         let text = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
         log::error!("{text}");
+        let error = if matches!(error, wgpu::Error::OutOfMemory { .. }) {
+            GpuError::OutOfMemory
+        } else {
+            GpuError::Refused(text)
+        };
         if let Ok(mut failure) = failure.lock() {
-            failure.get_or_insert(GpuError::Refused(text));
+            failure.get_or_insert(error);
         }
     }));
 }

@@ -64,6 +64,11 @@ pub enum GpuError {
     /// The device went away while in use.
     #[error("the graphics device was lost: {0}")]
     Lost(String),
+    /// Something did not fit the device's memory any more.
+    #[error(
+        "the memory of the graphics device is full; make the picture smaller, lower `cells`, or show fewer bubbles"
+    )]
+    OutOfMemory,
     /// The driver refused something that the program recorded.
     #[error("the graphics driver refused a command: {0}")]
     Refused(String),

@@ -11,6 +11,7 @@ mod bursting;
 mod company;
 mod extremes;
 mod far;
+mod faults;
 mod film_model;
 mod flow;
 mod fuzz;

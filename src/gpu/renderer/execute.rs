@@ -1,6 +1,6 @@
 //! Runs the passes of a plan.
 
-use super::Renderer;
+use super::{Products, Renderer};
 use crate::{
     gpu::{device::GpuError, environment::Environment, plate::upload_plate},
     plan::{GpuState, Pass, Plan, Product, Work},
@@ -13,23 +13,28 @@ impl Renderer {
     }
 
     /// Runs the passes of such a plan, of which some are done already, until all are or it shall not go on after one of them. Returns how many are
-    /// done then; the state follows once all are.
-    pub fn execute_from(&mut self, plan: &Plan, done: usize, goes_on: impl Fn() -> bool) -> Result<usize, GpuError> {
-        if plan.is_empty() {
-            return Ok(0);
+    /// done then; the state follows once all are. After a failure the state is what is sure to be on the device still.
+    pub fn execute_from(
+        &mut self,
+        plan: &Plan,
+        mut done: usize,
+        goes_on: impl Fn() -> bool,
+    ) -> Result<usize, GpuError> {
+        match self.run_from(plan, &mut done, goes_on) {
+            Ok(()) if done == plan.steps.len() => self.enter(plan.after.clone()),
+            Ok(()) => {}
+            Err(error) => {
+                self.recover(plan, done);
+                return Err(error);
+            }
         }
-        let ran = self.run_from(plan, done, goes_on).and_then(|done| self.gpu.check().map(|()| done));
-        if !matches!(ran, Ok(done) if done < plan.steps.len()) {
-            self.enter(plan, ran.is_ok());
-        }
-        ran
+        Ok(done)
     }
 
-    /// Takes down what is on the device after a plan.
-    fn enter(&mut self, plan: &Plan, has_run: bool) {
+    /// Takes down what is on the device.
+    fn enter(&mut self, state: GpuState) {
         self.prepared.clear();
-        // After a failure the state is unknown: everything is recreated.
-        self.state = if has_run { plan.after.clone() } else { GpuState::default() };
+        self.state = state;
         self.products.keep(&self.state);
         for (field, film) in self.state.fields.iter_mut().zip(&self.products.films) {
             if let (Some(field), Some(film)) = (field, film) {
@@ -38,19 +43,33 @@ impl Renderer {
         }
     }
 
-    /// Runs the passes in order; equal steps that stand side by side are taken together.
-    fn run_from(&mut self, plan: &Plan, mut done: usize, goes_on: impl Fn() -> bool) -> Result<usize, GpuError> {
-        for passes in plan.steps[done..].chunk_by(|(pass, _), (next, _)| pass.steps_like(next)) {
+    /// Keeps what is sure to be as it should after the first pass of a plan that is not done has failed: all but the picture if only that was left
+    /// to make, else nothing. All is made again from the scene when it is needed.
+    fn recover(&mut self, plan: &Plan, done: usize) {
+        let lacks_picture = plan.steps[done..].iter().all(|(pass, _)| matches!(pass, Pass::Draw(_) | Pass::Tonemap(_)));
+        if lacks_picture && !self.gpu.is_lost() {
+            self.products.forget_pictures();
+            self.enter(GpuState { radiance: None, picture: None, ..plan.after.clone() });
+        } else {
+            self.products = Products::default();
+            self.enter(GpuState::default());
+        }
+    }
+
+    /// Runs the passes in order, and counts what is done; equal steps that stand side by side are taken together.
+    fn run_from(&mut self, plan: &Plan, done: &mut usize, goes_on: impl Fn() -> bool) -> Result<(), GpuError> {
+        for passes in plan.steps[*done..].chunk_by(|(pass, _), (next, _)| pass.steps_like(next)) {
             match passes {
                 [(pass, _)] => self.run(pass)?,
                 together => self.step(together.iter().map(|(pass, _)| pass))?,
             }
-            done += passes.len();
+            self.gpu.check()?;
+            *done += passes.len();
             if !goes_on() {
                 break;
             }
         }
-        Ok(done)
+        Ok(())
     }
 
     fn run(&mut self, pass: &Pass) -> Result<(), GpuError> {

@@ -72,6 +72,12 @@ struct FilmColours {
 }
 
 impl Products {
+    /// Drops all that pictures are made in.
+    fn forget_pictures(&mut self) {
+        (self.radiance, self.added, self.sum, self.picture) = (None, None, None, None);
+        (self.drawn, self.atlas, self.finished) = Default::default();
+    }
+
     /// Drops what the state no longer lists.
     fn keep(&mut self, state: &GpuState) {
         self.lights.truncate(state.lights.len());
