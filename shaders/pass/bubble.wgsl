@@ -20,8 +20,8 @@ import package::optics::walls::{product_of_colours, resolved, wavelength_radianc
 import package::sphere::axes::perpendicular;
 import package::sphere::hops::{Followed, Hop, followed, left_before, mirrored, reflected_inside};
 import package::sphere::others::OtherBubble;
-import package::sphere::path::{Path, footprint, polarisation_along, spanned_angles};
-import package::sphere::samples::{IN_LINE, SAMPLES, outward_in_picture, pixel_radiance};
+import package::sphere::path::{Path, PixelPart, WHOLE_PIXEL, footprint, polarisation_along, spanned_angles};
+import package::sphere::samples::{REFINED_SAMPLES, outward_in_picture, pixel_radiance};
 import package::sphere::trace::{eye_is_inside, from_round, outline, path_along, to_round};
 
 // 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
@@ -174,22 +174,31 @@ fn straight_through(path: Path, is_inside: bool) -> Followed {
     return Followed(Hop(back, path.direction), 0.0, left, behind);
 }
 
-// Width of the thicknesses that a sample spans, in nm: the change of the path in the film from pixel to pixel, which angles have a part in. Of samples
-// in a line each spans its part of the pixel along the line, and all of it across.
-fn spread_nm(path: Path, walls_nm: vec4f) -> vec4f {
+// How the optical path in the film changes from pixel to pixel at four hits in a row, in nm.
+struct Slopes {
+    across: vec4f,
+    down: vec4f,
+}
+
+// Those of the last sample that all pixels took.
+var<private> slopes: array<Slopes, 3>;
+
+// Width of the thicknesses that a sample spans at some four hits, in nm: the change of the path in the film, which angles have a part in, over the
+// part of the pixel.
+@diagnostic(off, derivative_uniformity)
+fn spread_nm(path: Path, walls_nm: vec4f, four: u32) -> vec4f {
     if (THICKNESSES == 1u) {
         return vec4f(0.0);
     }
     let cos_t = cos_refracted(axes.index, path.cos_theta);
-    let path_nm = cos_t * walls_nm;
-    let across = dpdx(path_nm);
-    let down = dpdy(path_nm);
-    if (IN_LINE == 0u) {
-        return sqrt(across * across + down * down) / (f32(SAMPLES) * cos_t);
+    if (REFINED_SAMPLES == 0u || path.part.is_everywhere) {
+        let path_nm = cos_t * walls_nm;
+        slopes[four] = Slopes(dpdx(path_nm), dpdy(path_nm));
     }
-    let line = outward_in_picture(path.position);
-    let along = (line.x * across + line.y * down) / f32(SAMPLES);
-    let beside = line.x * down - line.y * across;
+    let slope = slopes[four];
+    let line = path.part.line;
+    let along = path.part.size.x * (line.x * slope.across + line.y * slope.down);
+    let beside = path.part.size.y * (line.x * slope.down - line.y * slope.across);
     return sqrt(along * along + beside * beside) / cos_t;
 }
 
@@ -199,7 +208,7 @@ struct FourHits {
     last: Followed,
 }
 
-fn four_hits(path: Path, at: Followed) -> FourHits {
+fn four_hits(path: Path, at: Followed, four: u32) -> FourHits {
     let a = followed(path, at);
     let b = followed(path, a);
     let c = followed(path, b);
@@ -211,7 +220,7 @@ fn four_hits(path: Path, at: Followed) -> FourHits {
         optical_nm(c.hop.point, false),
     );
     let steps = mat4x3f(a.light - at.light, b.light - a.light, c.light - b.light, d.light - c.light);
-    return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), d);
+    return FourHits(Hits(walls_nm, spread_nm(path, walls_nm, four), steps), d);
 }
 
 // The first four hits: the front wall, which there is none of from inside the bubble, and three inside, or one.
@@ -238,7 +247,7 @@ fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
         let left = left_before(path) * crossing(front.z, outward.z, outward);
         steps[0] = left * seen[0] - behind;
     }
-    return FourHits(Hits(walls_nm, spread_nm(path, walls_nm), steps), last);
+    return FourHits(Hits(walls_nm, spread_nm(path, walls_nm, 0u), steps), last);
 }
 
 // The outer reflection and the first inner one: where they are, and where light goes from there.
@@ -278,13 +287,13 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     walls.first.steps = dimmed(walls.first.steps, passed.front, passed.back);
     var last = first.last;
     if (INNER > 3u) {
-        let second = four_hits(path, last);
+        let second = four_hits(path, last, 1u);
         walls.second = second.hits;
         walls.second.steps = dimmed(walls.second.steps, passed.back, passed.back);
         last = second.last;
     }
     if (INNER > 7u) {
-        let third = four_hits(path, last);
+        let third = four_hits(path, last, 2u);
         walls.third = third.hits;
         walls.third.steps = dimmed(walls.third.steps, passed.back, passed.back);
         last = third.last;
@@ -348,8 +357,8 @@ fn wall_reflection(path: Path, nm: f32, spread_nm: f32, polarisation: vec2f, ste
 }
 
 // What is seen of the bubble along a ray that is known to meet it.
-fn bubble_radiance(direction: vec3f, width: vec2f, position: vec2f) -> vec3f {
-    return film_radiance(path_along(direction, width, position), eye_is_inside());
+fn bubble_radiance(direction: vec3f, part: PixelPart, position: vec2f) -> vec3f {
+    return film_radiance(path_along(direction, part, position), eye_is_inside());
 }
 
 @fragment
@@ -366,7 +375,7 @@ fn shade_mirror(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if (edge.coverage <= 0.0) {
         return vec4f(storable(behind), 1.0);
     }
-    let path = path_along(edge.inside, vec2f(1.0), position.xy);
+    let path = path_along(edge.inside, WHOLE_PIXEL, position.xy);
     let direction = mirrored(path, path.foot - path.half_chord * path.round);
     let shown = light.seen * surroundings(direction, footprint(spanned_angles(path, direction, 2.0)));
     return vec4f(storable(mix(behind, shown, edge.coverage)), 1.0);

@@ -11,7 +11,7 @@ import package::optics::film_colour::{COLOURED, POLARISED};
 import package::optics::shares::between_walls;
 import package::optics::table::{FilmPoint, TableAxes, TablePlace, table_colour, table_place};
 import package::sphere::others::{OtherBubble, chord_through, other_nm};
-import package::sphere::path::{Path, footprint, polarisation_along, spanned_angles};
+import package::sphere::path::{Path, WHOLE_PIXEL, footprint, polarisation_along, spanned_angles};
 import package::sphere::silhouette::silhouette;
 
 // Side of a tile in pixels.
@@ -82,6 +82,7 @@ fn path_through(bubble: OtherBubble, direction: vec3f, pixel: f32) -> Path {
         -eye / distance,
         cross(direction, foot),
         vec2f(0.0),
+        WHOLE_PIXEL,
     );
 }
 

@@ -2,6 +2,18 @@
 
 import package::optics::film_colour::POLARISED;
 
+// The part of a pixel that a sample stands for.
+struct PixelPart {
+    // Unit vector in the picture, y down.
+    line: vec2f,
+    // Its size along the line and across, in pixels.
+    size: vec2f,
+    // Whether all pixels take the sample, so that derivatives can be taken; other samples use those of the one before.
+    is_everywhere: bool,
+}
+
+const WHOLE_PIXEL: PixelPart = PixelPart(vec2f(1.0, 0.0), vec2f(1.0), true);
+
 // A ray and the great circle that all its hits lie on. With the unit sphere at the origin a hit at normal n under direction v has
 // v . n = -+cos_theta, a chord has the length 2 cos_theta, and every reflection turns the ray by the same angle. An ellipsoid is met where
 // it is round, and turns rays by its true normals; the angle at the film is the mean of those at the first two walls.
@@ -26,6 +38,7 @@ struct Path {
     across: vec3f,
     // Where the ray is in the picture, in pixels.
     position: vec2f,
+    part: PixelPart,
 }
 
 // Angles that a sample spans of reflected directions: in the plane of incidence, where the sphere's curvature widens its spread, and across,

@@ -3,6 +3,7 @@
 // The pass that draws bubbles declares what this reads: `view`, `bubble`, and the functions `bubble_radiance` and `beside`.
 
 import package::camera::view::{pixel_angle, view_plane};
+import package::sphere::path::{PixelPart, WHOLE_PIXEL};
 import package::sphere::trace::outline;
 
 // Samples along each side of a pixel, or in all where they stand in a line: 1, or more near the outline, and for bubbles of a few pixels, whose film
@@ -10,13 +11,21 @@ import package::sphere::trace::outline;
 override SAMPLES: u32;
 // 1: the samples stand in a line through the pixel's middle, towards the bubble's center, along which a bubble shows most in a pixel.
 override IN_LINE: u32;
+// Samples along each side of a pixel that is unlike its neighbours, in place of the one. 0: all pixels have one.
+override REFINED_SAMPLES: u32;
 // 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
 override OUTLINE: u32;
 
+// How much of the span from black to white a pixel differs from its neighbours by if it takes more samples.
+const HIGH_CONTRAST: f32 = 0.15;
+
 // Light through a pixel.
 fn pixel_radiance(position: vec2f) -> vec3f {
+    if (REFINED_SAMPLES > 0u) {
+        return refined_radiance(position);
+    }
     if (SAMPLES == 1u) {
-        return sample_radiance(position, vec2f(1.0));
+        return sample_radiance(position, WHOLE_PIXEL);
     }
     if (IN_LINE == 1u) {
         return mean_in_line(position, SAMPLES);
@@ -24,18 +33,51 @@ fn pixel_radiance(position: vec2f) -> vec3f {
     return mean_radiance(position, SAMPLES);
 }
 
-// One sample: the bubble as far as it covers the sample's box, what is beside it in the rest. `width` is the box's, in pixels: towards the bubble's
-// center and across.
-fn sample_radiance(position: vec2f, width: vec2f) -> vec3f {
+// One sample: the bubble as far as it covers the sample's box, what is beside it in the rest.
+fn sample_radiance(position: vec2f, part: PixelPart) -> vec3f {
     let plane = view_plane(view, position);
     if (OUTLINE == 0u) {
-        return bubble_radiance(normalize(plane), width, position);
+        return bubble_radiance(normalize(plane), part, position);
     }
-    let edge = outline(plane, width.x);
+    let edge = outline(plane, part.size.x);
     // Not only where it is covered: derivatives need the neighbours.
-    let radiance = bubble_radiance(edge.inside, width, position);
+    let radiance = bubble_radiance(edge.inside, part, position);
     let ray = normalize(plane);
     return mix(beside(ray, pixel_angle(view, ray), position), radiance, edge.coverage);
+}
+
+// One sample, or the mean over a grid of several where the pixel is unlike its neighbours: a pixel differs from those that it shares derivatives with
+// where an edge crosses one of them. All derivatives are taken at the first sample, which all pixels take.
+@diagnostic(off, derivative_uniformity)
+fn refined_radiance(position: vec2f) -> vec3f {
+    let width = 1.0 / f32(REFINED_SAMPLES);
+    var part = WHOLE_PIXEL;
+    var place = position;
+    var total = vec3f(0.0);
+    // In one loop, so that the code of a sample stands once.
+    for (var k = 0u; k <= REFINED_SAMPLES * REFINED_SAMPLES; k++) {
+        let radiance = sample_radiance(place, part);
+        if (k == 0u) {
+            if (contrast(radiance) < HIGH_CONTRAST) {
+                return radiance;
+            }
+            part = PixelPart(vec2f(1.0, 0.0), vec2f(width), false);
+        } else {
+            total += radiance;
+        }
+        let cell = vec2u(k % REFINED_SAMPLES, k / REFINED_SAMPLES);
+        place = floor(position) + (vec2f(cell) + 0.5) * width;
+    }
+    return total * width * width;
+}
+
+// How much the pixels that share derivatives differ, as they are shown, over the span from black to white: the primary that differs most.
+@diagnostic(off, derivative_uniformity)
+fn contrast(radiance: vec3f) -> f32 {
+    let bounded = max(radiance, vec3f(0.0));
+    let shown = sqrt(bounded / (1.0 + bounded));
+    let change = fwidth(shown);
+    return max(change.x, max(change.y, change.z));
 }
 
 // The mean over a grid of samples in a pixel.
@@ -45,7 +87,7 @@ fn mean_radiance(position: vec2f, side: u32) -> vec3f {
     var total = vec3f(0.0);
     for (var k = 0u; k < side * side; k++) {
         let offset = vec2f(f32(k % side) + 0.5, f32(k / side) + 0.5) * width;
-        total += sample_radiance(corner + offset, vec2f(width));
+        total += sample_radiance(corner + offset, PixelPart(vec2f(1.0, 0.0), vec2f(width), true));
     }
     return total * width * width;
 }
@@ -57,7 +99,7 @@ fn mean_in_line(position: vec2f, count: u32) -> vec3f {
     var total = vec3f(0.0);
     for (var k = 0u; k < count; k++) {
         let offset = (f32(k) + 0.5) * width - 0.5;
-        total += sample_radiance(position + offset * along, vec2f(width, 1.0));
+        total += sample_radiance(position + offset * along, PixelPart(along, vec2f(width, 1.0), true));
     }
     return total * width;
 }

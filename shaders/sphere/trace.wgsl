@@ -4,7 +4,7 @@
 
 import package::camera::view::{View, pixel_angle};
 import package::sphere::axes::perpendicular;
-import package::sphere::path::Path;
+import package::sphere::path::{Path, PixelPart};
 import package::sphere::silhouette::{Silhouette, silhouette};
 
 // 1: the bubble is an ellipsoid. It is traced where it is round: `unstretch` takes the picture there, `stretch` back.
@@ -34,7 +34,7 @@ fn wall_normal(point: vec3f) -> vec3f {
 }
 
 // Geometry of a view ray that meets the sphere.
-fn path_along(direction: vec3f, width: vec2f, position: vec2f) -> Path {
+fn path_along(direction: vec3f, part: PixelPart, position: vec2f) -> Path {
     let eye = to_round(-bubble.to_center_m) / bubble.radius_m;
     var round = direction;
     if (STRETCHED == 1u) {
@@ -57,12 +57,13 @@ fn path_along(direction: vec3f, width: vec2f, position: vec2f) -> Path {
         foot,
         half_chord,
         cos_theta,
-        width * pixel_angle(view, direction),
+        part.size * pixel_angle(view, direction),
         abs(dot(eye, round)) / max(cos_theta, 1e-3),
         select(length(foot) / max(distance, 1e-6), 1.0, is_central),
         select(bubble.to_center_m / max(length(bubble.to_center_m), 1e-30), perpendicular(direction), is_central),
         cross(direction, to_round(foot)),
         position,
+        part,
     );
 }
 

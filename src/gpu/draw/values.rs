@@ -63,6 +63,7 @@ pub(super) fn ring_overrides(
         MAGNIFIED: bubble.magnified,
         SAMPLES: ring.samples.min(max_samples(colours.quadrature)),
         IN_LINE: ring.in_line,
+        REFINED_SAMPLES: ring.refined_samples,
         ENVIRONMENT_TAPS: ring.environment_taps,
         OUTLINE: ring.outline,
         THICKNESSES: bubble.thicknesses,

@@ -119,6 +119,8 @@ overrides! {
         override SAMPLES: u32 in [1, 4, 8];
         /// Whether the samples stand in a line.
         override IN_LINE: bool;
+        /// Samples along each side of a pixel that is unlike its neighbours; 0 if all have one.
+        override REFINED_SAMPLES: u32 in [0, 2];
         /// Lookups of the surroundings in a reflection, at most.
         override ENVIRONMENT_TAPS: u32 in [1, 4];
         /// Whether the bubble's outline crosses the ring.
