@@ -50,12 +50,13 @@ fn sample_radiance(position: vec2f, part: PixelPart) -> vec3f {
 // where an edge crosses one of them. All derivatives are taken at the first sample, which all pixels take.
 @diagnostic(off, derivative_uniformity)
 fn refined_radiance(position: vec2f) -> vec3f {
-    let width = 1.0 / f32(REFINED_SAMPLES);
+    let side = max(REFINED_SAMPLES, 1u);
+    let width = 1.0 / f32(side);
     var part = WHOLE_PIXEL;
     var place = position;
     var total = vec3f(0.0);
     // In one loop, so that the code of a sample stands once.
-    for (var k = 0u; k <= REFINED_SAMPLES * REFINED_SAMPLES; k++) {
+    for (var k = 0u; k <= side * side; k++) {
         let radiance = sample_radiance(place, part);
         if (k == 0u) {
             if (contrast(radiance) < HIGH_CONTRAST) {
@@ -65,7 +66,7 @@ fn refined_radiance(position: vec2f) -> vec3f {
         } else {
             total += radiance;
         }
-        let cell = vec2u(k % REFINED_SAMPLES, k / REFINED_SAMPLES);
+        let cell = vec2u(k % side, k / side);
         place = floor(position) + (vec2f(cell) + 0.5) * width;
     }
     return total * width * width;
