@@ -142,7 +142,9 @@ impl Story {
             SpectralLight { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
         let lighting = |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &films, are_many);
         let defocus_rad = lens.defocus * scene.lens.defocus_rad(seen_from);
-        let light = light(scene, resources, defocus_rad, &camera);
+        let height_m = f64::from(shot.size[1]) * camera.pixel_height_m;
+        let blur_rad = defocus_rad.max(smoothing_rad(resources.environment.size(), height_m));
+        let light = light(scene, resources, [defocus_rad, blur_rad], &camera);
         let draw = DrawKey {
             size: shot.size,
             full_precision: shot.full_precision,
@@ -222,7 +224,23 @@ fn plate(scene: &Scene, resources: &Resources, size: [u32; 2]) -> Option<PlateKe
     Some(PlateKey { plate, whole: size, corner: [0; 2], size })
 }
 
-fn light(scene: &Scene, resources: &Resources, defocus_rad: f64, camera: &CameraKey) -> LightKey {
+/// Texels of the environment over the height of a picture below which they would be seen as squares.
+const FEW_TEXELS: f64 = 160.0;
+/// Radius of the discs that they are spread over then, in texels.
+const SMOOTHING_TEXELS: f64 = 1.25;
+/// The same in radians, at most: what an environment of few texels is spread over.
+const MAX_SMOOTHING_RAD: f64 = 0.5;
+
+/// Half angle of the cones that an environment is averaged over behind the bubbles, in radians, so that no texels are seen; 0 where they are small. A face
+/// has `size` texels per side, and the picture covers a height on the plane one metre before the eye: whatever its pixels, it looks the same.
+fn smoothing_rad(size: usize, height_m: f64) -> f64 {
+    let texel_rad = 2.0 / size as f64;
+    // One texel per face has no neighbour on it to tell apart.
+    let shows_texels = size > 1 && height_m < FEW_TEXELS * texel_rad;
+    if shows_texels { (SMOOTHING_TEXELS * texel_rad).min(MAX_SMOOTHING_RAD) } else { 0.0 }
+}
+
+fn light(scene: &Scene, resources: &Resources, [defocus_rad, blur_rad]: [f64; 2], camera: &CameraKey) -> LightKey {
     // A constant environment is a white cube times this factor: exact, where texels of a cube would round.
     let constant = scene.light.constant.filter(|_| scene.light.lamps.is_empty());
     let constant = constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
@@ -244,6 +262,7 @@ fn light(scene: &Scene, resources: &Resources, defocus_rad: f64, camera: &Camera
         rotation_rad: scene.light.rotation_deg.to_radians(),
         backdrop,
         defocus_rad,
+        blur_rad,
     }
 }
 

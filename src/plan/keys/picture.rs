@@ -42,6 +42,8 @@ pub struct LightKey {
     pub backdrop: BackdropKey,
     /// Half angle of the cone that each point of the backdrop is spread over, out of the lens's focus, in radians; 0: it is sharp.
     pub defocus_rad: f64,
+    /// The same for all of it but lamps: where the picture magnifies the environment it is spread at least so far that no texels are seen.
+    pub blur_rad: f64,
 }
 
 /// How bubbles are drawn.
@@ -116,28 +118,28 @@ pub fn exposed_ev(exposure_ev: f64) -> i32 {
 }
 
 impl DrawKey {
-    /// What is seen of one of the lights behind the bubbles, where that is an environment out of focus.
+    /// What is seen of one of the lights behind the bubbles, where that is an environment out of focus or magnified.
     #[must_use]
     pub fn defocus(&self, Lighting { light, environment, .. }: &Lighting) -> Option<DefocusKey> {
         // Discs narrower than a texel leave the map as it is.
-        let is_sharp = light.defocus_rad * f64::from(environment.size()) < 1.0;
+        let is_sharp = light.blur_rad * f64::from(environment.size()) < 1.0;
         if light.backdrop != BackdropKey::Environment || is_sharp {
             return None;
         }
         // Tiles are interpolated across their edges: by less than two pixels, or than the radius of a disc.
-        let margin = 2.0 + self.disc_pixels(light.defocus_rad);
+        let margin = 2.0 + self.disc_pixels(light.blur_rad);
         let turned = DMat3::from_rotation_z(-light.rotation_rad);
         let corners = self.camera.corners(self.size, margin).map(|corner| turned * corner);
         let seen = CubeTiles::within(&corners);
         let mirrored = || CubeTiles::within(&corners.map(|corner| corner.with_z(-corner.z)));
         let tiles = if self.on_bath { seen.union(mirrored()) } else { seen };
-        Some(DefocusKey { environment: environment.clone(), half_angle_rad: light.defocus_rad, tiles })
+        Some(DefocusKey { environment: environment.clone(), half_angle_rad: light.blur_rad, tiles })
     }
 
     /// The radius of a disc out of focus in pixels, where the picture shows it largest: in its corners.
-    fn disc_pixels(&self, defocus_rad: f64) -> f64 {
+    fn disc_pixels(&self, blur_rad: f64) -> f64 {
         let farthest = self.camera.corners(self.size, 0.0).map(DVec3::length_squared).into_iter().fold(1.0, f64::max);
-        defocus_rad * farthest / self.camera.pixel_height_m
+        blur_rad * farthest / self.camera.pixel_height_m
     }
 
     /// All lights, the scene's own first.

@@ -29,7 +29,8 @@ fn a_lens_blurs_the_tiles_in_sight_once() {
     (scene.camera.azimuth_deg, scene.camera.elevation_deg) = (0.0, 0.0);
     let sharp = scene.clone();
     scene.lens.aperture_mm = 10.0;
-    let surroundings = Arc::new(CubeMap::from_fn(256, 1, |direction| direction.abs()));
+    // So many texels that none is seen where it is sharp.
+    let surroundings = Arc::new(CubeMap::from_fn(640, 1, |direction| direction.abs()));
     let resources = Resources { environment: surroundings, ..resources() };
     let made = |from: &GpuState, scene: &Scene| -> (Vec<(usize, bool)>, GpuState) {
         let plan = plan(&request(scene, &resources, &shot(0, Pace::Whole)).unwrap(), from);
@@ -55,6 +56,31 @@ fn a_lens_blurs_the_tiles_in_sight_once() {
     // Discs narrower than a texel.
     scene.lens.aperture_mm = 1e-6;
     assert_eq!(made(&start, &scene).0, vec![]);
+}
+
+#[test]
+fn an_environment_that_is_magnified_shows_no_texels() {
+    let mut scene = uniform_scene();
+    scene.view.backdrop = Backdrop::Environment;
+    let surroundings = |size| Arc::new(CubeMap::from_fn(size, 1, |direction| direction.abs()));
+    let seen = |scene: &Scene, texels: usize, pixels: u32| {
+        let resources = Resources { environment: surroundings(texels), ..resources() };
+        let shot = Shot { size: [16 * pixels, 9 * pixels], ..shot(0, Pace::Whole) };
+        let draw = request(scene, &resources, &shot).unwrap().picture.draw;
+        (draw.defocus(&draw.lighting).map(|key| key.half_angle_rad), draw.lighting.light.defocus_rad)
+    };
+    scene.camera.fov_y_deg = 30.0;
+    // As wide whatever the pixels, so that stills of many samples look the same. Lamps stay sharp.
+    assert_eq!(seen(&scene, 64, 4), (Some(2.5 / 64.0), 0.0));
+    assert_eq!(seen(&scene, 64, 40), seen(&scene, 64, 4));
+    assert_eq!(seen(&scene, 2, 4).0, Some(0.5));
+    assert_eq!(seen(&scene, 1, 4).0, None);
+    scene.camera.fov_y_deg = 140.0;
+    assert_eq!(seen(&scene, 64, 4).0, None);
+    // A lens that spreads it farther does so.
+    (scene.camera.fov_y_deg, scene.lens.aperture_mm) = (30.0, 100.0);
+    let (blur_rad, defocus_rad) = seen(&scene, 64, 4);
+    assert!(defocus_rad > 2.5 / 64.0 && blur_rad == Some(defocus_rad));
 }
 
 #[test]
