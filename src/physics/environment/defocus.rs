@@ -15,7 +15,7 @@ use crate::{parallel, physics::bulk};
 
 use super::{CubeFace, CubeMap, CubeTile, CubeTiles, Repairs, TILES_PER_EDGE, Texel, mip, texel::texels_of};
 
-/// Texels of the source across half a disc, at least: rows that the disc's outline is made of.
+/// Rows across half a disc, at least, that its outline is made of: of texels of the source, or of parts of them.
 const SOURCE_TEXELS: f64 = 6.0;
 /// Texels of the result across half a disc: its edge is an eighth of its radius wide.
 const RESULT_TEXELS: f64 = 8.0;
@@ -164,14 +164,20 @@ impl Sums {
         let square = cos * cos - axis.x * axis.x;
         let per_square = self.per_unit / square;
         let mut sum = DVec4::ZERO;
+        let step = (bottom - top) / (2.0 * SOURCE_TEXELS);
         for row in top as usize..(bottom.ceil() as usize).min(self.width) {
             let (start, end) = (top.max(row as f64), bottom.min((row + 1) as f64));
-            let t = (0.5 * (start + end) - self.middle) / self.per_unit;
-            let across = t * axis.y + axis.z;
-            let half = axis.x * across;
-            let root = (half * half - square * (cos * cos * (t * t + 1.0) - across * across)).max(0.0).sqrt();
-            let [left, right] = [half - root, half + root].map(|s| s * per_square + self.middle);
-            sum += (end - start) * (self.until(row, right) - self.until(row, left));
+            // Small discs lie in few rows, and take several intervals in each.
+            let parts = ((end - start) / step).ceil().max(1.0) as usize;
+            let height = (end - start) / parts as f64;
+            for part in 0..parts {
+                let t = (start + (part as f64 + 0.5) * height - self.middle) / self.per_unit;
+                let across = t * axis.y + axis.z;
+                let half = axis.x * across;
+                let root = (half * half - square * (cos * cos * (t * t + 1.0) - across * across)).max(0.0).sqrt();
+                let [left, right] = [half - root, half + root].map(|s| s * per_square + self.middle);
+                sum += height * (self.until(row, right) - self.until(row, left));
+            }
         }
         sum
     }
