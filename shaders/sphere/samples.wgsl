@@ -16,7 +16,7 @@ override REFINED_SAMPLES: u32;
 // 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
 override OUTLINE: u32;
 
-// How much of the span from black to white a pixel differs from its neighbours by if it takes more samples.
+// A pixel takes more samples if it differs from its neighbours by more than this part of the span from black to white.
 const HIGH_CONTRAST: f32 = 0.15;
 
 // Light through a pixel.

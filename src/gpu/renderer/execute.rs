@@ -20,6 +20,9 @@ impl Renderer {
         mut done: usize,
         goes_on: impl Fn() -> bool,
     ) -> Result<usize, GpuError> {
+        if plan.is_empty() {
+            return Ok(0);
+        }
         match self.run_from(plan, &mut done, goes_on) {
             Ok(()) if done == plan.steps.len() => self.enter(plan.after.clone()),
             Ok(()) => {}
@@ -43,8 +46,8 @@ impl Renderer {
         }
     }
 
-    /// Keeps what is sure to be as it should after the first pass of a plan that is not done has failed: all but the picture if only that was left
-    /// to make, else nothing. All is made again from the scene when it is needed.
+    /// After a pass has failed: where only the picture was left to make, all else is kept, otherwise nothing. What is gone is made again from the
+    /// scene when it is needed.
     fn recover(&mut self, plan: &Plan, done: usize) {
         let lacks_picture = plan.steps[done..].iter().all(|(pass, _)| matches!(pass, Pass::Draw(_) | Pass::Tonemap(_)));
         if lacks_picture && !self.gpu.is_lost() {
