@@ -19,6 +19,8 @@ override TILE: u32;
 // Samples along each side of a pixel.
 override SAMPLES: u32;
 
+// 1: light that is reflected three times inside is looked up too.
+override THRICE: u32;
 // 1: a bubble is a mirror with one environment lookup, the yardstick of the frame's cost.
 override YARDSTICK: u32;
 
@@ -129,9 +131,12 @@ fn through_bubble(bubble: OtherBubble, path: Path, behind: vec3f) -> vec3f {
     let light_behind = light.unseen * behind;
     let seen_inward = surroundings(path, inward, -2.0);
     let seen_twice = surroundings(path, twice, -4.0);
-    // One reflection more, by the mean reflectance over all thicknesses of s light, which outlasts p.
-    let r2 = surface_reflectance(axes.index, path.cos_theta).x;
-    let more = 2.0 * r2 / (1.0 + r2) * (surroundings(path, thrice, -6.0) - seen_twice);
+    var more = vec3f(0.0);
+    if (THRICE == 1u) {
+        // One reflection more, by the mean reflectance over all thicknesses of s light, which outlasts p.
+        let r2 = surface_reflectance(axes.index, path.cos_theta).x;
+        more = 2.0 * r2 / (1.0 + r2) * (surroundings(path, thrice, -6.0) - seen_twice);
+    }
     let outer = wall_colours(path, other_nm(films, bubble, front));
     let inner = wall_colours(path, other_nm(films, bubble, back));
     let third = wall_colours(path, other_nm(films, bubble, next));

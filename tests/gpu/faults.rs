@@ -1,7 +1,7 @@
 //! What is lost when a device fails in the middle of a frame: the frame, and nothing that cannot be made again.
 
 use soapfilm::{
-    gpu::{Gpu, GpuError, Renderer},
+    gpu::{Gpu, GpuError, Renderer, passes::bubble::OtherBubble},
     input::LoadedScene,
     plan::{FrameRequest, Plan},
 };
@@ -109,4 +109,27 @@ fn a_lost_device_costs_a_frame_and_another_makes_the_same_picture() {
         let mut another = Renderer::new(pollster::block_on(renderer.gpu.another()).unwrap());
         assert!(display(&mut another, &late) == truth);
     }
+}
+
+#[test]
+fn more_bubbles_than_the_device_can_hold_are_refused_and_fewer_are_drawn() {
+    let Some(mut renderer) = gpu().map(Renderer::new) else { return };
+    let loaded = load("cloud");
+    let fits = still(&loaded, SIZE, 0.0);
+    let small = fits.picture.draw.small.clone();
+    let many = renderer.gpu.most_values::<OtherBubble>() as usize + 1;
+    let mut too_many = fits.clone();
+    too_many.picture.draw.small = small.iter().copied().cycle().take(many).collect();
+    let error = renderer.render(&too_many).map(|plan| passes(&plan)).unwrap_err();
+    assert!(matches!(error, GpuError::TooManyBubbles { count, .. } if count == many), "{error}");
+    assert!(renderer.render(&fits).unwrap().complete);
+}
+
+#[test]
+fn a_picture_larger_than_textures_is_refused_before_anything_is_made_for_it() {
+    let Some(gpu) = gpu() else { return };
+    let side = gpu.device.limits().max_texture_dimension_2d;
+    assert!(gpu.check_picture_size([side, 1]).is_ok());
+    let error = gpu.check_picture_size([1, side + 1]).unwrap_err();
+    assert!(error.to_string().contains(&format!("1x{} pixels does not fit", side + 1)), "{error}");
 }

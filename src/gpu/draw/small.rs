@@ -15,6 +15,7 @@ use crate::{
         },
     },
     plan::Rendering,
+    scene::Quality,
 };
 
 /// The bubbles of each tile of a picture, as the shader reads them.
@@ -121,6 +122,7 @@ impl Shared<'_> {
         let small = SmallBubbles {
             SAMPLES: max_small_samples(key, films.quadrature.quality, lists.most()),
             FULL_PRECISION: key.full_precision,
+            THRICE: films.quadrature.quality != Quality::Fast,
             YARDSTICK: key.rendering == Rendering::Yardstick,
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: self.lighting.light.polariser.is_some() },
             lit: self.light.lit,

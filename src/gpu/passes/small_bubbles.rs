@@ -33,6 +33,7 @@ kernels! {
         const BACKDROP_IS_ENVIRONMENT: bool = false;
         override SAMPLES: u32 in [1, 4];
         override FULL_PRECISION: bool;
+        override THRICE: bool;
         override YARDSTICK: bool;
         overrides table_kind: TableOverrides;
         overrides lit: LampOverrides;
