@@ -227,13 +227,15 @@ pub fn rings(
     let ring_rad = (limb_rad - care.limb_pixels(limb_rad / pixel_rad) * pixel_rad).max(0.0);
     let deep_rad = (deep_sin * limb_rad.sin()).asin().min(ring_rad);
     let sides = sides(limb_rad, pixel_rad);
+    // Where cells are larger than pixels, pixels are small, and each sample is costly.
+    let refined_samples = if bubble.samples == 1 && !bubble.magnified { care.refined_samples } else { 0 };
     let inner = |edges_rad: [f64; 2], inner_reflections: u32| Ring {
         edges_rad: Some(edges_rad),
         sides,
         inner_reflections,
         samples: bubble.samples,
         in_line: false,
-        refined_samples: if bubble.samples == 1 { care.refined_samples } else { 0 },
+        refined_samples,
         environment_taps: environment_taps(bubble),
         outline: false,
     };
