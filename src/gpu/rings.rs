@@ -1,16 +1,16 @@
 //! The rings that a bubble's disc is drawn in. Towards its outline light grazes the film, stays inside for more reflections, and changes
 //! faster than pixels do: rings there follow more reflections and take more samples, and the middle does not pay for it.
 
+mod care;
+
 use glam::DMat3;
 
 use crate::{
-    physics::{
-        bubble::reach,
-        optics::{FilmMaterial, WATER_INDEX, max_reflectance},
-    },
-    plan::{BubbleKey, CameraKey, QuadratureKey},
+    physics::{bubble::reach, optics::FilmMaterial},
+    plan::{BubbleKey, CameraKey},
     scene::Quality,
 };
+use care::{Care, LimbSamples};
 
 /// How far the corners of the polygons that rings are made of lie beyond the circles that they touch, in pixels. Each side costs as many pixels as its
 /// triangles are long, since pixels beside a triangle are shaded along with it.
@@ -23,7 +23,7 @@ const SIDES: [f64; 2] = [12.0, 512.0];
 pub struct Ring {
     /// Inner and outer edge: angle from the direction of the bubble's center, in radians, where the bubble is round. None: the whole picture.
     pub edges_rad: Option<[f64; 2]>,
-    /// Sides of the polygons around the edges: the same for all rings of a bubble, which join.
+    /// Sides of the polygons around the edges. All rings of a bubble have as many, so that they join without gaps.
     pub sides: u32,
     /// Inner reflections whose films are looked up: 1, 3, 7 or 11. After eleven, light is followed on: see `shaders/optics/walls.wgsl`.
     pub inner_reflections: u32,
@@ -39,123 +39,18 @@ pub struct Ring {
     pub outline: bool,
 }
 
-/// A film that reflects as much at every angle as water does at this cosine of incidence is a mirror that keeps light for long: from index 2.
-const MIRROR_COS: f64 = 0.35;
-
-/// How accurately a quality treats what is near the limb.
-struct Care {
-    /// Inner reflections that are followed in the middle.
-    middle_reflections: u32,
-    /// Samples along each side of a pixel that is unlike its neighbours, in place of the one; 0 if all have one.
-    refined_samples: u32,
-    /// Cosine of incidence below which more inner reflections are followed.
-    deep_cos: f64,
-    /// How many there.
-    deep_reflections: u32,
-    /// How many in the ring at the limb.
-    limb_reflections: u32,
-    /// Samples of a pixel there.
-    limb_samples: LimbSamples,
-    /// The ring begins where a reflection turns by this angle from pixel to pixel, in radians; if that is infinite, as far from the limb as [`Care::least_limb_pixels`].
-    limb_turn_rad: f64,
-}
-
-/// Where samples are at the limb.
-#[derive(Clone, Copy)]
-enum LimbSamples {
-    /// On a grid, with this number of samples along each side of a pixel.
-    Grid(u32),
-    /// In a line towards the center, along which a bubble changes most: this number of samples, in place of its square on a grid.
-    Line(u32),
-}
-
 /// Lookups of the surroundings in a reflection, at most. Pixels span more of them in the plane of incidence than across it: twice as much at a
 /// cosine of incidence of 0.7, and eight times at 0.35.
 const ENVIRONMENT_TAPS: u32 = 4;
-/// Samples along each side of a pixel that is unlike its neighbours. They bring 2 to 3 dB to pictures of trees and windows for a third of a frame's
-/// cost more; four in a line across the edge bring less for as much.
-const REFINED_SAMPLES: u32 = 2;
-/// Width of the outermost ring, in pixels, at least: beyond it the cosine of incidence changes by a tenth at most from pixel to pixel. Where the ring's
-/// pixels take many samples, on a grid, it is narrower, and beyond it the cosine changes by a sixth.
-const LIMB_PIXELS: f64 = 5.0;
-const LIMB_PIXELS_OF_GRID: f64 = 3.0;
-/// Contrast of the surroundings from which light is hard: black before it shows what is wrong with the edges of lamps, and with what films reflect
-/// several times. Cloth and sky have 3; windows of a dark room and trees before the sky have 200, and more samples there would not bring them nearer
-/// to the truth; lamps before black velvet have a thousand.
-const HARD_CONTRAST: f64 = 300.0;
 /// How far outside the outline a pixel may have its center and still be crossed by it, in pixels.
 const MARGIN_PIXELS: f64 = 1.0;
-
-impl Care {
-    /// Denser films mirror more at every angle: what water leaves near the outline, they leave further inside.
-    fn of(quality: Quality, film: &FilmMaterial, contrast: f64) -> Self {
-        let mut care = if contrast < HARD_CONTRAST { Self::of_water(quality) } else { Self::in_hard_light(quality) };
-        if film.reference_index() > QuadratureKey::MAX_FACTOR_INDEX {
-            care.middle_reflections = 3;
-        }
-        if film.max_reflectance(1.0) >= max_reflectance(WATER_INDEX, MIRROR_COS) {
-            let reflections = if quality == Quality::Fast { 7 } else { 11 };
-            return Self { deep_cos: 1.0, deep_reflections: reflections, limb_reflections: reflections, ..care };
-        }
-        let enough = max_reflectance(WATER_INDEX, care.deep_cos);
-        let cosines = (0..=100).map(|k| 0.01 * f64::from(k));
-        let deep_cos = cosines.filter(|cos| film.max_reflectance(*cos) >= enough).fold(care.deep_cos, f64::max);
-        Self { deep_cos, ..care }
-    }
-
-    /// So many inner reflections in the middle, beyond an angle of incidence, and at the limb.
-    fn following([middle, deep, limb]: [u32; 3], deep_cos: f64, limb_samples: LimbSamples) -> Self {
-        Self {
-            middle_reflections: middle,
-            deep_cos,
-            deep_reflections: deep,
-            limb_reflections: limb,
-            limb_samples,
-            limb_turn_rad: f64::INFINITY,
-            refined_samples: REFINED_SAMPLES,
-        }
-    }
-
-    fn of_water(quality: Quality) -> Self {
-        match quality {
-            Quality::Fast => Self { refined_samples: 0, ..Self::following([1, 3, 3], 0.5, LimbSamples::Line(4)) },
-            Quality::Standard => Self::following([3, 7, 7], 0.35, LimbSamples::Line(4)),
-            Quality::Spectral => Self::following([3, 7, 11], 0.7, LimbSamples::Grid(4)),
-        }
-    }
-
-    /// For half of a frame's cost more, half of the error at the limb: see `verify picture`.
-    fn in_hard_light(quality: Quality) -> Self {
-        let care = Self::of_water(quality);
-        match quality {
-            Quality::Fast => Self { limb_turn_rad: 0.05, ..care },
-            Quality::Standard => {
-                Self { limb_reflections: 11, limb_samples: LimbSamples::Line(8), limb_turn_rad: 0.05, ..care }
-            }
-            Quality::Spectral => Self { limb_samples: LimbSamples::Grid(6), limb_turn_rad: 0.035, ..care },
-        }
-    }
-
-    /// Width of the ring at the limb of a bubble, whose radius is given, in pixels. A reflection turns by twice as much as the wall: by 2 / (r cos θ)
-    /// from pixel to pixel, where cos² θ is 2 / r for each pixel from the limb.
-    fn limb_pixels(&self, radius_pixels: f64) -> f64 {
-        self.least_limb_pixels().max(2.0 / (self.limb_turn_rad.powi(2) * radius_pixels))
-    }
-
-    fn least_limb_pixels(&self) -> f64 {
-        match self.limb_samples {
-            LimbSamples::Line(_) => LIMB_PIXELS,
-            LimbSamples::Grid(_) => LIMB_PIXELS_OF_GRID,
-        }
-    }
-}
 
 impl Ring {
     /// The whole picture: what a bubble covers from inside.
     fn everywhere(inner_reflections: u32, samples: u32) -> Self {
         Self {
             edges_rad: None,
-            sides: 0,
+            sides: 3,
             inner_reflections,
             samples,
             in_line: false,
@@ -169,8 +64,7 @@ impl Ring {
     #[must_use]
     pub fn vertices(&self) -> u32 {
         match self.edges_rad {
-            None => 3,
-            Some([0.0, _]) => self.sides,
+            None | Some([0.0, _]) => self.sides,
             Some(_) => 2 * (self.sides + 1),
         }
     }
@@ -227,15 +121,13 @@ pub fn rings(
     let ring_rad = (limb_rad - care.limb_pixels(limb_rad / pixel_rad) * pixel_rad).max(0.0);
     let deep_rad = (deep_sin * limb_rad.sin()).asin().min(ring_rad);
     let sides = sides(limb_rad, pixel_rad);
-    // Where cells are larger than pixels, pixels are small, and each sample is costly.
-    let refined_samples = if bubble.samples == 1 && !bubble.magnified { care.refined_samples } else { 0 };
     let inner = |edges_rad: [f64; 2], inner_reflections: u32| Ring {
         edges_rad: Some(edges_rad),
         sides,
         inner_reflections,
         samples: bubble.samples,
         in_line: false,
-        refined_samples,
+        refined_samples: if bubble.refined { care.refined_samples } else { 0 },
         environment_taps: environment_taps(bubble),
         outline: false,
     };
@@ -324,6 +216,7 @@ mod tests {
             evaporated_nm: 0.0,
             samples: 1,
             magnified: false,
+            refined: true,
             thicknesses: 1,
             film: FilmKey::Uniform(500.0),
             thickness_factor: 1.0,

@@ -14,6 +14,7 @@ mod films;
 pub mod keys;
 mod laws;
 mod lender;
+mod light;
 mod pass;
 mod request;
 mod shot;

@@ -2,31 +2,31 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec2};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BackdropKey, BubbleKey, CameraKey, DrawKey, EnvironmentKey, FilmColours, FilmKey, FrameRequest, LensSample,
-    LentFilm, LightKey, Lighting, Moment, OpticsKey, PlateKey, QuadratureKey, Rendering, Shot, Story, TableKey,
-    TonemapKey,
+    BubbleKey, CameraKey, DrawKey, FilmKey, FrameRequest, LensSample, LentFilm, LightKey, Moment, PlateKey, Rendering,
+    Shot, Story, TonemapKey,
     bodies::bodies,
     crowd::{InSight, in_sight},
     exposed_ev,
     films::{cap, has_field},
     keys::samples,
+    light::{light, light_of, lighting},
     range_nm,
     sight::{SMALLEST_FIELD_PIXELS, bounds, is_magnified, thicknesses},
 };
 use crate::{
     physics::{
         bubble::reach,
-        colour::{Illuminant, bt709_to_bt2020, daylight_scale, seen_light, white_balance},
+        colour::{Illuminant, white_balance},
         environment::CubeMap,
         film::fold_seed,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
         picture::{Finish, Plate},
     },
-    scene::{Backdrop, Boundary, Bubble, Camera, Fault, FilmIndexName, Lens, Quality, Scene},
+    scene::{Boundary, Bubble, Camera, Fault, FilmIndexName, Lens, Scene},
 };
 
 /// What a scene names and somebody has loaded.
@@ -142,9 +142,7 @@ impl Story {
             SpectralLight { environment: resources.environment.clone(), illuminant: resources.illuminant.clone() };
         let lighting = |source: &SpectralLight, light: LightKey| lighting(scene, source, light, &films, are_many);
         let defocus_rad = lens.defocus * scene.lens.defocus_rad(seen_from);
-        let height_m = f64::from(shot.size[1]) * camera.pixel_height_m;
-        let blur_rad = defocus_rad.max(smoothing_rad(resources.environment.size(), height_m));
-        let light = light(scene, resources, [defocus_rad, blur_rad], &camera);
+        let light = light(scene, resources, (&camera, shot.size[1]), defocus_rad);
         let draw = DrawKey {
             size: shot.size,
             full_precision: shot.full_precision,
@@ -224,92 +222,6 @@ fn plate(scene: &Scene, resources: &Resources, size: [u32; 2]) -> Option<PlateKe
     Some(PlateKey { plate, whole: size, corner: [0; 2], size })
 }
 
-/// Texels of the environment over the height of a picture below which they would be seen as squares.
-const FEW_TEXELS: f64 = 160.0;
-/// Radius of the discs that they are spread over then, in texels.
-const SMOOTHING_TEXELS: f64 = 1.25;
-/// The same in radians, at most: what an environment of few texels is spread over.
-const MAX_SMOOTHING_RAD: f64 = 0.5;
-
-/// Half angle of the cones that an environment is averaged over behind the bubbles, in radians, so that no texels are seen; 0 where they are small. A face
-/// has `size` texels per side, and the picture covers a height on the plane one metre before the eye: whatever its pixels, it looks the same.
-fn smoothing_rad(size: usize, height_m: f64) -> f64 {
-    let texel_rad = 2.0 / size as f64;
-    // One texel per face has no neighbour on it to tell apart.
-    let shows_texels = size > 1 && height_m < FEW_TEXELS * texel_rad;
-    if shows_texels { (SMOOTHING_TEXELS * texel_rad).min(MAX_SMOOTHING_RAD) } else { 0.0 }
-}
-
-fn light(scene: &Scene, resources: &Resources, [defocus_rad, blur_rad]: [f64; 2], camera: &CameraKey) -> LightKey {
-    // A constant environment is a white cube times this factor: exact, where texels of a cube would round.
-    let constant = scene.light.constant.filter(|_| scene.light.lamps.is_empty());
-    let constant = constant.map_or(DVec3::ONE, |rgb| bt709_to_bt2020() * DVec3::from(rgb));
-    let backdrop = match scene.view.backdrop {
-        // A photograph is laid behind the finished picture.
-        _ if scene.view.plate.is_some() => BackdropKey::Colour(DVec3::ZERO),
-        Backdrop::Environment => BackdropKey::Environment,
-        Backdrop::Radiance(rgb) => BackdropKey::Colour(bt709_to_bt2020() * DVec3::from(rgb)),
-    };
-    let polariser = scene.view.polariser_deg.map(|angle| {
-        let (sin, cos) = angle.to_radians().sin_cos();
-        cos * camera.right + sin * camera.up
-    });
-    LightKey {
-        gain: scene.light.intensity * constant,
-        seen: seen_light(&resources.illuminant),
-        scale: daylight_scale(),
-        polariser,
-        rotation_rad: scene.light.rotation_deg.to_radians(),
-        backdrop,
-        defocus_rad,
-        blur_rad,
-    }
-}
-
-/// The light of another illuminant, given the scene's own light.
-fn light_of(scene: &Scene, source: &SpectralLight, own: LightKey) -> LightKey {
-    let backdrop = match own.backdrop {
-        BackdropKey::Environment => BackdropKey::Environment,
-        // A colour behind the bubbles is seen by the scene's own light.
-        BackdropKey::Colour(_) => BackdropKey::Colour(DVec3::ZERO),
-    };
-    LightKey { gain: DVec3::splat(scene.light.intensity), seen: seen_light(&source.illuminant), backdrop, ..own }
-}
-
-fn lighting(
-    scene: &Scene,
-    source: &SpectralLight,
-    light: LightKey,
-    films: &[(FilmMaterial, f64)],
-    are_many: bool,
-) -> Lighting {
-    let colours = |(film, range_nm): &(FilmMaterial, f64)| {
-        let optics = OpticsKey { film: film.clone(), illuminant: source.illuminant.clone() };
-        let table = table(scene, source, &light, TableKey::full(optics.clone(), *range_nm));
-        let is_plain = !table.coloured && !table.polarised;
-        let quadrature = QuadratureKey::new(optics, *range_nm, scene.view.quality, &light.seen, is_plain);
-        // What bubbles show of one another comes from a table.
-        FilmColours { table: (quadrature.needs_table() || are_many).then_some(table), quadrature }
-    };
-    let films = films.iter().map(colours).collect();
-    Lighting { light, environment: EnvironmentKey(source.environment.clone()), films }
-}
-
-/// How much the primaries of a backdrop may differ that `fast` takes for grey, as a part of the light's gain.
-const FAINT: f64 = 1e-3;
-
-fn table(scene: &Scene, source: &SpectralLight, light: &LightKey, full: TableKey) -> TableKey {
-    let is_grey = |rgb: DVec3| rgb.max_element() - rgb.min_element() <= 1e-12 * rgb.max_element();
-    // The colour of a backdrop that is almost black is not worth two more layers of the table.
-    let is_faint = |rgb: DVec3| rgb.max_element() - rgb.min_element() <= FAINT * light.gain.max_element();
-    let backdrop = match light.backdrop {
-        BackdropKey::Colour(rgb) => is_grey(rgb) || scene.view.quality == Quality::Fast && is_faint(rgb),
-        BackdropKey::Environment => true,
-    };
-    let neutral = source.environment.is_neutral() && is_grey(light.gain) && backdrop;
-    TableKey { coloured: !neutral, polarised: scene.view.polariser_deg.is_some(), ..full }
-}
-
 /// What the films of a scene are made of.
 struct Materials {
     /// Each material once, in the order of the bubbles.
@@ -375,6 +287,9 @@ fn thickest_nm(film: &FilmKey) -> f64 {
     }
 }
 
+/// Samples along a pixel's side of a film that ends on a ring or at a hole: its edge is not smoothed otherwise.
+const EDGE_SAMPLES: u32 = 2;
+
 /// A bubble as the picture sees it, if any pixel can.
 fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble: &Bubble) -> Option<BubbleKey> {
     let center_m = story.center_m(index, shot.moment.ticks() * story.motion.tick_s);
@@ -394,6 +309,8 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     };
     let ticks = age.moment.ticks();
     let has_edge = bubble.boundary == Boundary::Ring || age.hole.is_some();
+    let samples = samples(radius_pixels).max(if has_edge { EDGE_SAMPLES } else { 1 });
+    let magnified = is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m));
     Some(BubbleKey {
         id: index as u32 + 1,
         index,
@@ -408,10 +325,12 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
             FilmKey::Field(_) => DMat3::from_quat(story.film_turn(age.life.born as f64 + ticks).inverse()),
         },
         evaporated_nm: age.life.evaporation.nm(ticks),
-        samples: samples(radius_pixels).max(if has_edge { EDGE_SAMPLES } else { 1 }),
+        samples,
         // The edge of a hole is no thickness between others.
         thicknesses: if age.hole.is_none() { thicknesses(&film, radius_pixels) } else { 1 },
-        magnified: is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m)),
+        magnified,
+        // Where cells are larger than pixels, pixels are small, and each sample is costly.
+        refined: samples == 1 && !magnified,
         film,
         thickness_factor: 1.0,
         hole: age.hole,
@@ -419,6 +338,3 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         bodies: bodies(bubble, center_m, age.hole.is_some(), camera, shot),
     })
 }
-
-/// Samples along a pixel's side of a film that ends on a ring or at a hole: its edge is not smoothed otherwise.
-const EDGE_SAMPLES: u32 = 2;

@@ -374,11 +374,7 @@ fn bubble_rings(key: &DrawKey, lighting: &Lighting, bubble: &BubbleKey) -> Vec<R
     let quadrature = &lighting.films[bubble.material].quadrature;
     // Of the scene's own light: beside it, lights of other illuminants are dark everywhere but in their places.
     let contrast = key.lighting.environment.0.contrast();
-    let mut rings = rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film, contrast);
-    if !key.lent.is_empty() {
-        // Of a generator's crowd each bubble shows little, and most pixels have an edge in them.
-        rings.iter_mut().for_each(|ring| ring.refined_samples = 0);
-    }
+    let rings = rings(&key.camera, bubble, quadrature.quality, &quadrature.optics.film, contrast);
     match key.rendering {
         Rendering::Full => rings,
         Rendering::Preview => vec![middle_everywhere(&key.camera, bubble, rings[0])],

@@ -148,12 +148,18 @@ impl Shared<'_> {
 mod tests {
     use super::*;
 
+    fn rect(columns: Range<u32>, rows: Range<u32>) -> PixelRect {
+        PixelRect { columns, rows }
+    }
+
+    fn lists<const N: usize>(bubbles: [(usize, PixelRect); N], size: [u32; 2]) -> TileLists {
+        TileLists::new(&bubbles.map(|(place, rect)| PlacedSmall { place, rect }), size)
+    }
+
     #[test]
     fn each_tile_lists_its_bubbles_in_their_order() {
-        let rect = |columns, rows| PixelRect { columns, rows };
         let bubbles = [(5, rect(0..17, 0..4)), (2, rect(20..40, 3..20)), (9, rect(30..33, 0..16))];
-        let bubbles = bubbles.map(|(place, rect)| PlacedSmall { place, rect });
-        let lists = TileLists::new(&bubbles, [44, 32]);
+        let lists = lists(bubbles, [44, 32]);
         let of = |tile: usize| &lists.lists[lists.tiles[tile].first as usize..lists.tiles[tile].end as usize];
         assert_eq!(
             [0, 1, 2, 3, 4, 5].map(|tile| of(tile).to_vec()),
@@ -166,10 +172,7 @@ mod tests {
 
     #[test]
     fn runs_of_tiles_that_lie_one_below_the_other_are_one_rectangle() {
-        let rect = |columns, rows| PixelRect { columns, rows };
-        let bubbles = [(0, rect(3..40, 0..40)), (1, rect(65..67, 17..31)), (2, rect(0..4, 50..60))];
-        let bubbles = bubbles.map(|(place, rect)| PlacedSmall { place, rect });
-        let lists = TileLists::new(&bubbles, [70, 60]);
+        let lists = lists([(0, rect(3..40, 0..40)), (1, rect(65..67, 17..31)), (2, rect(0..4, 50..60))], [70, 60]);
         assert_eq!(lists.rects, [rect(0..48, 0..48), rect(64..70, 16..32), rect(0..16, 48..60)]);
     }
 }

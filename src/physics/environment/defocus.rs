@@ -15,8 +15,8 @@ use crate::{parallel, physics::bulk};
 
 use super::{CubeFace, CubeMap, CubeTile, CubeTiles, Repairs, TILES_PER_EDGE, Texel, mip, texel::texels_of};
 
-/// Rows across half a disc, at least, that its outline is made of: of texels of the source, or of parts of them.
-const SOURCE_TEXELS: f64 = 6.0;
+/// Rows across half a disc that its outline is made of, at least: rows of texels of the source, or parts of them in small discs.
+const OUTLINE_ROWS: f64 = 6.0;
 /// Texels of the result across half a disc: its edge is an eighth of its radius wide.
 const RESULT_TEXELS: f64 = 8.0;
 /// Texels along an edge of the result, at most.
@@ -74,7 +74,7 @@ impl Cones {
     #[must_use]
     pub fn new(map: &CubeMap, half_angle_rad: f64, tiles: CubeTiles) -> Self {
         let (sin, cos) = half_angle_rad.sin_cos();
-        let level = (map.size() as f64 * half_angle_rad / (2.0 * SOURCE_TEXELS)).log2().max(0.0) as usize;
+        let level = (map.size() as f64 * half_angle_rad / (2.0 * OUTLINE_ROWS)).log2().max(0.0) as usize;
         let level = level.min(map.mips().len() - 1);
         // From the corner of a face cones reach farthest.
         let [_, reach] = ends(DVec3::ONE.normalize(), sin);
@@ -160,22 +160,24 @@ impl Sums {
         let [top, bottom] = ends(axis, sin).map(|t| t * self.per_unit + self.middle);
         let last = self.width as f64;
         let (top, bottom) = (top.clamp(0.0, last), bottom.clamp(0.0, last));
-        // The interval of a row, (s, t, 1) · axis = cos |(s, t, 1)|, solved for s.
+        // The interval at a height t in texels, (s, t, 1) · axis = cos |(s, t, 1)|, solved for s.
         let square = cos * cos - axis.x * axis.x;
         let per_square = self.per_unit / square;
+        let interval = |t: f64| {
+            let t = (t - self.middle) / self.per_unit;
+            let across = t * axis.y + axis.z;
+            let half = axis.x * across;
+            let root = (half * half - square * (cos * cos * (t * t + 1.0) - across * across)).max(0.0).sqrt();
+            [half - root, half + root].map(|s| s * per_square + self.middle)
+        };
+        let step = (bottom - top) / (2.0 * OUTLINE_ROWS);
         let mut sum = DVec4::ZERO;
-        let step = (bottom - top) / (2.0 * SOURCE_TEXELS);
         for row in top as usize..(bottom.ceil() as usize).min(self.width) {
             let (start, end) = (top.max(row as f64), bottom.min((row + 1) as f64));
-            // Small discs lie in few rows, and take several intervals in each.
-            let parts = ((end - start) / step).ceil().max(1.0) as usize;
-            let height = (end - start) / parts as f64;
-            for part in 0..parts {
-                let t = (start + (part as f64 + 0.5) * height - self.middle) / self.per_unit;
-                let across = t * axis.y + axis.z;
-                let half = axis.x * across;
-                let root = (half * half - square * (cos * cos * (t * t + 1.0) - across * across)).max(0.0).sqrt();
-                let [left, right] = [half - root, half + root].map(|s| s * per_square + self.middle);
+            let parts = ((end - start) / step).ceil().max(1.0);
+            let height = (end - start) / parts;
+            for part in 0..parts as usize {
+                let [left, right] = interval(start + (part as f64 + 0.5) * height);
                 sum += height * (self.until(row, right) - self.until(row, left));
             }
         }

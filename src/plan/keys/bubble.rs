@@ -31,6 +31,8 @@ pub struct BubbleKey {
     pub samples: u32,
     /// Whether the film is looked up through its flow map at each pixel: where cells are larger than pixels.
     pub magnified: bool,
+    /// Whether pixels that are unlike their neighbours take more samples, where the quality has that.
+    pub refined: bool,
     /// Thicknesses that each sample is the mean of: 1, or more where a pixel spans half a cell of the film or more.
     pub thicknesses: u32,
     /// The film.
@@ -156,6 +158,8 @@ impl SmallBubble {
             evaporated_nm: lent.evaporated_nm,
             samples: samples(self.radius_pixels(camera)),
             magnified: false,
+            // Of a crowd each bubble shows little, and most pixels have an edge in them.
+            refined: false,
             thicknesses: 1,
             film: lent.film.clone(),
             thickness_factor: self.thickness_factor,

@@ -42,7 +42,8 @@ pub struct LightKey {
     pub backdrop: BackdropKey,
     /// Half angle of the cone that each point of the backdrop is spread over, out of the lens's focus, in radians; 0: it is sharp.
     pub defocus_rad: f64,
-    /// The same for all of it but lamps: where the picture magnifies the environment it is spread at least so far that no texels are seen.
+    /// Half angle of the cone that all of the backdrop but its lamps is spread over, in radians: `defocus_rad`, or more where the picture would show the
+    /// environment's texels.
     pub blur_rad: f64,
 }
 
