@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::{
-    BackdropKey, CameraKey, EnvironmentKey, FilmColours, LightKey, Lighting, OpticsKey, QuadratureKey, Resources,
-    SpectralLight, TableKey,
+    BackdropKey, CameraKey, EnvironmentKey, FilmColours, LightKey, Lighting, OpticsKey, QuadratureKey, TableKey,
+    resources::{Resources, SpectralLight},
 };
 use crate::{
     physics::{

@@ -17,6 +17,7 @@ mod lender;
 mod light;
 mod pass;
 mod request;
+mod resources;
 mod shot;
 mod sight;
 mod story;
@@ -36,7 +37,8 @@ pub use keys::{
 };
 pub use lender::film_owners;
 pub use pass::{Pass, Reason};
-pub use request::{Resources, SpectralLight, film_index, request};
+pub use request::{film_index, request};
+pub use resources::{Resources, SpectralLight};
 pub use shot::{LensSample, Shot};
 pub use story::Story;
 pub use work::{Prepared, Product, SeedKey, Work};

@@ -1,9 +1,6 @@
 //! From a scene and a shot of it to a frame request: all that the picture needs.
 
-use std::{collections::BTreeMap, sync::Arc};
-
 use glam::{DMat3, DVec2};
-use serde::{Deserialize, Serialize};
 
 use super::{
     BubbleKey, CameraKey, DrawKey, FilmKey, FrameRequest, LensSample, LentFilm, LightKey, Moment, PlateKey, Rendering,
@@ -15,43 +12,19 @@ use super::{
     keys::samples,
     light::{light, light_of, lighting},
     range_nm,
+    resources::{Resources, SpectralLight},
     sight::{SMALLEST_FIELD_PIXELS, bounds, is_magnified, thicknesses},
 };
 use crate::{
     physics::{
         bubble::reach,
-        colour::{Illuminant, white_balance},
-        environment::CubeMap,
+        colour::white_balance,
         film::fold_seed,
         optics::{FilmIndex, FilmIndexError, FilmMaterial},
-        picture::{Finish, Plate},
+        picture::Finish,
     },
     scene::{Boundary, Bubble, Camera, Fault, FilmIndexName, Lens, Scene},
 };
-
-/// What a scene names and somebody has loaded.
-#[derive(Clone, Debug)]
-pub struct Resources {
-    /// The environment, in linear BT.2020.
-    pub environment: Arc<CubeMap>,
-    /// The light's spectrum.
-    pub illuminant: Arc<Illuminant>,
-    /// Light of other illuminants, which the environment lacks.
-    pub spectral_lights: Vec<SpectralLight>,
-    /// Liquids from files, by the paths that the scene gives them.
-    pub liquids: BTreeMap<String, FilmIndex>,
-    /// The photograph behind the bubbles.
-    pub plate: Option<Arc<Plate>>,
-}
-
-/// All light of one illuminant other than the scene's own.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct SpectralLight {
-    /// Where it comes from, in linear BT.2020.
-    pub environment: Arc<CubeMap>,
-    /// Its spectrum.
-    pub illuminant: Arc<Illuminant>,
-}
 
 /// The frame request for a single shot of a scene. For several shots, make a [`Story`] once.
 ///
