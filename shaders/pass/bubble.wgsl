@@ -1,7 +1,7 @@
 // One ring of a bubble's disc: an exact sphere traced at each pixel. Front reflection, transmission, back wall, inner reflections, each
 // wall with the thickness at its own hit.
 
-import package::camera::view::{View, clip_position, view_plane};
+import package::camera::view::{View, clip_position, pixel_angle, view_plane, view_ray};
 import package::film::control::Balance;
 import package::film::hole::{Rim, TAU};
 import package::film::wall::optical_nm;
@@ -21,7 +21,7 @@ import package::sphere::axes::perpendicular;
 import package::sphere::hops::{Followed, Hop, followed, left_before, mirrored, reflected_inside};
 import package::sphere::others::OtherBubble;
 import package::sphere::path::{Path, PixelPart, WHOLE_PIXEL, footprint, polarisation_along, spanned_angles};
-import package::sphere::samples::{REFINED_SAMPLES, outward_in_picture, pixel_radiance};
+import package::sphere::samples::{OUT_OF_FOCUS, REFINED_SAMPLES, outward_in_picture, pixel_radiance};
 import package::sphere::trace::{eye_is_inside, from_round, outline, path_along, to_round};
 
 // 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
@@ -62,6 +62,8 @@ struct Bubble {
     thickness_factor: f32,
     // Sides of the polygons around the ring's edges.
     sides: u32,
+    // Radius of the circle of confusion, in pixels.
+    confusion_pixels: f32,
 }
 
 // The bubble's part of `lists`: the first, how many whose walls lie between its own, and with those that it mirrors only. They are no uniforms:
@@ -155,6 +157,15 @@ fn dimmed(steps: mat4x3f, first: vec3f, later: vec3f) -> mat4x3f {
     return mat4x3f(first * steps[0], later * steps[1], later * steps[2], later * steps[3]);
 }
 
+// The backdrop behind a sample, which has its own place in focus: samples of a bubble out of focus all see it along the pixel's ray.
+fn backdrop_behind(path: Path) -> vec3f {
+    if (OUT_OF_FOCUS == 1u) {
+        let ray = view_ray(view, path.position);
+        return backdrop(ray, pixel_angle(view, ray));
+    }
+    return backdrop(path.direction, sqrt(path.pixel.x * path.pixel.y));
+}
+
 // The ray straight through, which heads for the back wall.
 fn straight_through(path: Path, is_inside: bool) -> Followed {
     let back = path.foot + path.half_chord * path.round;
@@ -168,8 +179,7 @@ fn straight_through(path: Path, is_inside: bool) -> Followed {
         let front = select(past_meniscus(front_z, bubble.radius_m), 1.0, is_inside);
         behind = front * past_meniscus(back.z, bubble.radius_m) * drawn_light(path.position);
     } else {
-        let width = sqrt(path.pixel.x * path.pixel.y);
-        behind = left * crossing(back.z, path.direction.z, path.direction) * backdrop(path.direction, width);
+        behind = left * crossing(back.z, path.direction.z, path.direction) * backdrop_behind(path);
     }
     return Followed(Hop(back, path.direction), 0.0, left, behind);
 }

@@ -2,6 +2,7 @@
 // over what is behind it. A bubble is round and whole, and three of its walls are looked up in the table; light that is reflected inside more
 // than twice follows the mean over all thicknesses.
 
+import package::camera::circle::{PI, in_circle};
 import package::camera::view::{View, pixel_angle, view_plane};
 import package::light::environment::{Light, environment_radiance};
 import package::light::lamps::Lamp;
@@ -18,6 +19,8 @@ import package::sphere::silhouette::silhouette;
 override TILE: u32;
 // Samples along each side of a pixel.
 override SAMPLES: u32;
+// 1: some bubbles are out of focus. Each sample passes the lens at a place of its own, and is filtered over its part of the circle of confusion.
+override OUT_OF_FOCUS: u32;
 
 // 1: light that is reflected three times inside is looked up too.
 override THRICE: u32;
@@ -50,15 +53,36 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 
+// A sample of a pixel: its point on the plane one metre before the eye, relative to the eye, its width in pixels, and where it passes the lens, over the
+// lens's radius.
+struct Sample {
+    plane: vec3f,
+    width: f32,
+    in_lens: vec2f,
+}
+
+// The sample as a bubble meets it whose circle of confusion has a radius in pixels.
+fn through_lens(sample: Sample, confusion_pixels: f32) -> Sample {
+    if (OUT_OF_FOCUS == 0u || confusion_pixels == 0.0) {
+        return sample;
+    }
+    let offset = confusion_pixels * view.pixel_height * sample.in_lens;
+    let part = confusion_pixels / f32(SAMPLES);
+    let width = sqrt(sample.width * sample.width + PI * part * part);
+    return Sample(sample.plane + offset.x * view.right - offset.y * view.up, width, sample.in_lens);
+}
+
 // The first bubble of a tile from a place in the list on that a sample may show: most of the list is missed, and what is costly is done for the
 // rest alone.
-fn next_seen(ray: vec3f, pixel: f32, first: u32, end: u32) -> u32 {
+fn next_seen(sample: Sample, first: u32, end: u32) -> u32 {
     for (var k = first; k < end; k++) {
         let number = lists[k];
+        let seen = through_lens(sample, bubbles[number].confusion_pixels);
+        let ray = normalize(seen.plane);
         let to_center_m = bubbles[number].to_center_m;
         let along_m = dot(to_center_m, ray);
         let aside_m = to_center_m - along_m * ray;
-        let reach_m = bubbles[number].radius_m + pixel * along_m;
+        let reach_m = bubbles[number].radius_m + seen.width * view.pixel_height * along_m;
         if (along_m > 0.0 && dot(aside_m, aside_m) < reach_m * reach_m) {
             return k;
         }
@@ -155,18 +179,17 @@ fn through_bubble(bubble: OtherBubble, path: Path, behind: vec3f) -> vec3f {
 }
 
 // One sample of a tile's bubbles.
-fn sample_radiance(position: vec2f, width: f32, tile: Tile, backdrop: vec3f) -> vec3f {
-    let plane = view_plane(view, position);
-    let ray = normalize(plane);
-    let pixel = width * pixel_angle(view, ray);
+fn sample_radiance(sample: Sample, tile: Tile, backdrop: vec3f) -> vec3f {
+    let pixel = pixel_angle(view, normalize(sample.plane));
     var seen = backdrop;
-    var k = next_seen(ray, pixel, tile.first, tile.end);
+    var k = next_seen(sample, tile.first, tile.end);
     while (k < tile.end) {
         let bubble = bubbles[lists[k]];
-        let edge = silhouette(view, bubble.to_center_m, bubble.radius_m, plane, width);
-        let path = path_through(bubble, edge.inside, pixel);
+        let aim = through_lens(sample, bubble.confusion_pixels);
+        let edge = silhouette(view, bubble.to_center_m, bubble.radius_m, aim.plane, aim.width);
+        let path = path_through(bubble, edge.inside, aim.width * pixel);
         seen = mix(seen, through_bubble(bubble, path, seen), edge.coverage);
-        k = next_seen(ray, pixel, k + 1u, tile.end);
+        k = next_seen(sample, k + 1u, tile.end);
     }
     return seen;
 }
@@ -181,7 +204,8 @@ fn small_bubbles(@builtin(position) position: vec4f) -> @location(0) vec4f {
     var total = vec3f(0.0);
     for (var k = 0u; k < SAMPLES * SAMPLES; k++) {
         let offset = (vec2f(vec2u(k % SAMPLES, k / SAMPLES)) + 0.5) * width;
-        total += sample_radiance(vec2f(pixel) + offset, width, tile, behind.rgb);
+        let sample = Sample(view_plane(view, vec2f(pixel) + offset), width, in_circle(k, SAMPLES * SAMPLES, vec2f(pixel)));
+        total += sample_radiance(sample, tile, behind.rgb);
     }
     return vec4f(storable(total * width * width), 1.0);
 }

@@ -26,6 +26,8 @@ struct OtherBubble {
     rim_z: f32,
     // How much thicker the bubble is than the film shows.
     thickness_factor: f32,
+    // Radius of its circle of confusion, in pixels; 0 if it is in focus.
+    confusion_pixels: f32,
 }
 
 // Where a ray meets a bubble's walls: distances from the ray's origin, and the cosine of incidence. Walls behind the origin have negative

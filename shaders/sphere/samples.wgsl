@@ -2,6 +2,7 @@
 //
 // The pass that draws bubbles declares what this reads: `view`, `bubble`, and the functions `bubble_radiance` and `beside`.
 
+import package::camera::circle::{PI, in_circle};
 import package::camera::view::{pixel_angle, view_plane};
 import package::sphere::path::{PixelPart, WHOLE_PIXEL};
 import package::sphere::trace::outline;
@@ -11,6 +12,8 @@ import package::sphere::trace::outline;
 override SAMPLES: u32;
 // 1: the samples stand in a line through the pixel's middle, towards the bubble's center, along which a bubble shows most in a pixel.
 override IN_LINE: u32;
+// 1: the bubble is out of focus. The samples fill the circle of confusion, and each is filtered over its part of it.
+override OUT_OF_FOCUS: u32;
 // Samples along each side of a pixel that is unlike its neighbours, in place of the one. 0: all pixels have one.
 override REFINED_SAMPLES: u32;
 // 1: the bubble's outline crosses the ring. 0: the bubble covers all of it.
@@ -21,11 +24,14 @@ const HIGH_CONTRAST: f32 = 0.15;
 
 // Light through a pixel.
 fn pixel_radiance(position: vec2f) -> vec3f {
+    if (OUT_OF_FOCUS == 1u) {
+        return mean_over_circle(position, SAMPLES);
+    }
     if (REFINED_SAMPLES > 0u) {
         return refined_radiance(position);
     }
     if (SAMPLES == 1u) {
-        return sample_radiance(position, WHOLE_PIXEL);
+        return sample_radiance(position, position, WHOLE_PIXEL);
     }
     if (IN_LINE == 1u) {
         return mean_in_line(position, SAMPLES);
@@ -33,17 +39,18 @@ fn pixel_radiance(position: vec2f) -> vec3f {
     return mean_radiance(position, SAMPLES);
 }
 
-// One sample: the bubble as far as it covers the sample's box, what is beside it in the rest.
-fn sample_radiance(position: vec2f, part: PixelPart) -> vec3f {
+// One sample: the bubble as far as it covers the sample's box, what is beside it in the rest. `position` is where the bubble is looked at, `behind` where
+// what is behind it is.
+fn sample_radiance(position: vec2f, behind: vec2f, part: PixelPart) -> vec3f {
     let plane = view_plane(view, position);
     if (OUTLINE == 0u) {
-        return bubble_radiance(normalize(plane), part, position);
+        return bubble_radiance(normalize(plane), part, behind);
     }
     let edge = outline(plane, part.size.x);
     // Not only where it is covered: derivatives need the neighbours.
-    let radiance = bubble_radiance(edge.inside, part, position);
-    let ray = normalize(plane);
-    return mix(beside(ray, pixel_angle(view, ray), position), radiance, edge.coverage);
+    let radiance = bubble_radiance(edge.inside, part, behind);
+    let ray = normalize(view_plane(view, behind));
+    return mix(beside(ray, pixel_angle(view, ray), behind), radiance, edge.coverage);
 }
 
 // One sample, or the mean over a grid of several where the pixel is unlike its neighbours: a pixel differs from those that it shares derivatives with
@@ -57,7 +64,7 @@ fn refined_radiance(position: vec2f) -> vec3f {
     var total = vec3f(0.0);
     // In one loop, so that the code of a sample stands once.
     for (var k = 0u; k <= side * side; k++) {
-        let radiance = sample_radiance(place, part);
+        let radiance = sample_radiance(place, place, part);
         if (k == 0u) {
             if (contrast(radiance) < HIGH_CONTRAST) {
                 return radiance;
@@ -87,10 +94,22 @@ fn mean_radiance(position: vec2f, side: u32) -> vec3f {
     let width = 1.0 / f32(side);
     var total = vec3f(0.0);
     for (var k = 0u; k < side * side; k++) {
-        let offset = vec2f(f32(k % side) + 0.5, f32(k / side) + 0.5) * width;
-        total += sample_radiance(corner + offset, PixelPart(vec2f(1.0, 0.0), vec2f(width), true));
+        let place = corner + vec2f(f32(k % side) + 0.5, f32(k / side) + 0.5) * width;
+        total += sample_radiance(place, place, PixelPart(vec2f(1.0, 0.0), vec2f(width), true));
     }
     return total * width * width;
+}
+
+// The mean over a circle of confusion, in samples that share the area of the circle and of the pixel.
+fn mean_over_circle(position: vec2f, side: u32) -> vec3f {
+    let radius = bubble.confusion_pixels;
+    let width = sqrt(PI * radius * radius + 1.0) / f32(side);
+    var total = vec3f(0.0);
+    for (var k = 0u; k < side * side; k++) {
+        let place = position + radius * in_circle(k, side * side, position);
+        total += sample_radiance(place, position, PixelPart(vec2f(1.0, 0.0), vec2f(width), true));
+    }
+    return total / f32(side * side);
 }
 
 // The mean over samples in a line through a pixel's middle. Across any direction a pixel is as wide as its side, by its variance.
@@ -100,7 +119,8 @@ fn mean_in_line(position: vec2f, count: u32) -> vec3f {
     var total = vec3f(0.0);
     for (var k = 0u; k < count; k++) {
         let offset = (f32(k) + 0.5) * width - 0.5;
-        total += sample_radiance(position + offset * along, PixelPart(along, vec2f(width, 1.0), true));
+        let place = position + offset * along;
+        total += sample_radiance(place, place, PixelPart(along, vec2f(width, 1.0), true));
     }
     return total * width;
 }

@@ -31,6 +31,8 @@ pub struct Ring {
     pub samples: u32,
     /// Whether the samples stand in a line through the pixel's middle, towards the bubble's center.
     pub in_line: bool,
+    /// Radius of the circle of confusion that the samples fill, in pixels; 0 where the bubble is in focus.
+    pub confusion_pixels: f64,
     /// Samples along each side of a pixel that is unlike its neighbours, in place of the one; 0 if all have one.
     pub refined_samples: u32,
     /// Lookups of the surroundings in a reflection, at most.
@@ -42,6 +44,8 @@ pub struct Ring {
 /// Lookups of the surroundings in a reflection, at most. Pixels span more of them in the plane of incidence than across it: twice as much at a
 /// cosine of incidence of 0.7, and eight times at 0.35.
 const ENVIRONMENT_TAPS: u32 = 4;
+/// Radius of the circles of confusion in pixels from which they take sixteen samples, not four.
+const FEW_SAMPLES_PIXELS: f64 = 3.0;
 /// How far outside the outline a pixel may have its center and still be crossed by it, in pixels.
 const MARGIN_PIXELS: f64 = 1.0;
 
@@ -54,9 +58,21 @@ impl Ring {
             inner_reflections,
             samples,
             in_line: false,
+            confusion_pixels: 0.0,
             refined_samples: 0,
             environment_taps: 1,
             outline: false,
+        }
+    }
+
+    /// The one ring of a bubble that is out of focus.
+    fn out_of_focus(edges_rad: [f64; 2], sides: u32, inner_reflections: u32, confusion_pixels: f64) -> Self {
+        Self {
+            edges_rad: Some(edges_rad),
+            sides,
+            confusion_pixels,
+            outline: true,
+            ..Self::everywhere(inner_reflections, samples_of_circle(confusion_pixels))
         }
     }
 
@@ -75,6 +91,11 @@ impl Ring {
         let half_side = std::f64::consts::PI / f64::from(self.sides);
         self.edges_rad.unwrap_or_default().map(|angle| [angle.cos() * half_side.cos(), angle.sin()].map(|x| x as f32))
     }
+}
+
+/// Samples along each side of a square that is laid into a circle of confusion: each is filtered over its part of the circle.
+fn samples_of_circle(confusion_pixels: f64) -> u32 {
+    if confusion_pixels < FEW_SAMPLES_PIXELS { 2 } else { 4 }
 }
 
 /// Distance of the eye from a bubble's center in radii, in the space in which the bubble is round.
@@ -121,12 +142,18 @@ pub fn rings(
     let ring_rad = (limb_rad - care.limb_pixels(limb_rad / pixel_rad) * pixel_rad).max(0.0);
     let deep_rad = (deep_sin * limb_rad.sin()).asin().min(ring_rad);
     let sides = sides(limb_rad, pixel_rad);
+    let confusion_pixels = camera.confusion_pixels(bubble.center_m, bubble.radius_m);
+    if confusion_pixels > 0.0 {
+        let outer_rad = limb_rad + (MARGIN_PIXELS + confusion_pixels) * pixel_rad;
+        return vec![Ring::out_of_focus([0.0, outer_rad], sides, care.middle_reflections, confusion_pixels)];
+    }
     let inner = |edges_rad: [f64; 2], inner_reflections: u32| Ring {
         edges_rad: Some(edges_rad),
         sides,
         inner_reflections,
         samples: bubble.samples,
         in_line: false,
+        confusion_pixels: 0.0,
         refined_samples: if bubble.refined { care.refined_samples } else { 0 },
         environment_taps: environment_taps(bubble),
         outline: false,
@@ -153,6 +180,7 @@ fn limb_ring(bubble: &BubbleKey, care: &Care, edges_rad: [f64; 2], sides: u32) -
         inner_reflections: care.limb_reflections,
         samples,
         in_line,
+        confusion_pixels: 0.0,
         refined_samples: 0,
         environment_taps: environment_taps(bubble),
         outline: true,
@@ -203,6 +231,8 @@ mod tests {
             up: DVec3::Z,
             pixel_height_m: 1.0 / 2530.0,
             shift: DVec2::ZERO,
+            lens_radius_m: 0.0,
+            focus_m: 1.0,
         };
         let bubble = BubbleKey {
             id: 1,
@@ -258,6 +288,21 @@ mod tests {
             assert!(rings.is_sorted_by_key(|ring| ring.inner_reflections));
             let edges: Vec<[f64; 2]> = rings.iter().filter_map(|ring| ring.edges_rad).collect();
             assert!(edges[0][0] == 0.0 && edges.windows(2).all(|pair| pair[0][1] == pair[1][0]), "{edges:?}");
+        }
+    }
+
+    #[test]
+    fn a_bubble_out_of_focus_has_one_ring_as_wide_as_it_is_blurred() {
+        let (camera, bubble) = seen(DMat3::IDENTITY);
+        for (depth_m, samples) in [(1.03, 2), (2.0, 4)] {
+            let camera = CameraKey { lens_radius_m: 0.1, focus_m: depth_m, ..camera };
+            let confusion_pixels = camera.confusion_pixels(bubble.center_m, bubble.radius_m);
+            assert!(confusion_pixels > 0.75, "{confusion_pixels}");
+            let rings = rings(&camera, &bubble, Quality::Standard, &FilmMaterial::default(), 3.0);
+            let [ring] = rings.as_slice() else { panic!("{rings:?}") };
+            assert!(ring.outline && ring.samples == samples && ring.confusion_pixels == confusion_pixels, "{ring:?}");
+            let pixels = (ring.edges_rad.unwrap()[1] - 0.1_f64.asin()) / camera.pixel_height_m;
+            assert!((pixels - confusion_pixels - MARGIN_PIXELS).abs() < 1e-9, "{pixels}");
         }
     }
 

@@ -135,10 +135,11 @@ fn small(member: &Member, lent: usize, bounds: [DVec2; 2]) -> SmallBubble {
 fn large(member: &Member, lent: &LentFilm, seen: &Seen, camera: &CameraKey) -> BubbleKey {
     let bubble = small(member, 0, seen.bounds).whole(lent, camera);
     let distance_m = member.center_m.distance(camera.eye_m);
+    let is_sharp = camera.confusion_pixels(member.center_m, member.radius_m) == 0.0;
     BubbleKey {
         stretch: seen.stretch,
-        thicknesses: thicknesses(&bubble.film, seen.radius_pixels),
-        magnified: is_magnified(&bubble.film, member.radius_m, seen.radius_pixels, distance_m),
+        thicknesses: thicknesses(&bubble.film, seen.radius_pixels, is_sharp),
+        magnified: is_sharp && is_magnified(&bubble.film, member.radius_m, seen.radius_pixels, distance_m),
         ..bubble
     }
 }

@@ -90,8 +90,12 @@ impl Story {
         shot: &Shot,
     ) -> Result<FrameRequest, Fault> {
         let scene: &Scene = self;
-        let camera = through(camera(seen_from, shot.size), lens, scene.lens.in_focus_m(seen_from));
+        let mut camera = through(camera(seen_from, shot.size), lens, scene.lens.in_focus_m(seen_from));
         let bath_m = bath_m(scene);
+        // A bath and what it mirrors are sharp.
+        if lens.blurs_bubbles && bath_m.is_none() {
+            camera.lens_radius_m = 0.5e-3 * lens.defocus * scene.lens.aperture_mm;
+        }
         if bath_m.is_some_and(|height_m| camera.eye_m.z <= height_m) {
             return Err(below_bath(scene, shot.moment));
         }
@@ -176,6 +180,8 @@ fn camera(camera: &Camera, [_, height]: [u32; 2]) -> CameraKey {
         up: camera.up(),
         pixel_height_m: 2.0 * (0.5 * camera.fov_y_rad()).tan() / f64::from(height),
         shift: DVec2::ZERO,
+        lens_radius_m: 0.0,
+        focus_m: camera.distance_m,
     }
 }
 
@@ -186,6 +192,7 @@ fn through(camera: CameraKey, lens: &LensSample, in_focus_m: f64) -> CameraKey {
     CameraKey {
         eye_m: camera.eye_m + offset_m.x * camera.right + offset_m.y * camera.up,
         shift: camera.shift + DVec2::new(in_focus.x, -in_focus.y) - in_pixel,
+        focus_m: in_focus_m,
         ..camera
     }
 }
@@ -283,7 +290,8 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     let ticks = age.moment.ticks();
     let has_edge = bubble.boundary == Boundary::Ring || age.hole.is_some();
     let samples = samples(radius_pixels).max(if has_edge { EDGE_SAMPLES } else { 1 });
-    let magnified = is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m));
+    let is_sharp = camera.confusion_pixels(center_m, radius_m) == 0.0;
+    let magnified = is_sharp && is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m));
     Some(BubbleKey {
         id: index as u32 + 1,
         index,
@@ -300,7 +308,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
         evaporated_nm: age.life.evaporation.nm(ticks),
         samples,
         // The edge of a hole is no thickness between others.
-        thicknesses: if age.hole.is_none() { thicknesses(&film, radius_pixels) } else { 1 },
+        thicknesses: if age.hole.is_none() { thicknesses(&film, radius_pixels, is_sharp) } else { 1 },
         magnified,
         // Where cells are larger than pixels, pixels are small, and each sample is costly.
         refined: samples == 1 && !magnified,

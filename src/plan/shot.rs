@@ -17,11 +17,13 @@ pub struct LensSample {
     pub in_pixel: DVec2,
     /// How far an infinitely far background is blurred already, as a part of what the lens blurs it.
     pub defocus: f64,
+    /// Whether bubbles are blurred as the whole lens blurs them: in a picture that is no mean of others.
+    pub blurs_bubbles: bool,
 }
 
 impl LensSample {
     /// All light, through the middle of the lens.
-    pub const MIDDLE: Self = Self { offset_m: DVec2::ZERO, in_pixel: DVec2::ZERO, defocus: 1.0 };
+    pub const MIDDLE: Self = Self { offset_m: DVec2::ZERO, in_pixel: DVec2::ZERO, defocus: 1.0, blurs_bubbles: true };
 
     /// The k-th of a number of samples through an aperture, of a radius in m. A background that is blurred by as much as the samples are apart shows no
     /// single one of them.
@@ -32,6 +34,7 @@ impl LensSample {
             offset_m: radius_m * aperture_place(blades, [u, v]),
             in_pixel: DVec2::new(x, y) - 0.5,
             defocus: 1.0 / f64::from(count).sqrt(),
+            blurs_bubbles: true,
         }
     }
 }

@@ -22,9 +22,13 @@ pub(super) fn is_magnified(film: &FilmKey, radius_m: f64, radius_pixels: f64, di
 }
 
 /// Thicknesses that a sample is the mean of: several where a pixel spans so much of a film that it may change by much of a fringe across it. Several
-/// samples per pixel see that better than a mean which takes the film to change evenly from pixel to pixel.
-pub(super) fn thicknesses(film: &FilmKey, radius_pixels: f64) -> u32 {
+/// samples per pixel see that better than a mean which takes the film to change evenly from pixel to pixel. Samples of a bubble that is out of focus
+/// span several pixels each.
+pub(super) fn thicknesses(film: &FilmKey, radius_pixels: f64, is_sharp: bool) -> u32 {
     let FilmKey::Field(field) = film else { return 1 };
+    if !is_sharp {
+        return CELL_PIXELS_OF_MEANS[0].1;
+    }
     if samples(radius_pixels) > 1 {
         return 1;
     }
@@ -32,14 +36,16 @@ pub(super) fn thicknesses(film: &FilmKey, radius_pixels: f64) -> u32 {
     CELL_PIXELS_OF_MEANS.into_iter().find(|(most, _)| cell_pixels < *most).map_or(1, |(_, thicknesses)| thicknesses)
 }
 
-/// Bounding rectangle of a sphere's outline in clip coordinates with a pixel of margin, cut to the picture; `None` if it is outside.
+/// Bounding rectangle of a sphere's outline in clip coordinates, with a margin of a pixel and of what the lens blurs it by, cut to the picture; `None`
+/// if it is outside.
 pub(super) fn bounds(camera: &CameraKey, size: [u32; 2], center_m: DVec3, radius_m: f64) -> Option<[DVec2; 2]> {
     let offset = center_m - camera.eye_m;
     let depth = offset.dot(camera.forward);
     let half = size.map(|pixels| 0.5 * f64::from(pixels) * camera.pixel_height_m);
-    let margin = DVec2::new(2.0 / f64::from(size[0]), 2.0 / f64::from(size[1]));
+    let pixel = DVec2::new(2.0 / f64::from(size[0]), 2.0 / f64::from(size[1]));
+    let margin = (1.0 + camera.confusion_pixels(center_m, radius_m)) * pixel;
     // Clip coordinates point up.
-    let shift = camera.shift * DVec2::new(margin.x, -margin.y);
+    let shift = camera.shift * DVec2::new(pixel.x, -pixel.y);
     let x = span(offset.dot(camera.right), depth, radius_m).map(|x| x / half[0] + shift.x);
     let y = span(offset.dot(camera.up), depth, radius_m).map(|y| y / half[1] + shift.y);
     let low = (DVec2::new(x[0], y[0]) - margin).max(DVec2::NEG_ONE);

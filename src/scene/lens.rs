@@ -5,7 +5,7 @@ use super::{Camera, section::section};
 section! {
     /// The camera's lens: `[lens]`.
     pub struct Lens, LensKeys:
-    aperture_mm: f64 = 0.0, [0.0 ..= 200.0], "Aperture", " mm", "diameter of the aperture, mm (focal length over f-number: 85 mm at f/2.8 has 30 mm); what stands behind the bubbles is out of focus, and each of its points becomes a disc; in pictures of several samples per pixel, bubbles are out of focus too; 0: all is sharp";
+    aperture_mm: f64 = 0.0, [0.0 ..= 200.0], "Aperture", " mm", "diameter of the aperture, mm (focal length over f-number: 85 mm at f/2.8 has 30 mm); what is nearer than the distance in focus or farther is out of focus, and each of its points becomes a disc; 0: all is sharp";
     blades: u32 = 0, [0 ..= 16], "Blades", "", "blades of the aperture, whose polygon bright points have in pictures of several samples per pixel; below 3, it is round";
     focus_m: Option<f64> = None, [0.01 ..= 1000.0], "Focus", " m", "distance from the eye that is in focus, m; without it, the distance of the camera's target";
     shutter_s: f64 = 0.0, [0.0 ..= 10.0], "Shutter", " s", "time that the shutter is open from the moment of the picture on, s: in pictures of several samples per pixel, what moves is blurred; a film camera has 1/48";

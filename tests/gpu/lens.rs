@@ -5,8 +5,9 @@ use std::path::Path;
 use glam::DVec3;
 use soapfilm::{
     input::LoadedScene,
-    physics::colour::Display,
-    scene::{Backdrop, Lens, Scene},
+    physics::colour::{Display, Gamut},
+    plan::{LensSample, Moment, Pace, Shot, Story},
+    scene::{Backdrop, Lens, Light, Scene},
 };
 
 use crate::support::{display, load, mean_and_max, radiance, renderer, still};
@@ -51,6 +52,70 @@ fn a_far_background_is_that_of_rays_through_a_lens() {
     );
     // The discs' edges are an eighth of their radius wide, and the picture's pixels a fifth.
     assert!(mean < 0.04 * light && worst < 0.12 * brightest, "{mean} of {light}, {worst} of {brightest}");
+}
+
+/// Bubbles before and behind the plane in focus, small ones of a generator too, against the mean of pictures through places all over the lens.
+#[test]
+fn bubbles_out_of_focus_are_those_of_rays_through_a_lens() {
+    const PLACES: u32 = 49;
+    let Some(mut renderer) = renderer() else { return };
+    let size = [256, 144];
+    let moment = Moment { tick: 0, fraction: 0.0 };
+    let shot = Shot { size, moment, full_precision: true, gamut: Gamut::Srgb, pace: Pace::Whole };
+    for quality in ["fast", "standard"] {
+        let loaded = out_of_focus(quality);
+        let story = Story::new(loaded.scene.clone());
+        let mut seen = |lens: &LensSample| {
+            radiance(&mut renderer, &story.request_through(lens, &loaded.resources, &shot).unwrap())
+        };
+        let whole = seen(&LensSample::MIDDLE);
+        let sharp = seen(&LensSample { blurs_bubbles: false, ..LensSample::MIDDLE });
+        let mut truth = vec![DVec3::ZERO; whole.len()];
+        for k in 0..PLACES {
+            let lens =
+                LensSample { defocus: 0.0, ..LensSample::of(k, PLACES, 0.5e-3 * loaded.scene.lens.aperture_mm, 0) };
+            truth.iter_mut().zip(seen(&lens)).for_each(|(sum, radiance)| *sum += radiance / f64::from(PLACES));
+        }
+        // As they are shown: of two bright pixels nobody sees how bright they are.
+        let shown = |radiance: DVec3| radiance / (1.0 + radiance);
+        let error = |picture: &[DVec3]| {
+            let errors = picture.iter().zip(&truth).map(|(a, b)| (shown(*a) - shown(*b)).length_squared() / 3.0);
+            mean_and_max(errors).0.sqrt()
+        };
+        let [blurred, sharp] = [&whole, &sharp].map(|picture| error(picture));
+        eprintln!("measured: bubbles out of focus, {quality}: {blurred:.4} rms of white, {sharp:.4} if they are sharp");
+        assert!(blurred < 0.008 && blurred < 0.4 * sharp, "{quality}: {blurred} {sharp}");
+    }
+}
+
+/// One bubble in focus, one before it, one behind it, and small ones all over.
+fn out_of_focus(quality: &str) -> LoadedScene {
+    let text = format!(
+        "version = 1\n\
+         [[bubble]]\nradius_mm = 20\n[bubble.film]\nstate = \"uniform\"\nthickness_nm = 420\n\
+         [[bubble]]\nradius_mm = 14\ncenter_m = [0.2, 0.04, 0.01]\n[bubble.film]\ncells = 32\n\
+         [[bubble]]\nradius_mm = 40\ncenter_m = [-0.5, -0.06, 0.05]\n[bubble.film]\ncells = 32\n\
+         [[generator]]\nlayout = \"cloud\"\ncount = 40\nsize_m = [0.6, 0.3, 0.15]\nradius_mm = 4\n\
+         [camera]\ndistance_m = 0.5\nazimuth_deg = 0\nelevation_deg = 0\nfov_y_deg = 22\n\
+         [lens]\naperture_mm = 24\n[light]\nenvironment = \"studio\"\n\
+         [view]\nquality = \"{quality}\"\nbackdrop = [0.02, 0.02, 0.02]\n"
+    );
+    LoadedScene::from_toml(&text, "out of focus", Path::new("")).unwrap()
+}
+
+/// In even light, a bubble vanishes out of focus too.
+#[test]
+fn bubbles_out_of_focus_vanish_in_a_white_furnace() {
+    let Some(mut renderer) = renderer() else { return };
+    for quality in ["fast", "standard", "spectral"] {
+        let mut loaded = out_of_focus(quality);
+        loaded.scene.light = Light { constant: Some([1.0; 3]), ..Light::default() };
+        loaded.scene.view.backdrop = Backdrop::Environment;
+        let loaded = LoadedScene::from_toml(&loaded.scene.to_toml(), "furnace", Path::new("")).unwrap();
+        let seen = radiance(&mut renderer, &still(&loaded, [256, 144], 0.0));
+        let (_, worst) = mean_and_max(seen.iter().map(|pixel| (*pixel - seen[0]).abs().max_element() / seen[0].y));
+        assert!(worst < 1e-3, "{quality}: {worst}");
+    }
 }
 
 /// A round lamp on black.

@@ -91,7 +91,9 @@ impl Painter {
     /// What a picture of a moment needs.
     pub fn request(&self, moment: Moment) -> anyhow::Result<FrameRequest> {
         let samples = if self.options.is_reference() { 1 } else { self.options.samples };
-        self.request_by(&LensSample::MIDDLE, moment, samples)
+        // Layers are sharp, as their depth and their normals are; the reference comes to the truth by its samples alone.
+        let blurs_bubbles = !self.options.layers && !self.options.is_reference();
+        self.request_by(&LensSample { blurs_bubbles, ..LensSample::MIDDLE }, moment, samples)
     }
 
     /// What one of the pictures needs whose mean is the picture of a moment through the whole lens, while the shutter is open.

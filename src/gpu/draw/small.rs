@@ -109,6 +109,12 @@ impl SmallDraw {
 }
 
 impl Shared<'_> {
+    /// Whether a small bubble is.
+    fn is_out_of_focus(&self, place: usize) -> bool {
+        let small = &self.key.small[place];
+        self.key.camera.confusion_pixels(small.center_m, small.radius_m) > 0.0
+    }
+
     /// Makes some small bubbles ready, whose films have these colours.
     pub(super) fn small(
         &self,
@@ -121,6 +127,7 @@ impl Shared<'_> {
         let coloured = films.table.as_ref().is_some_and(|table| table.coloured);
         let small = SmallBubbles {
             SAMPLES: max_small_samples(key, films.quadrature.quality, lists.most()),
+            OUT_OF_FOCUS: bubbles.iter().any(|PlacedSmall { place, .. }| self.is_out_of_focus(*place)),
             FULL_PRECISION: key.full_precision,
             THRICE: films.quadrature.quality != Quality::Fast,
             YARDSTICK: key.rendering == Rendering::Yardstick,

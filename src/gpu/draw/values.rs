@@ -45,7 +45,10 @@ fn small_samples(quality: Quality) -> f64 {
 /// Samples along each side of a pixel of small bubbles, of which a tile has `most` at most.
 pub(super) fn max_small_samples(key: &DrawKey, quality: Quality, most: u32) -> u32 {
     // Bubbles of less than a pixel are sampled as often as those of a pixel.
-    let area = |small: &SmallBubble| std::f64::consts::PI * (small.radius_pixels(&key.camera) + 1.0).powi(2);
+    let reach = |small: &SmallBubble| {
+        small.radius_pixels(&key.camera) + 1.0 + key.camera.confusion_pixels(small.center_m, small.radius_m)
+    };
+    let area = |small: &SmallBubble| std::f64::consts::PI * reach(small).powi(2);
     let pixels: f64 = key.small.iter().map(area).sum();
     let affordable = |samples: &u32| f64::from(samples.pow(2)) * pixels <= small_samples(quality);
     let ends = |samples: &u32| samples.pow(2).saturating_mul(most) <= MAX_ITERATIONS;
@@ -63,6 +66,7 @@ pub(super) fn ring_overrides(
         MAGNIFIED: bubble.magnified,
         SAMPLES: ring.samples.min(max_samples(colours.quadrature)),
         IN_LINE: ring.in_line,
+        OUT_OF_FOCUS: ring.confusion_pixels > 0.0,
         REFINED_SAMPLES: ring.refined_samples,
         ENVIRONMENT_TAPS: ring.environment_taps,
         OUTLINE: ring.outline,
@@ -184,7 +188,7 @@ pub(super) fn bubble_uniform(key: &DrawKey, drawn: &Drawn<'_>) -> BubbleUniform 
         rim_z: bubble.cap.map_or(-2.0, |cap| cap.rim_z as f32),
         thickness_factor: bubble.thickness_factor as f32,
         sides: ring.sides,
-        padding: 0.0,
+        confusion_pixels: ring.confusion_pixels as f32,
     }
 }
 
@@ -223,6 +227,7 @@ pub(super) fn small_bubbles(key: &DrawKey, lighting: &Lighting, atlas: &FilmAtla
         radius_m: small.radius_m as f32,
         to_film: small.to_film(&key.lent[small.lent]).into(),
         thickness_factor: small.thickness_factor as f32,
+        confusion_pixels: key.camera.confusion_pixels(small.center_m, small.radius_m) as f32,
         ..lent[small.lent]
     });
     small.collect()
@@ -254,6 +259,7 @@ fn film_of_others(
         skins_nm: (2.0 * film.skin_nm).max(1e-3) as f32,
         rim_z: -2.0,
         thickness_factor: 1.0,
-        padding: [0.0; 2],
+        confusion_pixels: 0.0,
+        padding: 0.0,
     }
 }

@@ -56,8 +56,8 @@ shader_struct! {
         pub thickness_factor: f32,
         /// Sides of the polygons around the ring's edges.
         pub sides: u32,
-        /// Fills 16 bytes.
-        pub padding: f32,
+        /// Radius of the circle of confusion, in pixels.
+        pub confusion_pixels: f32,
     }
 }
 
@@ -100,8 +100,10 @@ shader_struct! {
         pub rim_z: f32,
         /// How much thicker the bubble is than the film shows.
         pub thickness_factor: f32,
+        /// Radius of its circle of confusion, in pixels; 0 if it is in focus.
+        pub confusion_pixels: f32,
         /// Fills 16 bytes.
-        pub padding: [f32; 2],
+        pub padding: f32,
     }
 }
 
@@ -119,6 +121,8 @@ overrides! {
         override SAMPLES: u32 in [1, 4, 8];
         /// Whether the samples stand in a line.
         override IN_LINE: bool;
+        /// Whether the samples fill a circle of confusion.
+        override OUT_OF_FOCUS: bool;
         /// Samples along each side of a pixel that is unlike its neighbours; 0 if all have one.
         override REFINED_SAMPLES: u32 in [0, 2];
         /// Lookups of the surroundings in a reflection, at most.

@@ -32,6 +32,7 @@ kernels! {
         const THICKNESSES: u32 = 1;
         const BACKDROP_IS_ENVIRONMENT: bool = false;
         override SAMPLES: u32 in [1, 4];
+        override OUT_OF_FOCUS: bool;
         override FULL_PRECISION: bool;
         override THRICE: bool;
         override YARDSTICK: bool;

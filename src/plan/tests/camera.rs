@@ -124,6 +124,40 @@ fn through_the_edge_of_a_lens_the_focus_stays_and_what_is_behind_it_moves() {
 }
 
 #[test]
+fn a_circle_of_confusion_is_as_wide_as_the_edge_of_the_lens_moves_a_bubble() {
+    let mut scene = uniform_scene();
+    scene.camera = Camera { azimuth_deg: 0.0, elevation_deg: 0.0, distance_m: 0.5, ..Camera::default() };
+    scene.lens.aperture_mm = 40.0;
+    let bubble = |x_m: f64| Bubble { center_m: [x_m, 0.0, 0.0], radius_mm: 10.0, ..scene.bubbles[0].clone() };
+    // A little before the depth in focus, twice as deep, and before the eye.
+    scene.bubbles = vec![bubble(0.002), bubble(-0.5), bubble(0.488)];
+    let story = Story::new(scene);
+    let draw = |lens: LensSample| {
+        let shot = Shot { size: [1280, 720], ..shot(0, Pace::Whole) };
+        story.request_through(&lens, &resources(), &shot).unwrap().picture.draw
+    };
+    let confusion = |draw: &DrawKey, index: usize| {
+        let bubble = draw.bubbles.iter().find(|bubble| bubble.index == index).unwrap();
+        draw.camera.confusion_pixels(bubble.center_m, bubble.radius_m)
+    };
+    let (whole, one_of_100) = (draw(LensSample::MIDDLE), draw(LensSample { defocus: 0.1, ..LensSample::MIDDLE }));
+    // Where the bubble's nearer quarter is.
+    let expected = 0.02 * (1.0 / 0.5 - 1.0 / 0.9975) / whole.camera.pixel_height_m;
+    assert_eq!(confusion(&whole, 0), 0.0);
+    assert!((confusion(&whole, 1) / expected - 1.0).abs() < 1e-12, "{} {expected}", confusion(&whole, 1));
+    assert!((confusion(&one_of_100, 1) / expected - 0.1).abs() < 1e-12);
+    assert_eq!(confusion(&whole, 2), 0.0, "its walls have no one depth");
+    let sharp = draw(LensSample { blurs_bubbles: false, ..LensSample::MIDDLE });
+    assert_eq!(confusion(&sharp, 1), 0.0);
+    // What it is blurred over counts as its own.
+    let height = |draw: &DrawKey| {
+        let bubble = draw.bubbles.iter().find(|bubble| bubble.index == 1).unwrap();
+        360.0 * (bubble.bounds[1].y - bubble.bounds[0].y)
+    };
+    assert!((height(&whole) - height(&sharp) - 2.0 * expected).abs() < 1e-6);
+}
+
+#[test]
 fn a_preview_shows_the_same_with_half_as_many_pixels_a_side_and_has_its_films_ready_for_the_picture() {
     let whole = frame_request(&stirred_scene(), 0, Pace::Whole);
     let preview = FrameRequest { picture: whole.picture.preview().unwrap(), ..whole.clone() };
