@@ -61,11 +61,17 @@ struct Sample {
     in_lens: vec2f,
 }
 
-// The sample as a bubble meets it whose circle of confusion has a radius in pixels.
-fn through_lens(sample: Sample, confusion_pixels: f32) -> Sample {
-    if (OUT_OF_FOCUS == 0u || confusion_pixels == 0.0) {
+// The widest circle of confusion of which each sample's part is no larger than the bubble: its radius over the bubble's and the samples along a side.
+const MOST_CONFUSION: f32 = 0.5;
+
+// The sample as a bubble of the list meets it.
+fn through_lens(sample: Sample, number: u32) -> Sample {
+    if (OUT_OF_FOCUS == 0u || bubbles[number].confusion_pixels == 0.0) {
         return sample;
     }
+    let radius_pixels = bubbles[number].radius_m / (length(bubbles[number].to_center_m) * view.pixel_height);
+    let most = MOST_CONFUSION * f32(SAMPLES) * radius_pixels;
+    let confusion_pixels = min(bubbles[number].confusion_pixels, most);
     let offset = confusion_pixels * view.pixel_height * sample.in_lens;
     let part = confusion_pixels / f32(SAMPLES);
     let width = sqrt(sample.width * sample.width + PI * part * part);
@@ -77,7 +83,7 @@ fn through_lens(sample: Sample, confusion_pixels: f32) -> Sample {
 fn next_seen(sample: Sample, first: u32, end: u32) -> u32 {
     for (var k = first; k < end; k++) {
         let number = lists[k];
-        let seen = through_lens(sample, bubbles[number].confusion_pixels);
+        let seen = through_lens(sample, number);
         let ray = normalize(seen.plane);
         let to_center_m = bubbles[number].to_center_m;
         let along_m = dot(to_center_m, ray);
@@ -185,7 +191,7 @@ fn sample_radiance(sample: Sample, tile: Tile, backdrop: vec3f) -> vec3f {
     var k = next_seen(sample, tile.first, tile.end);
     while (k < tile.end) {
         let bubble = bubbles[lists[k]];
-        let aim = through_lens(sample, bubble.confusion_pixels);
+        let aim = through_lens(sample, lists[k]);
         let edge = silhouette(view, bubble.to_center_m, bubble.radius_m, aim.plane, aim.width);
         let path = path_through(bubble, edge.inside, aim.width * pixel);
         seen = mix(seen, through_bubble(bubble, path, seen), edge.coverage);

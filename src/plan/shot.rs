@@ -17,7 +17,7 @@ pub struct LensSample {
     pub in_pixel: DVec2,
     /// How far an infinitely far background is blurred already, as a part of what the lens blurs it.
     pub defocus: f64,
-    /// Whether bubbles are blurred as the whole lens blurs them: in a picture that is no mean of others.
+    /// Whether bubbles are blurred by as much as the background: not in layers, whose depths and normals are sharp.
     pub blurs_bubbles: bool,
 }
 
