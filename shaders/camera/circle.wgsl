@@ -3,6 +3,11 @@
 const PI: f32 = 3.141592653589793;
 const GOLDEN_ANGLE: f32 = 2.399963229728653;
 
+// Side in pixels of a sample's box, where side x side samples share the area of a circle of confusion and of the pixel.
+fn sample_width(confusion_pixels: f32, side: u32) -> f32 {
+    return sqrt(PI * confusion_pixels * confusion_pixels + 1.0) / f32(side);
+}
+
 // From this number of places on the spiral is turned from pixel to pixel. Fewer are for circles of few pixels, whose places lie close together anyway.
 const TURNED: u32 = 16u;
 

@@ -2,7 +2,7 @@
 // over what is behind it. A bubble is round and whole, and three of its walls are looked up in the table; light that is reflected inside more
 // than twice follows the mean over all thicknesses.
 
-import package::camera::circle::{PI, in_circle};
+import package::camera::circle::{in_circle, sample_width};
 import package::camera::view::{View, pixel_angle, view_plane};
 import package::light::environment::{Light, environment_radiance};
 import package::light::lamps::Lamp;
@@ -73,9 +73,8 @@ fn through_lens(sample: Sample, number: u32) -> Sample {
     let most = MOST_CONFUSION * f32(SAMPLES) * radius_pixels;
     let confusion_pixels = min(bubbles[number].confusion_pixels, most);
     let offset = confusion_pixels * view.pixel_height * sample.in_lens;
-    let part = confusion_pixels / f32(SAMPLES);
-    let width = sqrt(sample.width * sample.width + PI * part * part);
-    return Sample(sample.plane + offset.x * view.right - offset.y * view.up, width, sample.in_lens);
+    let plane = sample.plane + offset.x * view.right - offset.y * view.up;
+    return Sample(plane, sample_width(confusion_pixels, SAMPLES), sample.in_lens);
 }
 
 // The first bubble of a tile from a place in the list on that a sample may show: most of the list is missed, and what is costly is done for the

@@ -2,7 +2,7 @@
 //
 // The pass that draws bubbles declares what this reads: `view`, `bubble`, and the functions `bubble_radiance` and `beside`.
 
-import package::camera::circle::{PI, in_circle};
+import package::camera::circle::{in_circle, sample_width};
 import package::camera::view::{pixel_angle, view_plane};
 import package::sphere::path::{PixelPart, WHOLE_PIXEL};
 import package::sphere::trace::outline;
@@ -100,10 +100,10 @@ fn mean_radiance(position: vec2f, side: u32) -> vec3f {
     return total * width * width;
 }
 
-// The mean over a circle of confusion, in samples that share the area of the circle and of the pixel.
+// The mean over a circle of confusion.
 fn mean_over_circle(position: vec2f, side: u32) -> vec3f {
     let radius = bubble.confusion_pixels;
-    let width = sqrt(PI * radius * radius + 1.0) / f32(side);
+    let width = sample_width(radius, side);
     var total = vec3f(0.0);
     for (var k = 0u; k < side * side; k++) {
         let place = position + radius * in_circle(k, side * side, position);

@@ -14,11 +14,11 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::passes::small_bubbles::TILE;
 use crate::{
-    plan::{BubbleKey, DrawKey},
+    plan::{BubbleKey, DrawKey, SmallBubble},
     scene::Quality,
 };
 
@@ -147,11 +147,11 @@ struct TileState {
 #[must_use]
 pub fn composition(key: &DrawKey) -> Composition {
     let mut stack = Stack::new(key);
-    let power = |center_m: DVec3, radius_m: f64| center_m.distance_squared(key.camera.eye_m) - radius_m.powi(2);
-    let mut small = key.small.iter().map(|small| power(small.center_m, small.radius_m)).enumerate().peekable();
+    let power = |small: &SmallBubble| key.camera.power(small.center_m, small.radius_m);
+    let mut small = key.small.iter().map(power).enumerate().peekable();
     for cluster in clusters(key) {
         let nearest = cluster.last().map(|member| &key.bubbles[*member]);
-        let nearest = nearest.map_or(0.0, |nearest| power(nearest.center_m, nearest.radius_m));
+        let nearest = nearest.map_or(0.0, |nearest| key.camera.power(nearest.center_m, nearest.radius_m));
         while let Some((place, _)) = small.next_if(|(_, power)| *power >= nearest) {
             stack.add_small(place);
         }

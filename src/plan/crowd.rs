@@ -72,7 +72,7 @@ pub(super) fn in_sight(story: &Story, camera: &CameraKey, shot: &Shot) -> InSigh
 
 /// In the order of the power of the eye with respect to each, which is found once for each.
 fn farthest_first(small: &[SmallBubble], camera: &CameraKey) -> Vec<SmallBubble> {
-    let power = |small: &SmallBubble| small.center_m.distance_squared(camera.eye_m) - small.radius_m.powi(2);
+    let power = |small: &SmallBubble| camera.power(small.center_m, small.radius_m);
     let mut order: Vec<(f64, usize)> = small.iter().map(power).zip(0..).collect();
     order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
     order.into_iter().map(|(_, place)| small[place]).collect()
@@ -135,7 +135,7 @@ fn small(member: &Member, lent: usize, bounds: [DVec2; 2]) -> SmallBubble {
 fn large(member: &Member, lent: &LentFilm, seen: &Seen, camera: &CameraKey) -> BubbleKey {
     let bubble = small(member, 0, seen.bounds).whole(lent, camera);
     let distance_m = member.center_m.distance(camera.eye_m);
-    let is_sharp = camera.confusion_pixels(member.center_m, member.radius_m) == 0.0;
+    let is_sharp = camera.is_in_focus(member.center_m, member.radius_m);
     BubbleKey {
         stretch: seen.stretch,
         thicknesses: thicknesses(&bubble.film, seen.radius_pixels, is_sharp),

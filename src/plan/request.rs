@@ -90,28 +90,23 @@ impl Story {
         shot: &Shot,
     ) -> Result<FrameRequest, Fault> {
         let scene: &Scene = self;
-        let mut camera = through(camera(seen_from, shot.size), lens, scene.lens.in_focus_m(seen_from));
         let bath_m = bath_m(scene);
         // A bath and what it mirrors are sharp.
-        if lens.blurs_bubbles && bath_m.is_none() {
-            camera.lens_radius_m = 0.5e-3 * lens.defocus * scene.lens.aperture_mm;
-        }
+        let lens = &LensSample { blurs_bubbles: lens.blurs_bubbles && bath_m.is_none(), ..*lens };
+        let camera = through(camera(seen_from, shot.size), lens, (&scene.lens, scene.lens.in_focus_m(seen_from)));
         if bath_m.is_some_and(|height_m| camera.eye_m.z <= height_m) {
             return Err(below_bath(scene, shot.moment));
         }
-        let mut bubbles: Vec<BubbleKey> = scene
-            .bubbles
-            .iter()
-            .enumerate()
-            .filter_map(|(index, bubble)| visible(self, &camera, shot, index, bubble))
-            .collect();
+        let own = scene.bubbles.iter().enumerate();
+        let own = own.filter_map(|(index, bubble)| visible(self, &camera, shot, index, bubble));
+        let mut bubbles: Vec<BubbleKey> = own.collect();
         let InSight { bubbles: made, small, mut lent } = in_sight(self, &camera, shot);
         bubbles.extend(made);
         let materials = materials(self, resources)?;
         bubbles.iter_mut().for_each(|bubble| bubble.material = materials.of_film[bubble.index]);
         lent.iter_mut().for_each(|lent| lent.material = materials.of_film[lent.index]);
-        // By the power of the eye with respect to each sphere, which orders all spheres that do not intersect as the eye sees them.
-        let power = |bubble: &BubbleKey| bubble.center_m.distance_squared(camera.eye_m) - bubble.radius_m.powi(2);
+        // Farthest first.
+        let power = |bubble: &BubbleKey| camera.power(bubble.center_m, bubble.radius_m);
         bubbles.sort_by(|a, b| power(b).total_cmp(&power(a)));
         let films = materials.in_sight(&bubbles, &lent);
         let are_many = bubbles.len() + small.len() > 1 || !small.is_empty();
@@ -185,13 +180,14 @@ fn camera(camera: &Camera, [_, height]: [u32; 2]) -> CameraKey {
     }
 }
 
-/// A camera that looks through one place of its lens. What is in focus stays where it is in the picture.
-fn through(camera: CameraKey, lens: &LensSample, in_focus_m: f64) -> CameraKey {
-    let LensSample { offset_m, in_pixel, .. } = *lens;
+/// A camera that looks through one place of its lens, which has a depth in focus. What is in focus stays where it is in the picture.
+fn through(camera: CameraKey, sample: &LensSample, (lens, in_focus_m): (&Lens, f64)) -> CameraKey {
+    let LensSample { offset_m, in_pixel, defocus, blurs_bubbles } = *sample;
     let in_focus = offset_m / (in_focus_m * camera.pixel_height_m);
     CameraKey {
         eye_m: camera.eye_m + offset_m.x * camera.right + offset_m.y * camera.up,
         shift: camera.shift + DVec2::new(in_focus.x, -in_focus.y) - in_pixel,
+        lens_radius_m: if blurs_bubbles { 0.5e-3 * defocus * lens.aperture_mm } else { 0.0 },
         focus_m: in_focus_m,
         ..camera
     }
@@ -290,7 +286,7 @@ fn visible(story: &Story, camera: &CameraKey, shot: &Shot, index: usize, bubble:
     let ticks = age.moment.ticks();
     let has_edge = bubble.boundary == Boundary::Ring || age.hole.is_some();
     let samples = samples(radius_pixels).max(if has_edge { EDGE_SAMPLES } else { 1 });
-    let is_sharp = camera.confusion_pixels(center_m, radius_m) == 0.0;
+    let is_sharp = camera.is_in_focus(center_m, radius_m);
     let magnified = is_sharp && is_magnified(&film, radius_m, radius_pixels, center_m.distance(camera.eye_m));
     Some(BubbleKey {
         id: index as u32 + 1,

@@ -1,5 +1,7 @@
 use std::{collections::BTreeMap, sync::Arc};
 
+use glam::DVec3;
+
 use super::*;
 use crate::{
     physics::{

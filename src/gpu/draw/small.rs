@@ -109,10 +109,10 @@ impl SmallDraw {
 }
 
 impl Shared<'_> {
-    /// Whether a small bubble is.
+    /// Whether a small bubble, by its place in the picture's list, is blurred by the lens.
     fn is_out_of_focus(&self, place: usize) -> bool {
         let small = &self.key.small[place];
-        self.key.camera.confusion_pixels(small.center_m, small.radius_m) > 0.0
+        !self.key.camera.is_in_focus(small.center_m, small.radius_m)
     }
 
     /// Makes some small bubbles ready, whose films have these colours.

@@ -57,6 +57,18 @@ impl CameraKey {
         if pixels < LEAST_CONFUSION_PIXELS { 0.0 } else { pixels.min(most) }
     }
 
+    /// Whether a bubble is sharp.
+    #[must_use]
+    pub fn is_in_focus(&self, center_m: DVec3, radius_m: f64) -> bool {
+        self.confusion_pixels(center_m, radius_m) == 0.0
+    }
+
+    /// The power of the eye with respect to a sphere, in m²: it orders all spheres that do not intersect as the eye sees them.
+    #[must_use]
+    pub fn power(&self, center_m: DVec3, radius_m: f64) -> f64 {
+        center_m.distance_squared(self.eye_m) - radius_m.powi(2)
+    }
+
     /// Directions through the corners of a picture of that size and of a margin around it, in order around it. The margin is in pixels.
     #[must_use]
     pub fn corners(&self, size: [u32; 2], margin: f64) -> [DVec3; 4] {
