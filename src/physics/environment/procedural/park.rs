@@ -60,6 +60,8 @@ struct Park {
     gradation: Curve<1>,
     /// By azimuth: the ring's outlines.
     ring: Curve<7>,
+    /// By azimuth: where there is sky alone.
+    ceiling: Curve<1>,
     noise: Tile,
     photographer: Photographer,
 }
@@ -76,12 +78,14 @@ impl Park {
             let angle = 2.0 * half_chord.asin();
             [indicatrix(angle) / zenith, 60.0 * (-angle / 0.03).exp()]
         };
+        let ring = Curve::new(2048, ring());
         Self {
             sun,
             sun_level,
             around_sun: Curve::new(1024, around_sun),
             gradation: Curve::new(256, |sine| [gradation(sine)]),
-            ring: Curve::new(2048, ring()),
+            ceiling: Curve::new(512, ceiling(&ring)),
+            ring,
             noise: Tile::new(7),
             photographer: Photographer::new(),
         }
@@ -132,8 +136,8 @@ impl Park {
     /// The trees, and what is seen between them.
     fn trees(&self, direction: DVec3, slope: f64) -> DVec3 {
         let azimuth = turns(direction.truncate());
-        let [far_top, top, bottom, trunk_cover, near_top, near_bottom, near_trunk] = self.ring.at(azimuth);
-        if slope > top.max(near_top).max(far_top) + 0.11 {
+        let [ceiling] = self.ceiling.at(azimuth);
+        if slope > ceiling {
             return self.sky(direction);
         }
         // The noise repeats seven times, so that it closes around.
@@ -141,7 +145,12 @@ impl Park {
         let coarse = self.noise.at(place * DVec2::new(1.0, 1.4));
         let fine = self.noise.at(place * DVec2::new(4.0, 4.9));
         let leaves = self.noise.at(place * DVec2::new(13.0, 15.1));
-        let ragged = 0.030 * coarse + 0.016 * fine + 0.016 * leaves;
+        let leaves_aside = self.noise.at(place.perp() * DVec2::new(11.3, 13.0));
+        let ragged = 0.030 * coarse + 0.018 * fine + 0.020 * leaves;
+        // Crowns are as ragged at their sides as at their tops.
+        let aside = (0.014 * fine - 0.012 * coarse + 0.022 * leaves_aside) / std::f64::consts::TAU;
+        let [far_top, top, bottom, _, near_top, near_bottom, _] = self.ring.at((azimuth + aside).rem_euclid(1.0));
+        let [_, _, _, trunk_cover, _, _, near_trunk] = self.ring.at(azimuth);
         let soft = 0.012;
         let cover = |inside: f64| smoothstep(-soft, soft, inside);
         // How much the sun shines on what is seen of the trees: all opposite of it, nothing before it.
@@ -296,6 +305,15 @@ fn ring() -> impl Fn(f64) -> [f64; 7] {
         let gap = 0.17 + 500.0 * apart(SUN_DEG[0]).powi(2);
         [far_top.max(0.08).min(gap), top.min(gap), bottom, trunk, near_top.min(gap), near_bottom, near_trunk]
     }
+}
+
+/// The ring's highest top within 7°, and as high above it as leaves reach.
+fn ceiling(ring: &Curve<7>) -> impl Fn(f64) -> [f64; 1] + '_ {
+    let top = |azimuth: f64| {
+        let [far_top, top, _, _, near_top, ..] = ring.at(azimuth.rem_euclid(1.0));
+        far_top.max(top).max(near_top)
+    };
+    move |azimuth| [(-8..=8).map(|k| top(azimuth + f64::from(k) * 0.0025)).fold(0.0, f64::max) + 0.16]
 }
 
 #[cfg(test)]
