@@ -3,7 +3,9 @@
 // The pass that draws bubbles declares what this reads: `bubble`, `others`, its `part` of their `lists`, `films`, the table, the light, and the
 // functions `surroundings` and `from_round`.
 
+import package::light::stokes::{Stokes, past_wall, turn_between, turned, unpolarised};
 import package::optics::film_colour::reflection_at;
+import package::optics::shares::{s_part, share_of_s};
 import package::optics::table::FilmPoint;
 import package::sphere::others::{Chord, OtherBubble, chord_through, other_nm, place_on};
 import package::sphere::path::Path;
@@ -21,8 +23,8 @@ struct Meeting {
 const FAR_M: f32 = 1e30;
 
 // Light from a direction, as seen at a point of the unit sphere: from the surroundings, through the two nearest bubbles on the way and with what
-// those mirror of them.
-fn mirrored_light(point: vec3f, direction: vec3f, footprint: f32) -> vec3f {
+// those mirror of them. Its polarisation refers to an axis across the direction.
+fn mirrored_light(point: vec3f, direction: vec3f, axis: vec3f, footprint: f32) -> Stokes {
     let origin_m = bubble.to_center_m + bubble.radius_m * from_round(point);
     var first = Meeting(0u, Chord(FAR_M, FAR_M, 0.0));
     var second = first;
@@ -37,13 +39,21 @@ fn mirrored_light(point: vec3f, direction: vec3f, footprint: f32) -> vec3f {
             }
         }
     }
-    var seen = surroundings(direction, footprint);
+    var seen = unpolarised(surroundings(direction, footprint));
     for (var wall = next_wall(first, second, 0u); wall < 4u; wall = next_wall(first, second, wall + 1u)) {
         let met = met_at(first, second, wall);
         let other = others[met.number];
         let place = place_on(other, origin_m + wall_distance_m(met, wall) * direction);
-        let step = surroundings(reflect(direction, place), footprint) - seen;
-        seen += reflected_light(other, place, met.chord.cos_theta, step);
+        let mirrored = surroundings(reflect(direction, place), footprint);
+        // s light of the wall. Straight through the middle there is no plane of incidence, and s and p light are the same.
+        let across = cross(direction, place);
+        let turn = turn_between(axis, across / max(length(across), 1e-9), direction);
+        let film = FilmPoint(met.chord.cos_theta, other_nm(films, other, place), 0.0);
+        let mean = reflected_light(film, vec3f(1.0));
+        let half_difference = mean * (s_part(mean, share_of_s(axes.index, film.cos_theta)) - 1.0);
+        let behind = turned(seen, turn);
+        let past = past_wall(behind, mirrored, reflected_light(film, mirrored - behind.i), mean, half_difference);
+        seen = turned(past, vec2f(turn.x, -turn.y));
     }
     return seen;
 }
@@ -73,10 +83,9 @@ fn next_wall(first: Meeting, second: Meeting, from_wall: u32) -> u32 {
     return 4u;
 }
 
-// What a wall of another bubble reflects of light, as light.
-fn reflected_light(other: OtherBubble, place: vec3f, cos_theta: f32, step: vec3f) -> vec3f {
-    let film = FilmPoint(cos_theta, other_nm(films, other, place), 0.0);
-    return light.unseen * (light.scale * reflection_at(table, axes, film, vec2f(0.5), step));
+// What a film of another bubble reflects of light, as light.
+fn reflected_light(film: FilmPoint, incident: vec3f) -> vec3f {
+    return light.unseen * (light.scale * reflection_at(table, axes, film, vec2f(0.5), incident));
 }
 
 // What other bubbles leave of light on its way from the bubble's front and back wall.
@@ -128,5 +137,6 @@ fn next_chord(direction: vec3f, end_m: f32, first: u32) -> NextChord {
 // What a wall leaves of light that passes it.
 fn wall_left(other: OtherBubble, chord: Chord, distance_m: f32, direction: vec3f) -> vec3f {
     let place = place_on(other, distance_m * direction);
-    return max(1.0 - reflected_light(other, place, chord.cos_theta, vec3f(1.0)), vec3f(0.0));
+    let film = FilmPoint(chord.cos_theta, other_nm(films, other, place), 0.0);
+    return max(1.0 - reflected_light(film, vec3f(1.0)), vec3f(0.0));
 }

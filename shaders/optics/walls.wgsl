@@ -20,6 +20,8 @@ override EVERYTHING: u32;
 override WAVELENGTHS: u32;
 // Inner reflections that are followed: 1, 3, 7 or 11.
 override INNER: u32;
+// 1: light from outside may be polarised, as other bubbles make it that are seen in the first two walls.
+override MIRRORS_OTHERS: u32;
 // 1: there are films that the wavelengths are too few for.
 override THICK: u32;
 
@@ -39,6 +41,8 @@ struct Walls {
     first: Hits,
     second: Hits,
     third: Hits,
+    // By how much more the first four steps are of s light than of p light; read where MIRRORS_OTHERS is 1.
+    polarised: mat4x3f,
     // Steps of light at further hits, where the film is taken to be as thick as at the last one: at grazing they lie close together.
     further: array<vec3f, 12>,
 }
@@ -134,6 +138,9 @@ fn wavelength_radiance(sample: QuadratureSample, cos_theta: f32, walls: Walls, p
     var s = polarisation.x * first_factors(r.s);
     var p = polarisation.y * first_factors(r.p);
     var light = walls.first.steps * (s + p - polarisation.x * table_factors(r.s) - polarisation.y * table_factors(r.p));
+    if (MIRRORS_OTHERS == 1u) {
+        light += walls.polarised * (s - p);
+    }
     if (INNER > 3u) {
         let r = wall_reflectances(sample, cos_theta, walls.second);
         s = later_factors(s.w, r.s);

@@ -8,6 +8,7 @@ import package::film::wall::optical_nm;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
 import package::light::lamps::Lamp;
 import package::light::others::{AMONG_OTHERS, mirrored_light, passed_others};
+import package::light::stokes::{Stokes, unpolarised};
 import package::light::stored::storable;
 import package::light::strips::reflected_surroundings;
 import package::light::water::{crossing, past_meniscus, upward};
@@ -15,7 +16,7 @@ import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::{THICKNESSES, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, WAVELENGTHS, Walls};
+import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, MIRRORS_OTHERS, WAVELENGTHS, Walls};
 import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
 import package::sphere::hops::{Followed, Hop, followed, left_before, mirrored, reflected_inside};
@@ -26,8 +27,6 @@ import package::sphere::trace::{eye_is_inside, from_round, outline, path_along, 
 
 // 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
 override OVER_OTHERS: u32;
-// 1: the bubble mirrors other bubbles.
-override MIRRORS_OTHERS: u32;
 
 // Mirrors `BubbleUniform` in src/gpu/passes/bubble.rs.
 struct Bubble {
@@ -218,6 +217,12 @@ struct FourHits {
     last: Followed,
 }
 
+// The first four, and by how much more their steps are of s light than of p light.
+struct FirstHits {
+    four: FourHits,
+    polarised: mat4x3f,
+}
+
 fn four_hits(path: Path, at: Followed, four: u32) -> FourHits {
     let a = followed(path, at);
     let b = followed(path, a);
@@ -234,13 +239,15 @@ fn four_hits(path: Path, at: Followed, four: u32) -> FourHits {
 }
 
 // The first four hits: the front wall, which there is none of from inside the bubble, and three inside, or one.
-fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
+fn first_hits(path: Path, is_inside: bool, at: Followed) -> FirstHits {
     let behind = at.light;
     let front = path.foot - path.half_chord * path.round;
     let outward = mirrored(path, front);
     var last = reflected_inside(path, at);
     let seen = outer_and_first(path, MirroredRays(front, outward, at.hop.point, last.hop.direction), is_inside);
-    last.light *= seen[1];
+    let from_first = last.light * seen[1].q;
+    last.light *= seen[1].i;
+    var polarised = mat4x3f(vec3f(0.0), from_first, -from_first, vec3f(0.0));
     var walls_nm = vec4f(0.0, optical_nm(at.hop.point, true), 0.0, 0.0);
     var steps = mat4x3f(vec3f(0.0), last.light - behind, vec3f(0.0), vec3f(0.0));
     if (INNER > 1u) {
@@ -255,9 +262,10 @@ fn first_hits(path: Path, is_inside: bool, at: Followed) -> FourHits {
     if (!is_inside) {
         walls_nm.x = optical_nm(front, true);
         let left = left_before(path) * crossing(front.z, outward.z, outward);
-        steps[0] = left * seen[0] - behind;
+        steps[0] = left * seen[0].i - behind;
+        polarised[0] = left * seen[0].q;
     }
-    return FourHits(Hits(walls_nm, spread_nm(path, walls_nm, 0u), steps), last);
+    return FirstHits(FourHits(Hits(walls_nm, spread_nm(path, walls_nm, 0u), steps), last), polarised);
 }
 
 // The outer reflection and the first inner one: where they are, and where light goes from there.
@@ -268,19 +276,22 @@ struct MirroredRays {
     inward: vec3f,
 }
 
-// Light from both, with other bubbles in it.
-fn outer_and_first(path: Path, rays: MirroredRays, is_inside: bool) -> array<vec3f, 2> {
+// Light from both, with other bubbles in it. Its polarisation refers to the plane of incidence: s light has its field across.
+fn outer_and_first(path: Path, rays: MirroredRays, is_inside: bool) -> array<Stokes, 2> {
     if (MIRRORS_OTHERS == 0u) {
-        return array(reflected_surroundings(path, rays.outward, 2.0), reflected_surroundings(path, rays.inward, -2.0));
+        let outer = reflected_surroundings(path, rays.outward, 2.0);
+        return array(unpolarised(outer), unpolarised(reflected_surroundings(path, rays.inward, -2.0)));
     }
     let outer = footprint(spanned_angles(path, rays.outward, 2.0));
     let first = footprint(spanned_angles(path, rays.inward, -2.0));
-    var seen = array(vec3f(0.0), vec3f(0.0));
+    let across = path.across / max(length(path.across), 1e-9);
+    var seen = array(unpolarised(vec3f(0.0)), unpolarised(vec3f(0.0)));
     // In a loop, so that its code stands once.
     for (var k = select(0u, 1u, is_inside); k < 2u; k++) {
         let is_first = k == 1u;
         let point = select(rays.front, rays.back, is_first);
-        seen[k] = mirrored_light(point, select(rays.outward, rays.inward, is_first), select(outer, first, is_first));
+        let direction = select(rays.outward, rays.inward, is_first);
+        seen[k] = mirrored_light(point, direction, across, select(outer, first, is_first));
     }
     return seen;
 }
@@ -293,9 +304,10 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     let first = first_hits(path, is_inside, through);
     let passed = passed_others(path);
     var walls: Walls;
-    walls.first = first.hits;
+    walls.first = first.four.hits;
     walls.first.steps = dimmed(walls.first.steps, passed.front, passed.back);
-    var last = first.last;
+    walls.polarised = dimmed(first.polarised, passed.front, passed.back);
+    var last = first.four.last;
     if (INNER > 3u) {
         let second = four_hits(path, last, 1u);
         walls.second = second.hits;

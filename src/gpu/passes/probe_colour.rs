@@ -38,6 +38,7 @@ kernels! {
     /// The colour of each of a list of rays, unfiltered and with three inner reflections.
     struct ProbeColours {
         const INNER: u32 = 3;
+        const MIRRORS_OTHERS: bool = false;
         const THICKNESSES: u32 = 1;
         overrides table_kind: TableOverrides;
         overrides summed: QuadratureOverrides;
