@@ -12,6 +12,8 @@ import package::sphere::path::Path;
 
 // 1: walls of other bubbles lie between those of the bubble, which then adds to `picture_so_far`.
 override AMONG_OTHERS: u32;
+// 1: light that a wall of another bubble mirrors inside has passed the wall opposite. 0: it comes straight from the surroundings.
+override OPPOSITE_WALLS: u32;
 
 // A bubble that a ray meets: its number and where.
 struct Meeting {
@@ -40,22 +42,45 @@ fn mirrored_light(point: vec3f, direction: vec3f, axis: vec3f, footprint: f32) -
         }
     }
     var seen = unpolarised(surroundings(direction, footprint));
-    for (var wall = next_wall(first, second, 0u); wall < 4u; wall = next_wall(first, second, wall + 1u)) {
-        let met = met_at(first, second, wall);
-        let other = others[met.number];
-        let place = place_on(other, origin_m + wall_distance_m(met, wall) * direction);
-        let mirrored = surroundings(reflect(direction, place), footprint);
+    for (var k = next_wall(first, second, 0u); k < 4u; k = next_wall(first, second, k + 1u)) {
+        let met = met_at(first, second, k);
+        let place = place_on(others[met.number], origin_m + wall_distance_m(met, k) * direction);
         // s light of the wall. Straight through the middle there is no plane of incidence, and s and p light are the same.
         let across = cross(direction, place);
         let turn = turn_between(axis, across / max(length(across), 1e-9), direction);
-        let film = FilmPoint(met.chord.cos_theta, other_nm(films, other, place), 0.0);
-        let mean = reflected_light(film, vec3f(1.0));
-        let half_difference = mean * (s_part(mean, share_of_s(axes.index, film.cos_theta)) - 1.0);
-        let behind = turned(seen, turn);
-        let past = past_wall(behind, mirrored, reflected_light(film, mirrored - behind.i), mean, half_difference);
-        seen = turned(past, vec2f(turn.x, -turn.y));
+        let wall = OtherWall(met.number, place, direction, met.chord.cos_theta, is_far(k));
+        seen = turned(past_other_wall(wall, turned(seen, turn), footprint), vec2f(turn.x, -turn.y));
     }
     return seen;
+}
+
+// A wall of another bubble, looked at along a direction, at a point of its unit sphere.
+struct OtherWall {
+    number: u32,
+    place: vec3f,
+    direction: vec3f,
+    cos_theta: f32,
+    is_far: bool,
+}
+
+// Light from behind a wall after it, with what the wall mirrors. Its polarisation refers to the plane of incidence.
+fn past_other_wall(wall: OtherWall, behind: Stokes, footprint: f32) -> Stokes {
+    let mirrored = mirrored_by_wall(wall, reflect(wall.direction, wall.place), footprint);
+    let film = FilmPoint(wall.cos_theta, other_nm(films, others[wall.number], wall.place), 0.0);
+    let mean = reflected_light(film, vec3f(1.0));
+    let half_difference = mean * (s_part(mean, share_of_s(axes.index, film.cos_theta)) - 1.0);
+    return past_wall(behind, mirrored, reflected_light(film, mirrored - behind.i), mean, half_difference);
+}
+
+// Light that a wall mirrors from a direction. That from inside has passed the wall opposite, with what that one reflects.
+fn mirrored_by_wall(wall: OtherWall, direction: vec3f, footprint: f32) -> vec3f {
+    let from_outside = surroundings(direction, footprint);
+    if (OPPOSITE_WALLS == 0u || !wall.is_far) {
+        return from_outside;
+    }
+    let opposite = wall.place + 2.0 * wall.cos_theta * direction;
+    let film = FilmPoint(wall.cos_theta, other_nm(films, others[wall.number], opposite), 0.0);
+    return from_outside + reflected_light(film, surroundings(reflect(direction, opposite), footprint) - from_outside);
 }
 
 // The walls of the two nearest bubbles from behind: the far wall of the second, its near wall, then those of the first.
@@ -67,8 +92,13 @@ fn met_at(first: Meeting, second: Meeting, wall: u32) -> Meeting {
     return met;
 }
 
+// Whether a wall is the far one of its bubble, which is met from inside.
+fn is_far(wall: u32) -> bool {
+    return (wall & 1u) == 0u;
+}
+
 fn wall_distance_m(met: Meeting, wall: u32) -> f32 {
-    return select(met.chord.far_m, met.chord.near_m, (wall & 1u) == 1u);
+    return select(met.chord.near_m, met.chord.far_m, is_far(wall));
 }
 
 // The first wall from one on that lies on the ray: most rays meet none, and what is costly is done for the rest alone. A ray that starts inside a

@@ -1,4 +1,7 @@
-// Light that may be polarised, by Stokes' parameters: of three primaries each. Circular polarisation is left out: films make next to none of it.
+// Light that may be polarised, by Stokes' parameters of three primaries each (E. Collett, Polarized Light, 1993, ch. 5). Circular polarisation is left
+// out: films make little of it.
+
+import package::optics::table::{between_rows, two_rows};
 
 struct Stokes {
     // All of the light.
@@ -7,6 +10,16 @@ struct Stokes {
     q: vec3f,
     // The same of axes turned by 45 degrees.
     u: vec3f,
+}
+
+// What is polarised, in one texel: packed as two rows of the table of film colours are.
+fn packed(q: vec3f, u: vec3f) -> vec4u {
+    return two_rows(q, u);
+}
+
+// The inverse, with light that is not polarised left out.
+fn unpacked(texel: vec4u) -> Stokes {
+    return Stokes(vec3f(0.0), between_rows(texel, 0.0), between_rows(texel, 1.0));
 }
 
 fn unpolarised(light: vec3f) -> Stokes {

@@ -22,6 +22,8 @@ override WAVELENGTHS: u32;
 override INNER: u32;
 // 1: light from outside may be polarised, as other bubbles make it that are seen in the first two walls.
 override MIRRORS_OTHERS: u32;
+// 1: light from behind may be polarised, as bubbles there leave it, and what is polarised of the picture is kept for bubbles in front.
+override TRACKS_POLARISATION: u32;
 // 1: there are films that the wavelengths are too few for.
 override THICK: u32;
 
@@ -41,7 +43,7 @@ struct Walls {
     first: Hits,
     second: Hits,
     third: Hits,
-    // By how much more the first four steps are of s light than of p light; read where MIRRORS_OTHERS is 1.
+    // By how much more the first four steps are of s light than of p light; read where MIRRORS_OTHERS or TRACKS_POLARISATION is 1.
     polarised: mat4x3f,
     // Steps of light at further hits, where the film is taken to be as thick as at the last one: at grazing they lie close together.
     further: array<vec3f, 12>,
@@ -138,7 +140,7 @@ fn wavelength_radiance(sample: QuadratureSample, cos_theta: f32, walls: Walls, p
     var s = polarisation.x * first_factors(r.s);
     var p = polarisation.y * first_factors(r.p);
     var light = walls.first.steps * (s + p - polarisation.x * table_factors(r.s) - polarisation.y * table_factors(r.p));
-    if (MIRRORS_OTHERS == 1u) {
+    if (MIRRORS_OTHERS == 1u || TRACKS_POLARISATION == 1u) {
         light += walls.polarised * (s - p);
     }
     if (INNER > 3u) {
@@ -159,4 +161,16 @@ fn wavelength_radiance(sample: QuadratureSample, cos_theta: f32, walls: Walls, p
         }
     }
     return sample.response * light;
+}
+
+// What walls do to polarised light from behind at one wavelength, and what they polarise, as changes of Stokes' parameters q and u along the plane of
+// incidence. `turned` is u of the light from behind. Of the hits the first four count: later ones, near grazing, reflect s and p light alike.
+fn wavelength_polarisation(sample: QuadratureSample, cos_theta: f32, walls: Walls, turned: vec3f) -> mat2x3f {
+    let r = wall_reflectances(sample, cos_theta, walls.first);
+    let s = 0.5 * first_factors(r.s);
+    let p = 0.5 * first_factors(r.p);
+    let q = walls.first.steps * (s - p) + walls.polarised * (s + p);
+    // The fields of s and p light that pass stay in step but for what films turn them apart, which is little.
+    let u = -turned * (s.x + p.x + s.y + p.y);
+    return mat2x3f(sample.response * q, sample.response * u);
 }

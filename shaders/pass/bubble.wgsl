@@ -8,7 +8,7 @@ import package::film::wall::optical_nm;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
 import package::light::lamps::Lamp;
 import package::light::others::{AMONG_OTHERS, mirrored_light, passed_others};
-import package::light::stokes::{Stokes, unpolarised};
+import package::light::stokes::{Stokes, packed, turn_between, turned, unpacked, unpolarised};
 import package::light::stored::storable;
 import package::light::strips::reflected_surroundings;
 import package::light::water::{crossing, past_meniscus, upward};
@@ -16,8 +16,8 @@ import package::optics::airy::{cos_refracted, surface_reflectance};
 import package::optics::quadrature::QuadratureSample;
 import package::optics::film_colour::{THICKNESSES, film_reflection};
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, MIRRORS_OTHERS, WAVELENGTHS, Walls};
-import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
+import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, MIRRORS_OTHERS, TRACKS_POLARISATION, Walls};
+import package::optics::walls::{WAVELENGTHS, product_of_colours, resolved, wavelength_polarisation, wavelength_radiance};
 import package::sphere::axes::perpendicular;
 import package::sphere::hops::{Followed, Hop, followed, left_before, mirrored, reflected_inside};
 import package::sphere::others::OtherBubble;
@@ -99,6 +99,8 @@ struct ListPart {
 // The environment as it is seen behind the bubbles.
 @group(0) @binding(21) var backdrop_map: texture_cube<f32>;
 @group(0) @binding(22) var backdrop_sampler: sampler;
+// What is polarised of `picture_behind`: see light/stokes.wgsl. Its axis is that of `picture_axis`.
+@group(0) @binding(23) var polarised_behind: texture_2d<u32>;
 
 // A corner of the polygon around an edge of the ring.
 fn corner(number: u32, edge: vec2f) -> vec4f {
@@ -296,9 +298,44 @@ fn outer_and_first(path: Path, rays: MirroredRays, is_inside: bool) -> array<Sto
     return seen;
 }
 
+// What is polarised of the picture behind the last sample and at it, and the sum over a pixel's samples, with their number.
+var<private> sample_behind: Stokes;
+var<private> sample_polarisation: Stokes;
+var<private> polarisation: Stokes;
+var<private> polarisation_samples: f32;
+
+// The axis that what is polarised of the picture refers to.
+fn picture_axis(direction: vec3f) -> vec3f {
+    return normalize(cross(direction, view.up));
+}
+
+fn polarisation_behind(position: vec2f) -> Stokes {
+    return unpacked(textureLoad(polarised_behind, vec2u(position), 0));
+}
+
+// Counts what is polarised at a sample of which the bubble covers a part.
+fn count_polarisation(coverage: f32) {
+    if (TRACKS_POLARISATION == 1u) {
+        polarisation.q += mix(sample_behind.q, sample_polarisation.q, coverage);
+        polarisation.u += mix(sample_behind.u, sample_polarisation.u, coverage);
+        polarisation_samples += 1.0;
+    }
+}
+
+// What is polarised along a path: what is polarised behind, of which walls leave a part, and what they add.
+fn path_polarisation(path: Path, walls: Walls, behind: Stokes, turn: vec2f) -> Stokes {
+    var change = mat2x3f();
+    let of_light = light.unseen * behind.u;
+    for (var k = 0u; k < WAVELENGTHS; k++) {
+        change += wavelength_polarisation(quadrature[k], path.cos_theta, walls, of_light);
+    }
+    let found = Stokes(vec3f(0.0), behind.q + light.scale * change[0], behind.u + light.scale * change[1]);
+    return turned(found, vec2f(turn.x, -turn.y));
+}
+
 // What is seen along a ray: see optics/walls.wgsl.
 fn film_radiance(path: Path, is_inside: bool) -> vec3f {
-    let polarisation = polarisation_along(path, light.polariser);
+    let shares = polarisation_along(path, light.polariser);
     let through = straight_through(path, is_inside);
     let behind = through.light;
     let first = first_hits(path, is_inside, through);
@@ -307,6 +344,17 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     walls.first = first.four.hits;
     walls.first.steps = dimmed(walls.first.steps, passed.front, passed.back);
     walls.polarised = dimmed(first.polarised, passed.front, passed.back);
+    var polarised = unpolarised(vec3f(0.0));
+    var turn = vec2f(1.0, 0.0);
+    if (TRACKS_POLARISATION == 1u) {
+        sample_behind = polarisation_behind(path.position);
+        let across = path.across / max(length(path.across), 1e-9);
+        turn = turn_between(picture_axis(path.direction), across, path.direction);
+        polarised = turned(sample_behind, turn);
+        let step = passed.back * (light.unseen * polarised.q);
+        walls.polarised[0] -= step;
+        walls.polarised[1] -= step;
+    }
     var last = first.four.last;
     if (INNER > 3u) {
         let second = four_hits(path, last, 1u);
@@ -348,13 +396,16 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     var seen = vec3f(0.0);
     let products = resolved(walls, quadrature[0].gap_nm);
     for (var k = 0u; k < WAVELENGTHS; k++) {
-        seen += wavelength_radiance(quadrature[k], path.cos_theta, products, polarisation);
+        seen += wavelength_radiance(quadrature[k], path.cos_theta, products, shares);
+    }
+    if (TRACKS_POLARISATION == 1u) {
+        sample_polarisation = path_polarisation(path, products, polarised, turn);
     }
     if (EVERYTHING == 0u) {
         let nm = walls.first.walls_nm;
         let spread = walls.first.spread_nm;
-        seen += wall_reflection(path, nm.x, spread.x, polarisation, walls.first.steps[0])
-            + wall_reflection(path, nm.y, spread.y, polarisation, walls.first.steps[1]);
+        seen += wall_reflection(path, nm.x, spread.x, shares, walls.first.steps[0])
+            + wall_reflection(path, nm.y, spread.y, shares, walls.first.steps[1]);
     }
     return radiance + light.scale * seen;
 }
@@ -383,9 +434,17 @@ fn bubble_radiance(direction: vec3f, part: PixelPart, position: vec2f) -> vec3f 
     return film_radiance(path_along(direction, part, position), eye_is_inside());
 }
 
+struct Shaded {
+    @location(0) radiance: vec4f,
+    // Written where TRACKS_POLARISATION is 1.
+    @location(1) polarisation: vec4u,
+}
+
 @fragment
-fn shade(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    return vec4f(storable(pixel_radiance(position.xy)), 1.0);
+fn shade(@builtin(position) position: vec4f) -> Shaded {
+    let radiance = vec4f(storable(pixel_radiance(position.xy)), 1.0);
+    let part = 1.0 / max(polarisation_samples, 1.0);
+    return Shaded(radiance, packed(part * polarisation.q, part * polarisation.u));
 }
 
 // The yardstick of the frame's cost: a plain mirror with one filtered environment lookup.

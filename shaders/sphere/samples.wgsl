@@ -1,6 +1,6 @@
 // The samples that a pixel of a bubble is the mean of.
 //
-// The pass that draws bubbles declares what this reads: `view`, `bubble`, and the functions `bubble_radiance` and `beside`.
+// The pass that draws bubbles declares what this reads: `view`, `bubble`, and the functions `bubble_radiance`, `beside` and `count_polarisation`.
 
 import package::camera::circle::{in_circle, sample_width};
 import package::camera::view::{pixel_angle, view_plane};
@@ -44,11 +44,14 @@ fn pixel_radiance(position: vec2f) -> vec3f {
 fn sample_radiance(position: vec2f, behind: vec2f, part: PixelPart) -> vec3f {
     let plane = view_plane(view, position);
     if (OUTLINE == 0u) {
-        return bubble_radiance(normalize(plane), part, behind);
+        let radiance = bubble_radiance(normalize(plane), part, behind);
+        count_polarisation(1.0);
+        return radiance;
     }
     let edge = outline(plane, part.size.x);
     // Not only where it is covered: derivatives need the neighbours.
     let radiance = bubble_radiance(edge.inside, part, behind);
+    count_polarisation(edge.coverage);
     let ray = normalize(view_plane(view, behind));
     return mix(beside(ray, pixel_angle(view, ray), behind), radiance, edge.coverage);
 }

@@ -1,4 +1,4 @@
-//! Pipelines, made on first use and kept: a pass, an entry point, the constants it was specialised for, and the target's format.
+//! Pipelines, made on first use and kept: a pass, an entry point, the constants it was specialised for, and the targets' formats.
 //!
 //! Shaders get their constants here and not from the driver: see `specialise`.
 
@@ -40,8 +40,8 @@ pub struct RenderKey {
     pub vertex: &'static str,
     /// Fragment shader.
     pub fragment: &'static str,
-    /// Format of the one target.
-    pub format: wgpu::TextureFormat,
+    /// Formats of the targets.
+    pub formats: Vec<wgpu::TextureFormat>,
     /// Values of the pass's own overridable constants.
     pub constants: Vec<(&'static str, u32)>,
 }
@@ -200,7 +200,7 @@ fn make_render(
             module: &fragment.module,
             entry_point: Some(key.fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(key.format.into())],
+            targets: &key.formats.iter().map(|format| Some((*format).into())).collect::<Vec<_>>(),
         }),
         multiview_mask: None,
         cache: None,

@@ -180,24 +180,39 @@ impl<'g> Recorder<'g> {
         clear: Option<wgpu::Color>,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) {
+        self.render_into(name, &[(target, clear)], draw);
+    }
+
+    /// A render pass into several targets.
+    pub fn render_into(
+        &mut self,
+        name: &'static str,
+        targets: &[(&wgpu::TextureView, Option<wgpu::Color>)],
+        draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) {
         let timestamps = self.next_timestamps(name);
         let timestamp_writes = timestamps.as_ref().map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
             query_set,
             beginning_of_pass_write_index: Some(*first),
             end_of_pass_write_index: Some(*first + 1),
         });
-        let attachment = wgpu::RenderPassColorAttachment {
-            view: target,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear),
-                store: wgpu::StoreOp::Store,
-            },
-        };
+        let attachments: Vec<_> = targets
+            .iter()
+            .map(|(view, clear)| {
+                Some(wgpu::RenderPassColorAttachment {
+                    view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })
+            })
+            .collect();
         let mut pass = self.encoder().begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(name),
-            color_attachments: &[Some(attachment)],
+            color_attachments: &attachments,
             timestamp_writes,
             ..Default::default()
         });

@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, sync::Arc};
 use glam::{DVec2, DVec3};
 
 use super::{
-    Extent, Run,
+    Run,
     picture::{colour_differences, frame_request, radiance, soft_lamps},
     random::Random,
     reference,
@@ -28,7 +28,7 @@ static LIMITS: Limits =
     [(Quality::Fast, [1.2, 8.0]), (Quality::Standard, [0.5, 2.0]), (Quality::Spectral, [0.15, 1.0])];
 /// The same where bubbles intersect: what their walls leave of one another's light is a factor on each primary there.
 static INTERSECTING: Limits =
-    [(Quality::Fast, [1.3, 8.0]), (Quality::Standard, [0.5, 4.0]), (Quality::Spectral, [0.5, 4.0])];
+    [(Quality::Fast, [1.3, 8.0]), (Quality::Standard, [0.5, 3.5]), (Quality::Spectral, [0.35, 2.5])];
 
 /// What is reached with small bubbles, whose walls are looked up in the table at all qualities, which mirror no others, and of which some intersect;
 /// in spectral pictures bubbles are small only below 16 pixels.
@@ -82,20 +82,20 @@ impl Kind {
 pub fn run(run: &mut Run<'_>) -> Result<(), GpuError> {
     let mut renderer = Renderer::new(pollster::block_on(run.gpu.another())?);
     furnace(run, &mut renderer)?;
-    // To compile the shaders of a kind of scene takes longer than all else: a short run takes the kind that has all in it.
-    let kinds: Vec<Kind> = Kind::ALL.into_iter().filter(|kind| run.extent >= Extent::Full || kind.intersect).collect();
-    let (kinds, pixels) = run.short_or_full((&kinds[..1], 200), (&kinds[..], 400));
+    // To compile the shaders of a kind of scene takes longer than all else: a short run takes the kind that has all in it, and one for spectral ones.
+    let (kinds, pixels) = run.short_or_full((&[Kind::INTERSECTING, Kind::APART][..], 200), (&Kind::ALL[..], 400));
     kinds.iter().try_for_each(|kind| measure(run, &mut renderer, kind, pixels))
 }
 
-/// The qualities that are measured, with their limits: a short run leaves out the spectral one, whose shaders take the longest to compile.
+/// The qualities that are measured, with their limits: in a short run spectral pictures, whose shaders take the longest to compile, are of bubbles apart,
+/// and the others of bubbles that intersect.
 fn limits(run: &Run<'_>, kind: &Kind) -> &'static [(Quality, [f64; 2])] {
     let limits = match kind {
         Kind { made: true, .. } => &SMALL,
         Kind { intersect: true, .. } => &INTERSECTING,
         Kind { .. } => &LIMITS,
     };
-    run.short_or_full(&limits[..2], limits)
+    run.short_or_full(if kind.intersect { &limits[..2] } else { &limits[2..] }, limits)
 }
 
 /// In even light nothing is seen of bubbles.
@@ -123,7 +123,7 @@ fn furnace(run: &mut Run<'_>, renderer: &mut Renderer) -> Result<(), GpuError> {
 /// Errors over some covered pixels of scenes of a kind, at each quality.
 fn measure(run: &mut Run<'_>, renderer: &mut Renderer, kind: &Kind, pixels: usize) -> Result<(), GpuError> {
     let mut errors: [Vec<f64>; LIMITS.len()] = Default::default();
-    let counts = if run.extent == Extent::Short { &kind.counts[1..2] } else { kind.counts };
+    let counts = run.short_or_full(if kind.intersect { &kind.counts[1..2] } else { kind.counts }, kind.counts);
     for (seed, &count) in counts.iter().enumerate() {
         let (mut scene, resources) = random_scene(kind, count, seed)?;
         let key = frame_request(&scene, &resources, SIZE)?.picture.draw;

@@ -19,5 +19,5 @@ fn pictures_match_the_f64_pictures_and_have_no_jagged_edges() {
 /// Random bubbles seen through and in one another.
 #[test]
 fn bubbles_through_bubbles_match_the_f64_pictures() {
-    hold(Part::Crowd, 5);
+    hold(Part::Crowd, 8);
 }

@@ -95,7 +95,7 @@ impl Shared<'_> {
                 hole_rim: &hole.rim,
                 droplets: &droplet_buffer,
             };
-            Ok::<_, GpuError>((bodies.corner(gpu, radiance_format(key.full_precision))?, vertices))
+            Ok::<_, GpuError>((bodies.corner(gpu, &[radiance_format(key.full_precision)])?, vertices))
         };
         Ok([half(true)?, half(false)?])
     }

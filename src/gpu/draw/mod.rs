@@ -9,7 +9,7 @@ use super::{
     device::{Gpu, GpuError},
     environment::Environment,
     film_atlas::FilmAtlas,
-    formats::radiance_format,
+    formats::{POLARISATION_FORMAT, radiance_format},
     kernel::Drawable,
     passes::{
         backdrop::{Backdrop, LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
@@ -24,7 +24,10 @@ use super::{
     timing::Recorder,
     uniform_buffer::UniformBuffer,
 };
-use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting, Rendering};
+use crate::{
+    plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting, Rendering},
+    scene::Quality,
+};
 use small::SmallDraw;
 pub use values::view_uniform;
 use values::{
@@ -48,6 +51,8 @@ pub struct DrawInputs<'a> {
     pub composition: &'a Composition,
     /// The pictures of what is behind a layer, and of all before it; as large as the picture if there is more than one layer.
     pub drawn: [&'a Target; 2],
+    /// What is polarised of the picture, and of what is behind a layer; as large as the picture if that is tracked.
+    pub polarised: [&'a Target; 2],
     /// Films of bubbles that others show.
     pub atlas: &'a FilmAtlas,
 }
@@ -61,12 +66,25 @@ pub fn strips([width, height]: [u32; 2]) -> impl Iterator<Item = std::ops::Range
     (0..height).step_by(rows as usize).map(move |top| top..(top + rows).min(height))
 }
 
+/// Whether the picture keeps what is polarised of it: bubbles reflect and pass s light otherwise than p light, and those in front do so once more.
+/// In spectral pictures that is most of what is left of their errors; a polariser before the camera is not waited for, which comes last.
+#[must_use]
+pub fn tracks_polarisation(key: &DrawKey, composition: &Composition) -> bool {
+    let is_spectral = |films: &FilmColours| films.quadrature.quality == Quality::Spectral;
+    composition.layers() > 1
+        && composition.placed.len() > 1
+        && key.rendering == Rendering::Full
+        && key.lighting.light.polariser.is_none()
+        && key.lighting.films.iter().any(is_spectral)
+}
+
 /// The uniforms and bind groups of one picture, made once and used for each of its strips.
 pub struct DrawPass {
     backdrop: BackdropDraw,
     /// The farthest first. Bubbles of one layer do not overlap, but for small ones, which are drawn in their order.
     layers: Vec<Layer>,
     width: u32,
+    tracks_polarisation: bool,
 }
 
 /// Bubbles that are drawn together.
@@ -114,7 +132,7 @@ impl BackdropDraw {
             backdrop_sampler: map.backdrop_sampler(),
             lamps: &light.lamps,
         };
-        Ok(Self::Drawn(backdrop.cover(gpu, radiance_format(key.full_precision))?))
+        Ok(Self::Drawn(backdrop.cover(gpu, &[radiance_format(key.full_precision)])?))
     }
 }
 
@@ -148,6 +166,8 @@ struct Shared<'a> {
     so_far: &'a wgpu::TextureView,
     others: Others,
     films: &'a wgpu::TextureView,
+    composition: &'a Composition,
+    polarised_behind: &'a wgpu::TextureView,
     /// All small bubbles.
     small: wgpu::Buffer,
 }
@@ -205,7 +225,8 @@ impl DrawPass {
         let view = gpu.uniform("view", &view_uniform(key));
         let light = LightBuffers::new(gpu, key, lighting, [inputs.environment, inputs.backdrop]);
         let backdrop = BackdropDraw::new(gpu, key, lighting, &light, (&view, inputs.backdrop))?;
-        let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0] };
+        let tracks_polarisation = tracks_polarisation(key, inputs.composition);
+        let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0], tracks_polarisation };
         let [behind, so_far] = inputs.drawn.map(|target| &target.view);
         let others = Others::new(gpu, key, lighting, inputs);
         let shared = Shared {
@@ -219,6 +240,8 @@ impl DrawPass {
             so_far,
             others,
             films: &inputs.atlas.view,
+            composition: inputs.composition,
+            polarised_behind: &inputs.polarised[1].view,
             small: gpu.storage("small bubbles", &small_bubbles(key, lighting, inputs.atlas)),
         };
         // Fills the binding where the quality has no table.
@@ -270,7 +293,7 @@ impl DrawPass {
         &self,
         recorder: &mut Recorder<'_>,
         target: &Target,
-        [behind, so_far]: [&Target; 2],
+        ([behind, so_far], [polarised, polarised_behind]): ([&Target; 2], [&Target; 2]),
         rows: &std::ops::Range<u32>,
     ) {
         let (backdrop, colour) = match &self.backdrop {
@@ -280,10 +303,17 @@ impl DrawPass {
         };
         let draw = |recorder: &mut Recorder<'_>, layer: &Layer, backdrop: Option<&Drawable>, clear| {
             let small_parts = || layer.small.iter().flat_map(|small| small.parts(rows).map(|part| (&small.draw, part)));
+            if self.tracks_polarisation && !layer.rings.is_empty() {
+                recorder.render_into("draw", &[(&target.view, None), (&polarised.view, None)], |pass| {
+                    pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
+                    layer.rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
+                });
+            }
             recorder.render("draw", &target.view, clear, |pass| {
                 pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
                 backdrop.into_iter().for_each(|backdrop| backdrop.draw(pass, 3));
-                layer.rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
+                let rings = layer.rings.iter().filter(|_| !self.tracks_polarisation);
+                rings.for_each(|(ring, vertices)| ring.draw(pass, *vertices));
                 layer.bodies.iter().for_each(|(body, vertices)| body.draw(pass, *vertices));
                 for (small, PixelRect { columns, rows }) in small_parts() {
                     pass.set_scissor_rect(columns.start, rows.start, columns.len() as u32, rows.len() as u32);
@@ -296,10 +326,19 @@ impl DrawPass {
         };
         let Some((first, later)) = self.layers.split_first() else { return };
         draw(recorder, first, backdrop, colour);
+        if self.tracks_polarisation {
+            // Light from the backdrop is not polarised.
+            let nothing = Some(wgpu::Color::TRANSPARENT);
+            recorder.render("draw", &polarised.view, nothing, |_| {});
+        }
         for layer in later {
             for (rects, to) in [(&layer.behind, behind), (&layer.so_far, so_far)] {
                 let parts = rects.iter().filter_map(|rect| rect.within(rows));
                 parts.for_each(|part| copy_part(recorder.encoder(), target, to, &part));
+            }
+            if self.tracks_polarisation {
+                let parts = layer.behind.iter().filter_map(|rect| rect.within(rows));
+                parts.for_each(|part| copy_part(recorder.encoder(), polarised, polarised_behind, &part));
             }
             draw(recorder, layer, None, None);
         }
@@ -319,12 +358,13 @@ impl Shared<'_> {
     /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
         let Self { key, lighting, view, light, environment, backdrop, behind, so_far, others, films, .. } = self;
+        let Self { composition, polarised_behind, .. } = self;
         let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
         let bubble = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
         let part = &gpu.storage("part of the lists", &[list_part(drawn)]);
         let coloured = film_colours.table.as_ref().is_some_and(|table| table.coloured);
         let shade = Shade {
-            shape: ring_overrides(key, lighting, drawn),
+            shape: ring_overrides(key, lighting, composition, drawn),
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: lighting.light.polariser.is_some() },
             summed: quadrature.overrides(),
             lit: light.lit,
@@ -351,13 +391,15 @@ impl Shared<'_> {
             part,
             backdrop_map: &backdrop.view,
             lamps: &light.lamps,
+            polarised_behind,
         };
-        let format = radiance_format(key.full_precision);
+        let formats = [radiance_format(key.full_precision), POLARISATION_FORMAT];
+        let formats = if shade.shape.TRACKS_POLARISATION { &formats[..] } else { &formats[..1] };
         match (key.rendering == Rendering::Yardstick, ring.edges_rad) {
-            (false, Some(_)) => shade.ring(gpu, format),
-            (false, None) => shade.everywhere(gpu, format),
-            (true, Some(_)) => ShadeMirror::in_place_of(&shade).ring(gpu, format),
-            (true, None) => ShadeMirror::in_place_of(&shade).everywhere(gpu, format),
+            (false, Some(_)) => shade.ring(gpu, formats),
+            (false, None) => shade.everywhere(gpu, formats),
+            (true, Some(_)) => ShadeMirror::in_place_of(&shade).ring(gpu, formats),
+            (true, None) => ShadeMirror::in_place_of(&shade).everywhere(gpu, formats),
         }
     }
 }

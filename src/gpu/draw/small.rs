@@ -146,7 +146,7 @@ impl Shared<'_> {
             picture_behind: self.behind,
             lamps: &self.light.lamps,
         };
-        let draw = small.cover(gpu, radiance_format(key.full_precision))?;
+        let draw = small.cover(gpu, &[radiance_format(key.full_precision)])?;
         Ok(SmallDraw { draw, rects: lists.rects })
     }
 }

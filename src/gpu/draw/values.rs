@@ -3,9 +3,10 @@
 use bytemuck::Zeroable;
 use glam::{DMat3, DVec3};
 
-use super::Drawn;
+use super::{Drawn, tracks_polarisation};
 use crate::{
     gpu::{
+        composition::Composition,
         environment::Environment,
         film_atlas::FilmAtlas,
         passes::{
@@ -59,6 +60,7 @@ pub(super) fn max_small_samples(key: &DrawKey, quality: Quality, most: u32) -> u
 pub(super) fn ring_overrides(
     key: &DrawKey,
     lighting: &Lighting,
+    composition: &Composition,
     Drawn { bubble, placed, ring, colours, .. }: &Drawn<'_>,
 ) -> RingOverrides {
     RingOverrides {
@@ -82,6 +84,8 @@ pub(super) fn ring_overrides(
         OVER_OTHERS: placed.layer > 0,
         AMONG_OTHERS: !placed.among.is_empty(),
         MIRRORS_OTHERS: placed.mirrors,
+        OPPOSITE_WALLS: placed.mirrors && colours.films.quadrature.quality == Quality::Spectral,
+        TRACKS_POLARISATION: tracks_polarisation(key, composition),
         INNER: ring.inner_reflections,
     }
 }

@@ -32,7 +32,7 @@ pub use overrides::{Choice, Constants, Override, OverrideValues, Overrides};
 pub(crate) use overrides::{choices, override_values, overrides};
 pub use slots::{
     R32Float, Read, ReadWrite, Rgba32Float, Rgba32Uint, Sampler, Slot, SlotKind, Texture2d, Texture2dArray,
-    TextureCube, Uint2dArray, Uniform, Written2dArray, WrittenFormat,
+    TextureCube, Uint2d, Uint2dArray, Uniform, Written2dArray, WrittenFormat,
 };
 
 use std::collections::BTreeMap;
@@ -152,14 +152,15 @@ pub(crate) struct Drawable {
 }
 
 impl Drawable {
-    /// Makes a kernel ready for a target of a format.
+    /// Makes a kernel ready for targets of some formats.
     pub fn of(
         kernel: &impl Bound,
         [vertex, fragment]: [&'static str; 2],
         gpu: &Gpu,
-        format: wgpu::TextureFormat,
+        formats: &[wgpu::TextureFormat],
     ) -> Result<Self, GpuError> {
-        let key = RenderKey { pass: pass_of(kernel), vertex, fragment, format, constants: kernel.constants() };
+        let formats = formats.to_vec();
+        let key = RenderKey { pass: pass_of(kernel), vertex, fragment, formats, constants: kernel.constants() };
         let ready = gpu.pipelines.render(&gpu.device, &key)?;
         let bindings = ready.bind(&gpu.device, &kernel.resources());
         Ok(Self { pipeline: ready.pipeline, bindings })
@@ -277,13 +278,13 @@ macro_rules! entry_methods {
     };
     (draw $($vertex:ident),+ as $fragment:ident) => {
         $(
-            /// Makes ready to draw with this vertex shader into a target of a format.
+            /// Makes ready to draw with this vertex shader into targets of some formats.
             pub fn $vertex(
                 &self,
                 gpu: &$crate::gpu::device::Gpu,
-                format: wgpu::TextureFormat,
+                formats: &[wgpu::TextureFormat],
             ) -> Result<$crate::gpu::kernel::Drawable, $crate::gpu::device::GpuError> {
-                $crate::gpu::kernel::Drawable::of(self, [stringify!($vertex), stringify!($fragment)], gpu, format)
+                $crate::gpu::kernel::Drawable::of(self, [stringify!($vertex), stringify!($fragment)], gpu, formats)
             }
         )+
     };

@@ -48,6 +48,8 @@ pub struct ReadWrite<T: ?Sized>(PhantomData<T>);
 pub struct Texture2d;
 /// An array of textures.
 pub struct Texture2dArray;
+/// A texture of unsigned integers.
+pub struct Uint2d;
 /// An array of textures of unsigned integers.
 pub struct Uint2dArray;
 /// A cube map.
@@ -104,6 +106,7 @@ slot!({ T: Contents + ?Sized } Read<T> = Buffer, SlotKind::Read(T::layout()), wh
 slot!({ T: Contents + ?Sized } ReadWrite<T> = Buffer, SlotKind::ReadWrite(T::layout()), whole);
 slot!(Texture2d = TextureView, SlotKind::Texture(Dimension::D2), BindingResource::TextureView);
 slot!(Texture2dArray = TextureView, SlotKind::Texture(Dimension::D2Array), BindingResource::TextureView);
+slot!(Uint2d = TextureView, SlotKind::UintTexture(Dimension::D2), BindingResource::TextureView);
 slot!(Uint2dArray = TextureView, SlotKind::UintTexture(Dimension::D2Array), BindingResource::TextureView);
 slot!(TextureCube = TextureView, SlotKind::Texture(Dimension::Cube), BindingResource::TextureView);
 slot!({ F: WrittenFormat } Written2dArray<F> = TextureView, SlotKind::Written(F::FORMAT), BindingResource::TextureView);

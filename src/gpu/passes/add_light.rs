@@ -27,7 +27,7 @@ pub fn add_light(
     sum: &wgpu::TextureView,
 ) -> Result<(), GpuError> {
     let kernel = AddLight { FULL_PRECISION: full_precision, first, second };
-    let added = kernel.cover(recorder.gpu, radiance_format(full_precision))?;
+    let added = kernel.cover(recorder.gpu, &[radiance_format(full_precision)])?;
     recorder.render("add_light", sum, None, |pass| added.draw(pass, 3));
     recorder.counts.draws += 1;
     Ok(())

@@ -9,8 +9,8 @@ use crate::{
     gpu::{
         control::BalanceBlock,
         kernel::{
-            Matrix, Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uint2dArray, Uniform, kernels, overrides,
-            shader_struct,
+            Matrix, Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uint2d, Uint2dArray, Uniform, kernels,
+            overrides, shader_struct,
         },
         quadrature::{MAX_WAVELENGTHS, QuadratureOverrides, QuadratureSample},
     },
@@ -153,6 +153,10 @@ overrides! {
         override AMONG_OTHERS: bool;
         /// Whether it mirrors others.
         override MIRRORS_OTHERS: bool;
+        /// Whether what it mirrors of others shows the walls opposite to those that mirror.
+        override OPPOSITE_WALLS: bool;
+        /// Whether the picture keeps what is polarised of it, for bubbles in front.
+        override TRACKS_POLARISATION: bool;
         /// Inner reflections whose films are looked up.
         override INNER: u32 in [1, 3, 7, 11];
     }
@@ -190,6 +194,7 @@ kernels! {
         @20 part: Read<ListPart>;
         @21 backdrop_map: TextureCube;
         @22 backdrop_sampler: Sampler;
+        @23 polarised_behind: Uint2d;
     }
     draw ring, everywhere as shade;
 

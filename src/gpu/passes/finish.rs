@@ -91,7 +91,7 @@ impl Finished {
         };
         let uniform = gpu.uniform("finish", &uniform);
         let halves = &glare.unwrap_or(radiance).view;
-        let finish = FinishPicture { finish: &uniform, picture: &radiance.view, halves }.cover(gpu, format)?;
+        let finish = FinishPicture { finish: &uniform, picture: &radiance.view, halves }.cover(gpu, &[format])?;
         let picture = Target::fit(self.picture.take(), gpu, "finished", key.draw.size, format);
         draw(recorder, &picture, &finish);
         Ok(self.picture.insert(picture))
@@ -118,7 +118,7 @@ impl Finished {
         let (gpu, format) = (recorder.gpu, radiance_format(false));
         let mut finer = radiance;
         for [half, _] in &self.halves {
-            draw(recorder, half, &Halve { picture: &finer.view }.cover(gpu, format)?);
+            draw(recorder, half, &Halve { picture: &finer.view }.cover(gpu, &[format])?);
             finer = half;
         }
         let mut coarser: Option<&Target> = None;
@@ -127,7 +127,7 @@ impl Finished {
                 FinishUniform { share, coarser: if coarser.is_some() { 1.0 } else { 0.0 }, ..FinishUniform::zeroed() };
             let uniform = gpu.uniform("finish", &uniform);
             let halves = &coarser.unwrap_or(half).view;
-            draw(recorder, sum, &Spread { finish: &uniform, picture: &half.view, halves }.cover(gpu, format)?);
+            draw(recorder, sum, &Spread { finish: &uniform, picture: &half.view, halves }.cover(gpu, &[format])?);
             coarser = Some(sum);
         }
         Ok(coarser)

@@ -72,7 +72,7 @@ pub fn lay_plate(
         through,
         plate,
     };
-    let drawn = kernel.cover(gpu, radiance_format(key.full_precision))?;
+    let drawn = kernel.cover(gpu, &[radiance_format(key.full_precision)])?;
     recorder.render("lay_plate", laid, None, |pass| drawn.draw(pass, 3));
     recorder.counts.draws += 1;
     Ok(())

@@ -39,6 +39,7 @@ kernels! {
     struct ProbeColours {
         const INNER: u32 = 3;
         const MIRRORS_OTHERS: bool = false;
+        const TRACKS_POLARISATION: bool = false;
         const THICKNESSES: u32 = 1;
         overrides table_kind: TableOverrides;
         overrides summed: QuadratureOverrides;

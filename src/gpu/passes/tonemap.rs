@@ -67,7 +67,7 @@ pub fn tonemap(
 ) -> Result<(), GpuError> {
     let gpu = recorder.gpu;
     let uniform = &gpu.uniform("tonemap", &TonemapUniform::of(key));
-    let finished = Tonemap { tonemap: uniform, radiance }.cover(gpu, PICTURE_FORMAT)?;
+    let finished = Tonemap { tonemap: uniform, radiance }.cover(gpu, &[PICTURE_FORMAT])?;
     recorder.render(TONEMAP, picture, None, |pass| finished.draw(pass, 3));
     recorder.counts.draws += 1;
     Ok(())

@@ -13,11 +13,11 @@ use super::{
     abilities::missing_for_measurement,
     composition::{Composition, composition},
     device::{Gpu, GpuError},
-    draw::{DrawInputs, DrawPass, pixels_shaded, strips},
+    draw::{DrawInputs, DrawPass, pixels_shaded, strips, tracks_polarisation},
     environment::Environment,
     film::{Company, MovingFilm},
     film_atlas::FilmAtlas,
-    formats::{PICTURE_FORMAT, radiance_format},
+    formats::{PICTURE_FORMAT, POLARISATION_FORMAT, radiance_format},
     passes::{bake_table::Table, finish::Finished, open_hole::OpenHole, tonemap::tonemap},
     quadrature::Quadrature,
     shown_film::Shown,
@@ -45,6 +45,8 @@ struct Products {
     plate: Option<Target>,
     /// Pictures of what is behind the layer that is drawn, and of all before it.
     drawn: [Option<Target>; 2],
+    /// What is polarised of the picture, and of what is behind the layer that is drawn.
+    polarised: [Option<Target>; 2],
     /// Films of bubbles that others show.
     atlas: Option<FilmAtlas>,
     /// The picture in one spectral light, and its sum with the pictures before.
@@ -75,7 +77,7 @@ impl Products {
     /// Drops all that pictures are made in.
     fn forget_pictures(&mut self) {
         (self.radiance, self.added, self.sum, self.picture) = (None, None, None, None);
-        (self.drawn, self.atlas, self.finished) = Default::default();
+        (self.drawn, self.polarised, self.atlas, self.finished) = Default::default();
     }
 
     /// Drops what the state no longer lists.
@@ -219,6 +221,11 @@ impl Renderer {
         for slot in &mut self.products.drawn {
             *slot = Some(Target::fit(slot.take(), &self.gpu, "drawn", drawn_size, format));
         }
+        let tracks = tracks_polarisation(key, &composition);
+        for slot in &mut self.products.polarised {
+            let size = if tracks { key.size } else { [1, 1] };
+            *slot = Some(Target::fit(slot.take(), &self.gpu, "polarised", size, POLARISATION_FORMAT));
+        }
         self.gather_films(key, &composition);
         let radiance = Target::fit(self.products.radiance.take(), &self.gpu, "radiance", key.size, format);
         self.draw_light(key, &composition, (0, &key.lighting), &radiance)?;
@@ -271,6 +278,8 @@ impl Renderer {
             return Ok(());
         };
         let drawn = [behind, so_far];
+        let [Some(polarised), Some(polarised_behind)] = &self.products.polarised else { return Ok(()) };
+        let polarised = [polarised, polarised_behind];
         let pass = DrawPass::new(
             &self.gpu,
             key,
@@ -283,13 +292,14 @@ impl Renderer {
                 hole: &hole,
                 composition,
                 drawn,
+                polarised,
                 atlas,
             },
         )?;
         for rows in strips(key.size) {
             let mut recorder = Recorder::new(&self.gpu);
             let work = u64::from(key.size[0]) * rows.len() as u64;
-            pass.record(&mut recorder, target, drawn, &rows);
+            pass.record(&mut recorder, target, (drawn, polarised), &rows);
             Self::submit(&self.times, &mut self.counts, recorder);
             told(&self.watcher, &self.gpu, work)?;
         }
