@@ -45,13 +45,18 @@ fn mirrored_light(point: vec3f, direction: vec3f, axis: vec3f, footprint: f32) -
     for (var k = next_wall(first, second, 0u); k < 4u; k = next_wall(first, second, k + 1u)) {
         let met = met_at(first, second, k);
         let place = place_on(others[met.number], origin_m + wall_distance_m(met, k) * direction);
-        // s light of the wall. Straight through the middle there is no plane of incidence, and s and p light are the same.
-        let across = cross(direction, place);
-        let turn = turn_between(axis, across / max(length(across), 1e-9), direction);
+        let turn = turn_to_wall(axis, direction, place);
         let wall = OtherWall(met.number, place, direction, met.chord.cos_theta, is_far(k));
         seen = turned(past_other_wall(wall, turned(seen, turn), footprint), vec2f(turn.x, -turn.y));
     }
     return seen;
+}
+
+// The turn from an axis across a direction to that of the wall's s light, at a point of the unit sphere. Straight through the middle there is no plane of
+// incidence, and s and p light are the same.
+fn turn_to_wall(axis: vec3f, direction: vec3f, place: vec3f) -> vec2f {
+    let across = cross(direction, place);
+    return turn_between(axis, across / max(length(across), 1e-9), direction);
 }
 
 // A wall of another bubble, looked at along a direction, at a point of its unit sphere.
@@ -68,8 +73,8 @@ fn past_other_wall(wall: OtherWall, behind: Stokes, footprint: f32) -> Stokes {
     let mirrored = mirrored_by_wall(wall, reflect(wall.direction, wall.place), footprint);
     let film = FilmPoint(wall.cos_theta, other_nm(films, others[wall.number], wall.place), 0.0);
     let mean = reflected_light(film, vec3f(1.0));
-    let half_difference = mean * (s_part(mean, share_of_s(axes.index, film.cos_theta)) - 1.0);
-    return past_wall(behind, mirrored, reflected_light(film, mirrored - behind.i), mean, half_difference);
+    let reflected = reflected_light(film, mirrored - behind.i);
+    return past_wall(behind, mirrored, reflected, mean, half_difference(film, mean));
 }
 
 // Light that a wall mirrors from a direction. That from inside has passed the wall opposite, with what that one reflects.
@@ -118,17 +123,22 @@ fn reflected_light(film: FilmPoint, incident: vec3f) -> vec3f {
     return light.unseen * (light.scale * reflection_at(table, axes, film, vec2f(0.5), incident));
 }
 
-// What other bubbles leave of light on its way from the bubble's front and back wall.
+// What other bubbles leave of light on its way from the bubble's front and back wall: the mean of s and p light, and half of how much more they leave of
+// s light.
 struct Passed {
     front: vec3f,
     back: vec3f,
+    front_excess: vec3f,
+    back_excess: vec3f,
 }
 
-fn passed_others(path: Path) -> Passed {
-    var passed = Passed(vec3f(1.0), vec3f(1.0));
+fn passed_others(path: Path, axis: vec3f) -> Passed {
+    var passed = Passed(vec3f(1.0), vec3f(1.0), vec3f(0.0), vec3f(0.0));
     if (AMONG_OTHERS == 0u) {
         return passed;
     }
+    var front = array(vec3f(1.0), vec3f(1.0));
+    var back = front;
     let middle_m = dot(bubble.to_center_m, path.direction);
     let half_m = path.half_chord * bubble.radius_m;
     var next = next_chord(path.direction, middle_m + half_m, 0u);
@@ -136,12 +146,20 @@ fn passed_others(path: Path) -> Passed {
         let other = others[next.number];
         for (var wall = 0u; wall < 2u; wall++) {
             let distance_m = select(next.chord.near_m, next.chord.far_m, wall == 1u);
-            let left = wall_left(other, next.chord, distance_m, path.direction);
-            passed.front *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle_m - half_m);
-            passed.back *= select(vec3f(1.0), left, distance_m > 0.0 && distance_m < middle_m + half_m);
+            let left = wall_left(other, next.chord, distance_m, path.direction, axis);
+            let is_before_front = distance_m > 0.0 && distance_m < middle_m - half_m;
+            let is_before_back = distance_m > 0.0 && distance_m < middle_m + half_m;
+            for (var k = 0u; k < 2u; k++) {
+                front[k] *= select(vec3f(1.0), left[k], is_before_front);
+                back[k] *= select(vec3f(1.0), left[k], is_before_back);
+            }
         }
         next = next_chord(path.direction, middle_m + half_m, next.k + 1u);
     }
+    passed.front = 0.5 * (front[0] + front[1]);
+    passed.back = 0.5 * (back[0] + back[1]);
+    passed.front_excess = 0.5 * (front[0] - front[1]);
+    passed.back_excess = 0.5 * (back[0] - back[1]);
     return passed;
 }
 
@@ -164,9 +182,16 @@ fn next_chord(direction: vec3f, end_m: f32, first: u32) -> NextChord {
     return NextChord(part.among, 0u, Chord(-1.0, -1.0, 0.0));
 }
 
-// What a wall leaves of light that passes it.
-fn wall_left(other: OtherBubble, chord: Chord, distance_m: f32, direction: vec3f) -> vec3f {
+// What a wall leaves of light that passes it: of s light and of p light of the bubble, whose s light has its field along an axis.
+fn wall_left(other: OtherBubble, chord: Chord, distance_m: f32, direction: vec3f, axis: vec3f) -> array<vec3f, 2> {
     let place = place_on(other, distance_m * direction);
     let film = FilmPoint(chord.cos_theta, other_nm(films, other, place), 0.0);
-    return max(1.0 - reflected_light(film, vec3f(1.0)), vec3f(0.0));
+    let mean = reflected_light(film, vec3f(1.0));
+    let of_s = turn_to_wall(axis, direction, place).x * half_difference(film, mean);
+    return array(max(1.0 - mean - of_s, vec3f(0.0)), max(1.0 - mean + of_s, vec3f(0.0)));
+}
+
+// Half of how much more a film reflects of s light than of p light, from the mean that it reflects.
+fn half_difference(film: FilmPoint, mean: vec3f) -> vec3f {
+    return mean * (s_part(mean, share_of_s(axes.index, film.cos_theta)) - 1.0);
 }

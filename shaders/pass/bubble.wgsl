@@ -339,21 +339,22 @@ fn film_radiance(path: Path, is_inside: bool) -> vec3f {
     let through = straight_through(path, is_inside);
     let behind = through.light;
     let first = first_hits(path, is_inside, through);
-    let passed = passed_others(path);
+    let across = path.across / max(length(path.across), 1e-9);
+    let passed = passed_others(path, across);
     var walls: Walls;
     walls.first = first.four.hits;
-    walls.first.steps = dimmed(walls.first.steps, passed.front, passed.back);
-    walls.polarised = dimmed(first.polarised, passed.front, passed.back);
+    walls.first.steps = dimmed(first.four.hits.steps, passed.front, passed.back);
+    walls.polarised = dimmed(first.polarised, passed.front, passed.back)
+        + dimmed(first.four.hits.steps, passed.front_excess, passed.back_excess);
     var polarised = unpolarised(vec3f(0.0));
     var turn = vec2f(1.0, 0.0);
     if (TRACKS_POLARISATION == 1u) {
         sample_behind = polarisation_behind(path.position);
-        let across = path.across / max(length(path.across), 1e-9);
         turn = turn_between(picture_axis(path.direction), across, path.direction);
         polarised = turned(sample_behind, turn);
-        let step = passed.back * (light.unseen * polarised.q);
-        walls.polarised[0] -= step;
-        walls.polarised[1] -= step;
+        let of_light = light.unseen * polarised.q;
+        walls.polarised[0] -= passed.front * of_light;
+        walls.polarised[1] -= passed.back * of_light;
     }
     var last = first.four.last;
     if (INNER > 3u) {

@@ -28,7 +28,7 @@ static LIMITS: Limits =
     [(Quality::Fast, [1.2, 8.0]), (Quality::Standard, [0.5, 2.0]), (Quality::Spectral, [0.15, 1.0])];
 /// The same where bubbles intersect: what their walls leave of one another's light is a factor on each primary there.
 static INTERSECTING: Limits =
-    [(Quality::Fast, [1.3, 8.0]), (Quality::Standard, [0.5, 3.5]), (Quality::Spectral, [0.35, 2.5])];
+    [(Quality::Fast, [1.3, 8.0]), (Quality::Standard, [0.5, 3.0]), (Quality::Spectral, [0.25, 1.8])];
 
 /// What is reached with small bubbles, whose walls are looked up in the table at all qualities, which mirror no others, and of which some intersect;
 /// in spectral pictures bubbles are small only below 16 pixels.
