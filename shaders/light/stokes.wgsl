@@ -6,9 +6,9 @@ import package::optics::table::{between_rows, two_rows};
 struct Stokes {
     // All of the light.
     i: vec3f,
-    // Light whose field is along an axis across the ray, less light whose field is across both.
+    // Light whose field is along an axis, less light whose field is at right angles to it. The axis is at right angles to the ray.
     q: vec3f,
-    // The same of axes turned by 45 degrees.
+    // Light whose field is along the axis turned by 45 degrees, less light whose field is at right angles to that.
     u: vec3f,
 }
 
@@ -26,7 +26,7 @@ fn unpolarised(light: vec3f) -> Stokes {
     return Stokes(light, vec3f(0.0), vec3f(0.0));
 }
 
-// Cosine and sine of twice the angle by which one axis across a direction is turned from another; zero where an axis is.
+// Cosine and sine of twice the angle from one axis at right angles to a direction to another; both are 0 where an axis is 0.
 fn turn_between(axis: vec3f, other: vec3f, direction: vec3f) -> vec2f {
     let cosine = dot(axis, other);
     let sine = dot(cross(direction, axis), other);

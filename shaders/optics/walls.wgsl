@@ -170,7 +170,7 @@ fn wavelength_polarisation(sample: QuadratureSample, cos_theta: f32, walls: Wall
     let s = 0.5 * first_factors(r.s);
     let p = 0.5 * first_factors(r.p);
     let q = walls.first.steps * (s - p) + walls.polarised * (s + p);
-    // The fields of s and p light that pass stay in step but for what films turn them apart, which is little.
+    // s and p light that pass a film stay nearly in phase.
     let u = -turned * (s.x + p.x + s.y + p.y);
     return mat2x3f(sample.response * q, sample.response * u);
 }

@@ -18,7 +18,7 @@ use glam::DVec2;
 
 use super::passes::small_bubbles::TILE;
 use crate::{
-    plan::{BubbleKey, DrawKey, SmallBubble},
+    plan::{BubbleKey, DrawKey, FilmColours, Rendering, SmallBubble},
     scene::Quality,
 };
 
@@ -131,6 +131,18 @@ impl Composition {
         let bodies = self.placed.iter().flat_map(|placed| &placed.bodies).map(|body| body.layers[1]);
         let bubbles = self.placed.iter().map(|placed| placed.layer);
         bubbles.chain(bodies).chain(small).max().map_or(1, |last| last + 1)
+    }
+
+    /// Whether the picture keeps what is polarised of it. Bubbles reflect and pass s light otherwise than p light, and bubbles in front do so once
+    /// more: to leave that out is most of the error of spectral pictures. Pictures through a polariser do not keep it.
+    #[must_use]
+    pub fn tracks_polarisation(&self, key: &DrawKey) -> bool {
+        let is_spectral = |films: &FilmColours| films.quadrature.quality == Quality::Spectral;
+        self.layers() > 1
+            && self.placed.len() > 1
+            && key.rendering == Rendering::Full
+            && key.lighting.light.polariser.is_none()
+            && key.lighting.films.iter().any(is_spectral)
     }
 }
 

@@ -26,7 +26,7 @@ const SIZE: [u32; 2] = [1600, 900];
 type Limits = [(Quality, [f64; 2]); 3];
 static LIMITS: Limits =
     [(Quality::Fast, [1.2, 8.0]), (Quality::Standard, [0.5, 2.0]), (Quality::Spectral, [0.15, 1.0])];
-/// The same where bubbles intersect: what their walls leave of one another's light is a factor on each primary there.
+/// The same where bubbles intersect: what their walls leave of one another's s and p light is a factor on each primary.
 static INTERSECTING: Limits =
     [(Quality::Fast, [1.3, 8.0]), (Quality::Standard, [0.5, 3.0]), (Quality::Spectral, [0.25, 1.8])];
 

@@ -24,10 +24,7 @@ use super::{
     timing::Recorder,
     uniform_buffer::UniformBuffer,
 };
-use crate::{
-    plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting, Rendering},
-    scene::Quality,
-};
+use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting, Rendering};
 use small::SmallDraw;
 pub use values::view_uniform;
 use values::{
@@ -64,18 +61,6 @@ const PIXELS_PER_SUBMISSION: u32 = 2_000_000;
 pub fn strips([width, height]: [u32; 2]) -> impl Iterator<Item = std::ops::Range<u32>> {
     let rows = (PIXELS_PER_SUBMISSION / width.max(1)).max(1);
     (0..height).step_by(rows as usize).map(move |top| top..(top + rows).min(height))
-}
-
-/// Whether the picture keeps what is polarised of it: bubbles reflect and pass s light otherwise than p light, and those in front do so once more.
-/// In spectral pictures that is most of what is left of their errors; a polariser before the camera is not waited for, which comes last.
-#[must_use]
-pub fn tracks_polarisation(key: &DrawKey, composition: &Composition) -> bool {
-    let is_spectral = |films: &FilmColours| films.quadrature.quality == Quality::Spectral;
-    composition.layers() > 1
-        && composition.placed.len() > 1
-        && key.rendering == Rendering::Full
-        && key.lighting.light.polariser.is_none()
-        && key.lighting.films.iter().any(is_spectral)
 }
 
 /// The uniforms and bind groups of one picture, made once and used for each of its strips.
@@ -166,7 +151,7 @@ struct Shared<'a> {
     so_far: &'a wgpu::TextureView,
     others: Others,
     films: &'a wgpu::TextureView,
-    composition: &'a Composition,
+    tracks_polarisation: bool,
     polarised_behind: &'a wgpu::TextureView,
     /// All small bubbles.
     small: wgpu::Buffer,
@@ -225,7 +210,7 @@ impl DrawPass {
         let view = gpu.uniform("view", &view_uniform(key));
         let light = LightBuffers::new(gpu, key, lighting, [inputs.environment, inputs.backdrop]);
         let backdrop = BackdropDraw::new(gpu, key, lighting, &light, (&view, inputs.backdrop))?;
-        let tracks_polarisation = tracks_polarisation(key, inputs.composition);
+        let tracks_polarisation = inputs.composition.tracks_polarisation(key);
         let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0], tracks_polarisation };
         let [behind, so_far] = inputs.drawn.map(|target| &target.view);
         let others = Others::new(gpu, key, lighting, inputs);
@@ -240,7 +225,7 @@ impl DrawPass {
             so_far,
             others,
             films: &inputs.atlas.view,
-            composition: inputs.composition,
+            tracks_polarisation,
             polarised_behind: &inputs.polarised[1].view,
             small: gpu.storage("small bubbles", &small_bubbles(key, lighting, inputs.atlas)),
         };
@@ -358,13 +343,13 @@ impl Shared<'_> {
     /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
     fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
         let Self { key, lighting, view, light, environment, backdrop, behind, so_far, others, films, .. } = self;
-        let Self { composition, polarised_behind, .. } = self;
+        let Self { tracks_polarisation, polarised_behind, .. } = self;
         let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
         let bubble = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
         let part = &gpu.storage("part of the lists", &[list_part(drawn)]);
         let coloured = film_colours.table.as_ref().is_some_and(|table| table.coloured);
         let shade = Shade {
-            shape: ring_overrides(key, lighting, composition, drawn),
+            shape: ring_overrides(key, lighting, *tracks_polarisation, drawn),
             table_kind: TableOverrides { COLOURED: coloured, POLARISED: lighting.light.polariser.is_some() },
             summed: quadrature.overrides(),
             lit: light.lit,
@@ -394,7 +379,7 @@ impl Shared<'_> {
             polarised_behind,
         };
         let formats = [radiance_format(key.full_precision), POLARISATION_FORMAT];
-        let formats = if shade.shape.TRACKS_POLARISATION { &formats[..] } else { &formats[..1] };
+        let formats = if *tracks_polarisation { &formats[..] } else { &formats[..1] };
         match (key.rendering == Rendering::Yardstick, ring.edges_rad) {
             (false, Some(_)) => shade.ring(gpu, formats),
             (false, None) => shade.everywhere(gpu, formats),

@@ -3,10 +3,9 @@
 use bytemuck::Zeroable;
 use glam::{DMat3, DVec3};
 
-use super::{Drawn, tracks_polarisation};
+use super::Drawn;
 use crate::{
     gpu::{
-        composition::Composition,
         environment::Environment,
         film_atlas::FilmAtlas,
         passes::{
@@ -60,7 +59,7 @@ pub(super) fn max_small_samples(key: &DrawKey, quality: Quality, most: u32) -> u
 pub(super) fn ring_overrides(
     key: &DrawKey,
     lighting: &Lighting,
-    composition: &Composition,
+    tracks_polarisation: bool,
     Drawn { bubble, placed, ring, colours, .. }: &Drawn<'_>,
 ) -> RingOverrides {
     RingOverrides {
@@ -85,7 +84,7 @@ pub(super) fn ring_overrides(
         AMONG_OTHERS: !placed.among.is_empty(),
         MIRRORS_OTHERS: placed.mirrors,
         OPPOSITE_WALLS: placed.mirrors && colours.films.quadrature.quality == Quality::Spectral,
-        TRACKS_POLARISATION: tracks_polarisation(key, composition),
+        TRACKS_POLARISATION: tracks_polarisation,
         INNER: ring.inner_reflections,
     }
 }

@@ -13,7 +13,7 @@ use super::{
     abilities::missing_for_measurement,
     composition::{Composition, composition},
     device::{Gpu, GpuError},
-    draw::{DrawInputs, DrawPass, pixels_shaded, strips, tracks_polarisation},
+    draw::{DrawInputs, DrawPass, pixels_shaded, strips},
     environment::Environment,
     film::{Company, MovingFilm},
     film_atlas::FilmAtlas,
@@ -221,7 +221,7 @@ impl Renderer {
         for slot in &mut self.products.drawn {
             *slot = Some(Target::fit(slot.take(), &self.gpu, "drawn", drawn_size, format));
         }
-        let tracks = tracks_polarisation(key, &composition);
+        let tracks = composition.tracks_polarisation(key);
         for slot in &mut self.products.polarised {
             let size = if tracks { key.size } else { [1, 1] };
             *slot = Some(Target::fit(slot.take(), &self.gpu, "polarised", size, POLARISATION_FORMAT));
