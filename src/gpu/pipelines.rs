@@ -20,30 +20,37 @@ use crate::physics::sphere::HALO;
 /// Constants that all passes share. A shader declares those it needs as `override NAME: T;` without a default.
 pub const SHARED_CONSTANTS: &[(&str, u32)] = &[("HALO", HALO as u32)];
 
+/// What the stages of a pipeline are compiled from.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SourceKey {
+    /// File in `shaders/pass/`, without the ending.
+    pub pass: &'static str,
+    /// Numbers of the bindings that its entry points may use, and what each takes.
+    pub bindings: &'static [(u32, wgpu::BindingType)],
+    /// Values of the pass's own overridable constants.
+    pub constants: Vec<(&'static str, u32)>,
+}
+
 /// Key of a compute pipeline.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ComputeKey {
-    /// File in `shaders/pass/`, without the ending.
-    pub pass: &'static str,
+    /// What it is compiled from.
+    pub source: SourceKey,
     /// Entry point.
     pub entry: &'static str,
-    /// Values of the pass's own overridable constants.
-    pub constants: Vec<(&'static str, u32)>,
 }
 
 /// Key of a render pipeline.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct RenderKey {
-    /// File in `shaders/pass/`, without the ending.
-    pub pass: &'static str,
+    /// What it is compiled from.
+    pub source: SourceKey,
     /// Vertex shader, which makes its own vertices.
     pub vertex: &'static str,
     /// Fragment shader.
     pub fragment: &'static str,
     /// Formats of the targets.
     pub formats: Vec<wgpu::TextureFormat>,
-    /// Values of the pass's own overridable constants.
-    pub constants: Vec<(&'static str, u32)>,
 }
 
 /// A pipeline, and what to bind for it.
@@ -160,18 +167,18 @@ fn make_compute(
     (library, late): (&Library, &LateErrors),
     key: &ComputeKey,
 ) -> Result<Ready<wgpu::ComputePipeline>, ShaderError> {
-    let source = PassSource::new(device, library, key.pass, &key.constants)?;
+    let source = PassSource::new(device, library, &key.source)?;
     let scopes = Scopes::open(device);
     let shader = source.stage(key.entry)?;
+    let layout = source.layout(&[(wgpu::ShaderStages::COMPUTE, &shader)]);
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(key.entry),
-        layout: None,
+        layout: Some(&source.pipeline_layout(&layout)),
         module: &shader.module,
         entry_point: Some(key.entry),
         compilation_options: wgpu::PipelineCompilationOptions::default(),
         cache: None,
     });
-    let layout = pipeline.get_bind_group_layout(0);
     source.ready(scopes, late, [shader], (pipeline, layout))
 }
 
@@ -180,13 +187,14 @@ fn make_render(
     (library, late): (&Library, &LateErrors),
     key: &RenderKey,
 ) -> Result<Ready<wgpu::RenderPipeline>, ShaderError> {
-    let source = PassSource::new(device, library, key.pass, &key.constants)?;
+    let source = PassSource::new(device, library, &key.source)?;
     let scopes = Scopes::open(device);
     let vertex = source.stage(key.vertex)?;
     let fragment = source.stage(key.fragment)?;
+    let layout = source.layout(&[(wgpu::ShaderStages::VERTEX, &vertex), (wgpu::ShaderStages::FRAGMENT, &fragment)]);
     let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(key.fragment),
-        layout: None,
+        layout: Some(&source.pipeline_layout(&layout)),
         vertex: wgpu::VertexState {
             module: &vertex.module,
             entry_point: Some(key.vertex),
@@ -205,7 +213,6 @@ fn make_render(
         multiview_mask: None,
         cache: None,
     });
-    let layout = pipeline.get_bind_group_layout(0);
     source.ready(scopes, late, [vertex, fragment], (pipeline, layout))
 }
 
@@ -238,6 +245,7 @@ impl Scopes {
 struct PassSource<'a> {
     device: &'a wgpu::Device,
     pass: &'static str,
+    bindings: &'static [(u32, wgpu::BindingType)],
     composed: Composed,
     constants: Vec<(&'static str, u32)>,
 }
@@ -250,17 +258,33 @@ struct StageShader {
 }
 
 impl<'a> PassSource<'a> {
-    fn new(
-        device: &'a wgpu::Device,
-        library: &Library,
-        pass: &'static str,
-        constants: &[(&'static str, u32)],
-    ) -> Result<Self, ShaderError> {
+    fn new(device: &'a wgpu::Device, library: &Library, key: &SourceKey) -> Result<Self, ShaderError> {
+        let SourceKey { pass, bindings, ref constants } = *key;
         let composed = library.compose(pass)?;
         // Shared constants only where the text declares them: an unknown name would be refused.
         let shared = SHARED_CONSTANTS.iter().filter(|(name, _)| composed.declares(name));
         let constants = constants.iter().chain(shared).copied().collect();
-        Ok(Self { device, pass, composed, constants })
+        Ok(Self { device, pass, bindings, composed, constants })
+    }
+
+    /// The layout of what some stages use of the kernel's bindings.
+    fn layout(&self, stages: &[(wgpu::ShaderStages, &StageShader)]) -> wgpu::BindGroupLayout {
+        let entry = |&(binding, ty): &(u32, wgpu::BindingType)| {
+            let users = stages.iter().filter(|(_, shader)| shader.bindings.contains(&binding));
+            let visibility = users.fold(wgpu::ShaderStages::NONE, |all, (stage, _)| all | *stage);
+            wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
+        };
+        let entries: Vec<_> = self.bindings.iter().map(entry).filter(|entry| !entry.visibility.is_empty()).collect();
+        let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(self.pass), entries: &entries };
+        self.device.create_bind_group_layout(&descriptor)
+    }
+
+    fn pipeline_layout(&self, bindings: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+        self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(self.pass),
+            bind_group_layouts: &[Some(bindings)],
+            immediate_size: 0,
+        })
     }
 
     fn stage(&self, entry: &str) -> Result<StageShader, ShaderError> {

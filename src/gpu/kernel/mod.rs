@@ -31,15 +31,15 @@ pub(crate) use layout::{add_member, shader_struct, shader_view};
 pub use overrides::{Choice, Constants, Override, OverrideValues, Overrides};
 pub(crate) use overrides::{choices, override_values, overrides};
 pub use slots::{
-    R32Float, Read, ReadWrite, Rgba32Float, Rgba32Uint, Sampler, Slot, SlotKind, Texture2d, Texture2dArray,
-    TextureCube, Uint2d, Uint2dArray, Uniform, Written2dArray, WrittenFormat,
+    PointSampler, R32Float, Read, ReadWrite, Rgba32Float, Rgba32Uint, Sampler, Slot, SlotKind, Texture2d,
+    Texture2dArray, TextureCube, Uint2d, Uint2dArray, Uniform, Written2dArray, WrittenFormat,
 };
 
 use std::collections::BTreeMap;
 
 use super::{
     device::{Gpu, GpuError},
-    pipelines::{ComputeKey, RenderKey},
+    pipelines::{ComputeKey, RenderKey, SourceKey},
     timing::{Groups, Recorder},
 };
 
@@ -123,6 +123,8 @@ pub struct Binding {
 pub(crate) trait Bound {
     /// File in `shaders/pass/`, without the ending.
     const PASS: &'static str;
+    /// Numbers of its bindings, and what each takes.
+    const BINDINGS: &'static [(u32, wgpu::BindingType)];
     /// Values of its constants.
     fn constants(&self) -> Constants;
     /// What is bound, each with its number.
@@ -137,12 +139,13 @@ pub(crate) fn dispatch<'a>(
     name: &'static str,
     groups: impl Into<Groups<'a>>,
 ) -> Result<(), GpuError> {
-    let key = ComputeKey { pass: pass_of(kernel), entry, constants: kernel.constants() };
+    let key = ComputeKey { source: source_of(kernel), entry };
     recorder.compute(name, &key, &kernel.resources(), groups.into())
 }
 
-fn pass_of<K: Bound>(_: &K) -> &'static str {
-    K::PASS
+/// The text of a kernel, with its constants.
+fn source_of<K: Bound>(kernel: &K) -> SourceKey {
+    SourceKey { pass: K::PASS, bindings: K::BINDINGS, constants: kernel.constants() }
 }
 
 /// A kernel that is ready to be drawn with, as often as one likes.
@@ -159,8 +162,7 @@ impl Drawable {
         gpu: &Gpu,
         formats: &[wgpu::TextureFormat],
     ) -> Result<Self, GpuError> {
-        let formats = formats.to_vec();
-        let key = RenderKey { pass: pass_of(kernel), vertex, fragment, formats, constants: kernel.constants() };
+        let key = RenderKey { source: source_of(kernel), vertex, fragment, formats: formats.to_vec() };
         let ready = gpu.pipelines.render(&gpu.device, &key)?;
         let bindings = ready.bind(&gpu.device, &kernel.resources());
         Ok(Self { pipeline: ready.pipeline, bindings })
@@ -200,6 +202,9 @@ macro_rules! kernels {
 
             impl $crate::gpu::kernel::Bound for $name<'_> {
                 const PASS: &'static str = stringify!($pass);
+
+                const BINDINGS: &'static [(u32, wgpu::BindingType)] =
+                    &[$(($number, <$slot as $crate::gpu::kernel::Slot>::TYPE),)*];
 
                 #[allow(unused_mut, reason = "few kernels share constants")]
                 fn constants(&self) -> $crate::gpu::kernel::Constants {

@@ -2,7 +2,10 @@
 
 use std::marker::PhantomData;
 
-use wgpu::{BindingResource, Buffer, TextureView, TextureViewDimension as Dimension};
+use wgpu::{
+    BindingResource, BindingType, Buffer, BufferBindingType, SamplerBindingType, TextureSampleType, TextureView,
+    TextureViewDimension as Dimension,
+};
 
 use super::{
     super::uniform_buffer::UniformBuffer,
@@ -32,6 +35,8 @@ pub enum SlotKind {
 pub trait Slot {
     /// What is bound there.
     type Resource<'a>: Copy;
+    /// What a pipeline's layout says of it.
+    const TYPE: BindingType;
     /// What a shader must declare.
     fn kind() -> SlotKind;
     /// The resource as wgpu binds it.
@@ -56,8 +61,10 @@ pub struct Uint2dArray;
 pub struct TextureCube;
 /// An array of textures that is written.
 pub struct Written2dArray<F>(PhantomData<F>);
-/// A sampler.
+/// A sampler that filters.
 pub struct Sampler;
+/// A sampler that filters nothing, for textures that no hardware need filter: it gathers texels four by four.
+pub struct PointSampler;
 
 /// A format of textures that are written.
 pub trait WrittenFormat {
@@ -84,11 +91,13 @@ impl WrittenFormat for Rgba32Uint {
     const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 }
 
-/// Makes a type a kind of binding: what is bound, what a shader must declare, and how wgpu takes it.
+/// Makes a type a kind of binding: what is bound, what a shader must declare, what a layout says, and how wgpu takes it.
 macro_rules! slot {
-    ($({ $($parameter:tt)* })? $slot:ty = $resource:ty, $kind:expr, $bound:expr) => {
+    ($({ $($parameter:tt)* })? $slot:ty = $resource:ty, $kind:expr, $type:expr, $bound:expr) => {
         impl $(<$($parameter)*>)? Slot for $slot {
             type Resource<'a> = &'a $resource;
+
+            const TYPE: BindingType = $type;
 
             fn kind() -> SlotKind {
                 $kind
@@ -101,16 +110,82 @@ macro_rules! slot {
     };
 }
 
-slot!({ T: ShaderType + 'static } Uniform<T> = UniformBuffer<T>, SlotKind::Uniform(T::layout()), whole);
-slot!({ T: Contents + ?Sized } Read<T> = Buffer, SlotKind::Read(T::layout()), whole);
-slot!({ T: Contents + ?Sized } ReadWrite<T> = Buffer, SlotKind::ReadWrite(T::layout()), whole);
-slot!(Texture2d = TextureView, SlotKind::Texture(Dimension::D2), BindingResource::TextureView);
-slot!(Texture2dArray = TextureView, SlotKind::Texture(Dimension::D2Array), BindingResource::TextureView);
-slot!(Uint2d = TextureView, SlotKind::UintTexture(Dimension::D2), BindingResource::TextureView);
-slot!(Uint2dArray = TextureView, SlotKind::UintTexture(Dimension::D2Array), BindingResource::TextureView);
-slot!(TextureCube = TextureView, SlotKind::Texture(Dimension::Cube), BindingResource::TextureView);
-slot!({ F: WrittenFormat } Written2dArray<F> = TextureView, SlotKind::Written(F::FORMAT), BindingResource::TextureView);
-slot!(Sampler = wgpu::Sampler, SlotKind::Sampler, BindingResource::Sampler);
+/// A texture that is loaded from, of any float format.
+const LOADED: TextureSampleType = TextureSampleType::Float { filterable: false };
+/// A texture that a sampler filters.
+const FILTERED: TextureSampleType = TextureSampleType::Float { filterable: true };
+
+const fn buffer(ty: BufferBindingType) -> BindingType {
+    BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
+}
+
+const fn texture(sample_type: TextureSampleType, view_dimension: Dimension) -> BindingType {
+    BindingType::Texture { sample_type, view_dimension, multisampled: false }
+}
+
+const fn written(format: wgpu::TextureFormat) -> BindingType {
+    let access = wgpu::StorageTextureAccess::WriteOnly;
+    BindingType::StorageTexture { access, format, view_dimension: Dimension::D2Array }
+}
+
+slot!(
+    { T: ShaderType + 'static } Uniform<T> = UniformBuffer<T>,
+    SlotKind::Uniform(T::layout()), buffer(BufferBindingType::Uniform), whole
+);
+slot!(
+    { T: Contents + ?Sized } Read<T> = Buffer,
+    SlotKind::Read(T::layout()), buffer(BufferBindingType::Storage { read_only: true }), whole
+);
+slot!(
+    { T: Contents + ?Sized } ReadWrite<T> = Buffer,
+    SlotKind::ReadWrite(T::layout()), buffer(BufferBindingType::Storage { read_only: false }), whole
+);
+slot!(
+    Texture2d = TextureView,
+    SlotKind::Texture(Dimension::D2),
+    texture(LOADED, Dimension::D2),
+    BindingResource::TextureView
+);
+slot!(
+    Texture2dArray = TextureView,
+    SlotKind::Texture(Dimension::D2Array),
+    texture(LOADED, Dimension::D2Array),
+    BindingResource::TextureView
+);
+slot!(
+    Uint2d = TextureView,
+    SlotKind::UintTexture(Dimension::D2),
+    texture(TextureSampleType::Uint, Dimension::D2),
+    BindingResource::TextureView
+);
+slot!(
+    Uint2dArray = TextureView,
+    SlotKind::UintTexture(Dimension::D2Array),
+    texture(TextureSampleType::Uint, Dimension::D2Array),
+    BindingResource::TextureView
+);
+slot!(
+    TextureCube = TextureView,
+    SlotKind::Texture(Dimension::Cube),
+    texture(FILTERED, Dimension::Cube),
+    BindingResource::TextureView
+);
+slot!(
+    { F: WrittenFormat } Written2dArray<F> = TextureView,
+    SlotKind::Written(F::FORMAT), written(F::FORMAT), BindingResource::TextureView
+);
+slot!(
+    Sampler = wgpu::Sampler,
+    SlotKind::Sampler,
+    BindingType::Sampler(SamplerBindingType::Filtering),
+    BindingResource::Sampler
+);
+slot!(
+    PointSampler = wgpu::Sampler,
+    SlotKind::Sampler,
+    BindingType::Sampler(SamplerBindingType::NonFiltering),
+    BindingResource::Sampler
+);
 
 fn whole(buffer: &Buffer) -> BindingResource<'_> {
     buffer.as_entire_binding()
