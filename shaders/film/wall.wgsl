@@ -6,7 +6,7 @@ import package::film::control::balanced;
 import package::film::hole::{HOLE_MERIDIANS, angle_from, meridian_of, mixed, pierced};
 import package::film::shown::film_at;
 import package::light::water::upward;
-import package::sphere::lookup::{map_at, tracer_at};
+import package::sphere::lookup::{gather_place, map_at, tracer_at};
 
 // 1: the film has one thickness everywhere, and no field is read.
 override UNIFORM_FILM: u32;
@@ -19,12 +19,12 @@ override SKINS: u32;
 // 1: the film ends at a ring.
 override ON_RING: u32;
 
-fn map_value(unused: u32, place: u32) -> vec4f {
-    return film_map[place];
+fn map_texel(unused: u32, texel: vec2u, panel: u32) -> vec4f {
+    return textureLoad(film_map, texel, panel, 0);
 }
 
-fn tracer_value(place: u32) -> f32 {
-    return film_tracer[place];
+fn tracer_texels(texel: vec2u, panel: u32) -> vec4f {
+    return textureGather(0, film_tracer, point_sampler, gather_place(texel, bubble.tracer_cells), panel);
 }
 
 // The tracer of the last remap, through the flow map: as sharp as what is known of the film.

@@ -44,6 +44,8 @@ struct Blacken {
 @group(0) @binding(4) var<storage, read> means: array<f32>;
 // tan(alpha) of each cell coordinate, halo included.
 @group(0) @binding(5) var<storage, read> tangents: array<f32>;
+// The tracer as it was settled.
+@group(0) @binding(6) var settled: texture_2d_array<f32>;
 
 // Cells on each side that count for a cell's mean.
 const REACH: u32 = 3u;
@@ -93,9 +95,11 @@ fn is_halo(id: vec3u) -> bool {
 @compute @workgroup_size(8, 8)
 fn stop_evaporation(@builtin(global_invocation_id) id: vec3u) {
     if (is_cell(id, blacken.cells)) {
-        let place = place_of(id);
-        let left = max(result[place] + blacken.remaining_level_nm, min(result[place] + blacken.level_nm, blacken.black_nm));
-        result[place] = max(result[place], left - blacken.remaining_level_nm);
+        let departure = textureLoad(settled, id.xy, id.z, 0).r;
+        let nm = departure + blacken.remaining_level_nm;
+        // Nothing where nothing was spared, to the last bit.
+        let spared = max(min(departure + blacken.level_nm, blacken.black_nm) - nm, 0.0);
+        result[place_of(id)] = departure + spared;
     }
 }
 

@@ -86,8 +86,9 @@ struct ListPart {
 @group(0) @binding(8) var film: texture_2d_array<f32>;
 @group(0) @binding(9) var<uniform> quadrature: array<QuadratureSample, 256>;
 @group(0) @binding(10) var<uniform> film_balance: Balance;
-@group(0) @binding(11) var<storage, read> film_map: array<vec4f>;
-@group(0) @binding(12) var<storage, read> film_tracer: array<f32>;
+@group(0) @binding(11) var film_map: texture_2d_array<f32>;
+@group(0) @binding(12) var film_tracer: texture_2d_array<f32>;
+@group(0) @binding(24) var point_sampler: sampler;
 @group(0) @binding(13) var<storage, read> hole_middle: vec4f;
 @group(0) @binding(14) var<storage, read> hole_rim: array<Rim>;
 @group(0) @binding(15) var picture_behind: texture_2d<f32>;

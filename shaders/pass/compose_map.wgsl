@@ -2,7 +2,7 @@
 // gathered since. Halos are included. The step may have been traced on a coarser grid: flows are smooth.
 
 import package::film::control::Control;
-import package::sphere::cubed::{cell_place, is_cell, is_quad, panel_direction, quad_cell};
+import package::sphere::cubed::{is_cell, is_quad, panel_direction, quad_cell};
 import package::sphere::lookup::{map_at, map_at_cell, map_at_quad, sanitised};
 
 // 1: the step was traced on the map's own grid.
@@ -23,24 +23,23 @@ struct Compose {
 // tan(alpha) of each cell coordinate, halo included.
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
 @group(0) @binding(2) var<storage, read_write> control: Control;
-@group(0) @binding(3) var<storage, read> step_map: array<vec4f>;
-@group(0) @binding(4) var<storage, read> map_before: array<vec4f>;
-@group(0) @binding(5) var<storage, read_write> map_after: array<vec4f>;
+@group(0) @binding(3) var step_map: texture_2d_array<f32>;
+@group(0) @binding(4) var map_before: texture_2d_array<f32>;
+@group(0) @binding(5) var map_after: texture_storage_2d_array<rgba32float, write>;
 
 const STEP_MAP: u32 = 0u;
 const MAP_BEFORE: u32 = 1u;
 
-// All four numbers are loaded whether anything is gathered or not: software rasterisers load them sooner together than three one by one.
-fn map_value(map: u32, place: u32) -> vec4f {
+fn map_texel(map: u32, texel: vec2u, panel: u32) -> vec4f {
     if (map == STEP_MAP) {
-        return step_map[place];
+        return textureLoad(step_map, texel, panel, 0);
     }
-    return map_before[place];
+    return textureLoad(map_before, texel, panel, 0);
 }
 
 // No tracer is looked up here.
-fn tracer_value(place: u32) -> f32 {
-    return 0.0;
+fn tracer_texels(texel: vec2u, panel: u32) -> vec4f {
+    return vec4f(0.0);
 }
 
 fn direction_at(id: vec3u) -> vec3f {
@@ -56,6 +55,12 @@ fn composed(step: vec4f) -> vec4f {
     return vec4f(before.xyz, step.w + before.w);
 }
 
+fn store(cell: vec3u, origin: vec4f) {
+    if (is_cell(cell, compose.cells)) {
+        textureStore(map_after, cell.xy, cell.z, origin);
+    }
+}
+
 fn count_sanitised() {
     if (sanitised > 0u) {
         atomicAdd(&control.sanitised, sanitised);
@@ -69,11 +74,11 @@ fn compose_map(@builtin(global_invocation_id) id: vec3u) {
     }
     var step: vec4f;
     if (SAME_GRID == 1u) {
-        step = step_map[cell_place(id, compose.cells)];
+        step = textureLoad(step_map, id.xy, id.z, 0);
     } else {
         step = map_at_cell(STEP_MAP, id, compose.cells, direction_at(id), compose.step_cells);
     }
-    map_after[cell_place(id, compose.cells)] = composed(step);
+    textureStore(map_after, id.xy, id.z, composed(step));
     count_sanitised();
 }
 
@@ -85,13 +90,11 @@ fn compose_quads(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let direction = direction_at(vec3u(vec2u(max(first, vec2i(0))), id.z));
-    var steps = map_at_quad(STEP_MAP, first, id.z, compose.cells, direction, compose.step_cells);
-    for (var k = 0u; k < 4u; k++) {
-        let cell = quad_cell(first, k, id.z);
-        let origin = composed(steps[k]);
-        if (is_cell(cell, compose.cells)) {
-            map_after[cell_place(cell, compose.cells)] = origin;
-        }
-    }
+    let steps = map_at_quad(STEP_MAP, first, id.z, compose.cells, direction, compose.step_cells);
+    // Each by itself: software rasterisers keep what a loop reads in memory.
+    store(quad_cell(first, 0u, id.z), composed(steps[0]));
+    store(quad_cell(first, 1u, id.z), composed(steps[1]));
+    store(quad_cell(first, 2u, id.z), composed(steps[2]));
+    store(quad_cell(first, 3u, id.z), composed(steps[3]));
     count_sanitised();
 }

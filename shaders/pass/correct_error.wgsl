@@ -1,19 +1,16 @@
 // The middle of back and forth error compensation (Dupont & Liu 2003, J. Comput. Phys. 190): a tracer that was carried a step forth and back
 // has twice the step's error; subtract half the difference before the final step. One invocation per cell, halo included.
 
-@group(0) @binding(0) var<storage, read> tracer: array<f32>;
+@group(0) @binding(0) var tracer: texture_2d_array<f32>;
 @group(0) @binding(1) var<storage, read> returned: array<f32>;
-@group(0) @binding(2) var<storage, read_write> corrected: array<f32>;
+@group(0) @binding(2) var corrected: texture_storage_2d_array<r32float, write>;
 
-@compute @workgroup_size(64)
-fn correct_error(
-    @builtin(workgroup_id) group: vec3u,
-    @builtin(num_workgroups) groups: vec3u,
-    @builtin(local_invocation_index) local: u32,
-) {
-    // In the order of storage, whatever the panels.
-    let place = ((group.z * groups.y + group.y) * groups.x + group.x) * 64u + local;
-    if (place < arrayLength(&tracer)) {
-        corrected[place] = 1.5 * tracer[place] - 0.5 * returned[place];
+@compute @workgroup_size(8, 8)
+fn correct_error(@builtin(global_invocation_id) id: vec3u) {
+    let side = textureDimensions(tracer).x;
+    if (all(id.xy < vec2u(side))) {
+        let back = returned[(id.z * side + id.y) * side + id.x];
+        let value = 1.5 * textureLoad(tracer, id.xy, id.z, 0).r - 0.5 * back;
+        textureStore(corrected, id.xy, id.z, vec4f(value, 0.0, 0.0, 0.0));
     }
 }

@@ -1,7 +1,7 @@
 // Whether the map has become too distorted to go on with, and the arguments of the dispatches that then remap: zero workgroups if it has not.
 
 import package::film::control::Control;
-import package::sphere::cubed::{HALO, padded_index};
+import package::sphere::cubed::HALO;
 
 // Mirrors `DecideUniform` in src/gpu/passes/decide_remap.rs.
 struct Decide {
@@ -34,23 +34,27 @@ struct Arguments {
 
 @group(0) @binding(0) var<uniform> decide: Decide;
 @group(0) @binding(1) var<storage, read_write> control: Control;
-@group(0) @binding(2) var<storage, read> map: array<vec4f>;
+@group(0) @binding(2) var map: texture_2d_array<f32>;
 @group(0) @binding(3) var<storage, read_write> arguments: Arguments;
 
 var<workgroup> worst: atomic<u32>;
 
+fn map_at_texel(texel: vec2u, panel: u32) -> vec3f {
+    return textureLoad(map, texel, panel, 0).xyz;
+}
+
 // Largest error of cubic interpolation along an axis, halfway between cells: 3/128 of the fourth difference.
-fn interpolation_error(place: u32, stride: u32) -> f32 {
-    let fourth = map[place - 2u * stride].xyz + map[place + 2u * stride].xyz -
-        4.0 * (map[place - stride].xyz + map[place + stride].xyz) + 6.0 * map[place].xyz;
+fn interpolation_error(texel: vec2u, panel: u32, axis: vec2u) -> f32 {
+    let fourth = map_at_texel(texel - 2u * axis, panel) + map_at_texel(texel + 2u * axis, panel) -
+        4.0 * (map_at_texel(texel - axis, panel) + map_at_texel(texel + axis, panel)) + 6.0 * map_at_texel(texel, panel);
     return 3.0 / 128.0 * length(fourth);
 }
 
 // Whether the map turns a cell inside out.
-fn is_folded(place: u32, stride: u32) -> bool {
-    let here = map[place].xyz;
-    let across = map[place + 1u].xyz - here;
-    let up = map[place + stride].xyz - here;
+fn is_folded(texel: vec2u, panel: u32) -> bool {
+    let here = map_at_texel(texel, panel);
+    let across = map_at_texel(texel + vec2u(1u, 0u), panel) - here;
+    let up = map_at_texel(texel + vec2u(0u, 1u), panel) - here;
     return dot(cross(across, up), here) <= 0.0;
 }
 
@@ -63,11 +67,11 @@ fn measure_distortion(@builtin(global_invocation_id) id: vec3u, @builtin(local_i
     // Every other cell both ways: neighbours are distorted alike.
     let cell = 2u * id.xy;
     if (cell.x < decide.cells) {
-        let place = padded_index(id.z, i32(cell.x), i32(cell.y), decide.cells);
-        let stride = decide.cells + 2u * HALO;
-        let error = max(interpolation_error(place, 1u), interpolation_error(place, stride));
+        let texel = cell + HALO;
+        let error =
+            max(interpolation_error(texel, id.z, vec2u(1u, 0u)), interpolation_error(texel, id.z, vec2u(0u, 1u)));
         let distortion = error / (decide.error_limit * decide.cell_angle);
-        atomicMax(&worst, bitcast<u32>(select(distortion, 2.0, is_folded(place, stride))));
+        atomicMax(&worst, bitcast<u32>(select(distortion, 2.0, is_folded(texel, id.z))));
     }
     workgroupBarrier();
     if (local == 0u) {

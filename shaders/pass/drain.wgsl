@@ -6,7 +6,7 @@
 import package::film::control::Control;
 import package::sphere::cap::{Cap, image};
 import package::sphere::cubed::{cell_place, is_cell, panel_direction};
-import package::sphere::lookup::{sanitised, tracer_at};
+import package::sphere::lookup::{gather_place, sanitised, tracer_at};
 
 const MAX_PATCHES: u32 = 64u;
 
@@ -44,16 +44,17 @@ struct Drain {
 // tan(alpha) of each cell coordinate, halo included.
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
 @group(0) @binding(2) var<storage, read_write> control: Control;
-@group(0) @binding(3) var<storage, read> tracer: array<f32>;
+@group(0) @binding(3) var tracer: texture_2d_array<f32>;
 @group(0) @binding(4) var<storage, read_write> drained: array<f32>;
+@group(0) @binding(5) var point_sampler: sampler;
 
 // There is no map here.
-fn map_value(unused: u32, place: u32) -> vec4f {
+fn map_texel(unused: u32, texel: vec2u, panel: u32) -> vec4f {
     return vec4f(0.0);
 }
 
-fn tracer_value(place: u32) -> f32 {
-    return tracer[place];
+fn tracer_texels(texel: vec2u, panel: u32) -> vec4f {
+    return textureGather(0, tracer, point_sampler, gather_place(texel, drain.cells), panel);
 }
 
 fn thickness_nm(x: vec3f) -> f32 {
@@ -96,7 +97,7 @@ fn drain_film(@builtin(global_invocation_id) id: vec3u) {
     }
     let place = cell_place(id, drain.cells);
     var x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
-    var departure = tracer[place];
+    var departure = textureLoad(tracer, id.xy, id.z, 0).r;
     if (x.z < drain.rim_z) {
         x = image(Cap(drain.rim_z, drain.inversion), x);
         departure = tracer_at(x, drain.cells);

@@ -34,17 +34,18 @@ struct Thickness {
 // tan(alpha) of each cell coordinate of the flow's grid, halo included.
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
 @group(0) @binding(2) var<storage, read_write> control: Control;
-@group(0) @binding(3) var<storage, read> map: array<vec4f>;
-@group(0) @binding(4) var<storage, read> tracer: array<f32>;
+@group(0) @binding(3) var map: texture_2d_array<f32>;
+@group(0) @binding(4) var tracer: texture_2d_array<f32>;
 @group(0) @binding(5) var<storage, read_write> log_thickness: array<f32>;
+@group(0) @binding(6) var point_sampler: sampler;
 
 // There is but one map here.
-fn map_value(unused: u32, place: u32) -> vec4f {
-    return map[place];
+fn map_texel(unused: u32, texel: vec2u, panel: u32) -> vec4f {
+    return textureLoad(map, texel, panel, 0);
 }
 
-fn tracer_value(place: u32) -> f32 {
-    return tracer[place];
+fn tracer_texels(texel: vec2u, panel: u32) -> vec4f {
+    return textureGather(0, tracer, point_sampler, gather_place(texel, thickness.tracer_cells), panel);
 }
 
 // ln(1 + x) as exact near 0 as elsewhere, where the built-in logarithm may err by 2^-21: 2 artanh(x / (2 + x)) by its series.

@@ -4,7 +4,7 @@
 import package::film::control::Control;
 import package::sphere::cap::{Cap, image};
 import package::sphere::cubed::{cell_place, is_cell, is_quad, panel_direction, quad_cell};
-import package::sphere::lookup::{map_at, map_at_cell, map_at_quad, sanitised, tracer_at};
+import package::sphere::lookup::{gather_place, map_at, map_at_cell, map_at_quad, sanitised, tracer_at};
 
 // What the map's fourth number means: see `Gathered` in src/gpu/passes/sample_tracer.rs.
 override GATHERED: u32;
@@ -39,17 +39,18 @@ struct Sample {
 // tan(alpha) of each cell coordinate of the grid that is written, halo included.
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
 @group(0) @binding(2) var<storage, read_write> control: Control;
-@group(0) @binding(3) var<storage, read> map: array<vec4f>;
-@group(0) @binding(4) var<storage, read> tracer: array<f32>;
+@group(0) @binding(3) var map: texture_2d_array<f32>;
+@group(0) @binding(4) var tracer: texture_2d_array<f32>;
 @group(0) @binding(5) var<storage, read_write> sampled: array<f32>;
+@group(0) @binding(6) var point_sampler: sampler;
 
 // There is but one map here.
-fn map_value(unused: u32, place: u32) -> vec4f {
-    return map[place];
+fn map_texel(unused: u32, texel: vec2u, panel: u32) -> vec4f {
+    return textureLoad(map, texel, panel, 0);
 }
 
-fn tracer_value(place: u32) -> f32 {
-    return tracer[place];
+fn tracer_texels(texel: vec2u, panel: u32) -> vec4f {
+    return textureGather(0, tracer, point_sampler, gather_place(texel, sample.tracer_cells), panel);
 }
 
 fn with_gathered(value: f32, gathered: f32) -> f32 {
@@ -82,7 +83,7 @@ fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
     var origin = vec4f(x, 0.0);
     if (HAS_MAP == 1u) {
         if (ON_MAP_GRID == 1u) {
-            origin = map[place];
+            origin = textureLoad(map, id.xy, id.z, 0);
         } else {
             origin = map_at_cell(0u, id, sample.cells, x, sample.map_cells);
         }
@@ -96,7 +97,7 @@ fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
     }
     var value: f32;
     if (HAS_MAP == 0u && !is_image && ON_TRACER_GRID == 1u) {
-        value = tracer[place];
+        value = textureLoad(tracer, id.xy, id.z, 0).r;
     } else {
         value = value_from(origin);
     }
@@ -104,6 +105,12 @@ fn sample_tracer(@builtin(global_invocation_id) id: vec3u) {
         atomicAdd(&control.sanitised, sanitised);
     }
     sampled[place] = value;
+}
+
+fn store(cell: vec3u, value: f32) {
+    if (is_cell(cell, sample.cells)) {
+        sampled[cell_place(cell, sample.cells)] = value;
+    }
 }
 
 // One invocation for two by two cells, through a map of cells an even number of times as wide, of a film without a rim.
@@ -114,14 +121,12 @@ fn sample_quads(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let direction = direction_at(vec3u(vec2u(max(first, vec2i(0))), id.z));
-    var origins = map_at_quad(0u, first, id.z, sample.cells, direction, sample.map_cells);
-    for (var k = 0u; k < 4u; k++) {
-        let cell = quad_cell(first, k, id.z);
-        let value = value_from(origins[k]);
-        if (is_cell(cell, sample.cells)) {
-            sampled[cell_place(cell, sample.cells)] = value;
-        }
-    }
+    let origins = map_at_quad(0u, first, id.z, sample.cells, direction, sample.map_cells);
+    // Each by itself: software rasterisers keep what a loop reads in memory.
+    store(quad_cell(first, 0u, id.z), value_from(origins[0]));
+    store(quad_cell(first, 1u, id.z), value_from(origins[1]));
+    store(quad_cell(first, 2u, id.z), value_from(origins[2]));
+    store(quad_cell(first, 3u, id.z), value_from(origins[3]));
     if (sanitised > 0u) {
         atomicAdd(&control.sanitised, sanitised);
     }

@@ -17,7 +17,7 @@ struct Solved {
 // tan(alpha) of each cell coordinate, halo included.
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
 @group(0) @binding(2) var<storage, read> velocity: array<vec4f>;
-@group(0) @binding(3) var<storage, read_write> step_map: array<vec4f>;
+@group(0) @binding(3) var step_map: texture_storage_2d_array<rgba32float, write>;
 
 @compute @workgroup_size(8, 8)
 fn trace_flow(@builtin(global_invocation_id) id: vec3u) {
@@ -27,5 +27,5 @@ fn trace_flow(@builtin(global_invocation_id) id: vec3u) {
     let here = velocity[cell_place(id + vec3u(0u, 0u, 6u * solved.film), solved.cells)].xyz;
     let x = normalize(panel_direction(id.z, vec2f(tangents[id.x], tangents[id.y])));
     // Nothing is gathered in a flow that does not diverge.
-    step_map[cell_place(id, solved.cells)] = vec4f(backtrace(solved.film, x, here, solved.dt_s, solved.cells), 0.0);
+    textureStore(step_map, id.xy, id.z, vec4f(backtrace(solved.film, x, here, solved.dt_s, solved.cells), 0.0));
 }

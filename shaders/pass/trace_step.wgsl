@@ -5,7 +5,7 @@
 
 import package::film::prescribed::{MAX_VORTICES, MAX_WAVES, Vortex, Wave, vortex_gradient, wave_gradient};
 import package::film::wind::{FLOW, FLOW_PRESCRIBED, WindMoment, wind_divergence, wind_velocity};
-import package::sphere::cubed::{cell_place, is_cell, panel_direction};
+import package::sphere::cubed::{is_cell, panel_direction};
 
 // One step. Mirrors `StepUniform` in src/gpu/passes/trace_step.rs.
 struct Step {
@@ -28,7 +28,7 @@ struct Step {
 @group(0) @binding(0) var<uniform> step: Step;
 // tan(alpha) of each cell coordinate, halo included.
 @group(0) @binding(1) var<storage, read> tangents: array<f32>;
-@group(0) @binding(2) var<storage, read_write> step_map: array<vec4f>;
+@group(0) @binding(2) var step_map: texture_storage_2d_array<rgba32float, write>;
 
 // u = x cross grad(psi): free of divergence whatever psi is.
 fn prescribed_velocity(x: vec3f, moment: u32) -> vec3f {
@@ -88,5 +88,5 @@ fn trace_step(@builtin(global_invocation_id) id: vec3u) {
         let earlier = origin - change(origin.xyz, 2u * trace, dt);
         origin = vec4f(normalize(earlier.xyz), earlier.w);
     }
-    step_map[cell_place(id, step.cells)] = vec4f(in_world(origin.xyz), origin.w);
+    textureStore(step_map, id.xy, id.z, vec4f(in_world(origin.xyz), origin.w));
 }

@@ -21,7 +21,7 @@ fn atan_unit(x: f32) -> f32 {
 
 // Cell coordinate of a tangent in [-1, 1].
 fn cell_coordinate(tangent: f32, cells: u32) -> f32 {
-    return (atan_unit(tangent) / QUARTER_PI + 1.0) * 0.5 * f32(cells) - 0.5;
+    return (atan_unit(tangent) * (1.0 / QUARTER_PI) + 1.0) * 0.5 * f32(cells) - 0.5;
 }
 
 // The panel whose face the direction pierces, and where. `direction` need not be a unit vector but must not be zero.
@@ -44,7 +44,7 @@ fn locate(direction: vec3f, cells: u32) -> CubePoint {
         panel = select(5u, 4u, d.z > 0.0);
         rd = vec2f(d.y, select(d.x, -d.x, d.z > 0.0));
     }
-    let tangent = rd / forward;
+    let tangent = rd * (1.0 / forward);
     return CubePoint(panel, vec2f(cell_coordinate(tangent.x, cells), cell_coordinate(tangent.y, cells)));
 }
 
@@ -107,7 +107,7 @@ fn cubic_weights(t: f32) -> vec4f {
     let a = t + 1.0;
     let b = t - 1.0;
     let c = t - 2.0;
-    return vec4f(-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0);
+    return vec4f(t * b * c * (-1.0 / 6.0), a * b * c * 0.5, a * t * c * -0.5, a * t * b * (1.0 / 6.0));
 }
 
 // The 4 x 4 cells around a point: padded index of the first, and weights along i and j.

@@ -235,9 +235,7 @@ fn copy_ms_per_step(gpu: &Gpu, case: &Case) -> Result<f64, GpuError> {
     let field = Field::new(gpu, case.grid, case.rules())?;
     let copies = || {
         let mut recorder = Recorder::new(gpu);
-        for _ in 0..COPIES {
-            field.copy_state(&mut recorder);
-        }
+        field.copy_state(&mut recorder, COPIES.into());
         recorder.submit(&Default::default());
         gpu.wait()
     };

@@ -30,6 +30,7 @@ pub struct Gpu {
     lost: Arc<Loss>,
     failure: Arc<Mutex<Option<GpuError>>>,
     uploaded_bytes: Arc<AtomicU64>,
+    point_sampler: wgpu::Sampler,
 }
 
 impl Gpu {
@@ -88,13 +89,20 @@ impl Gpu {
         watch(&device, &lost, &failure);
         #[cfg_attr(target_arch = "wasm32", expect(clippy::arc_with_non_send_sync, reason = "a page has one thread"))]
         let (pipelines, uploaded_bytes) = (Arc::new(Pipelines::new()), Arc::default());
-        Ok(Self { instance, adapter, device, queue, pipelines, lost, failure, uploaded_bytes })
+        let point_sampler = device.create_sampler(&wgpu::SamplerDescriptor::default());
+        Ok(Self { instance, adapter, device, queue, pipelines, lost, failure, uploaded_bytes, point_sampler })
     }
 
     /// Name of the adapter, with its backend: what every command prints.
     #[must_use]
     pub fn adapter_name(&self) -> String {
         adapter_name(&self.adapter.get_info())
+    }
+
+    /// A sampler that filters nothing.
+    #[must_use]
+    pub fn point_sampler(&self) -> &wgpu::Sampler {
+        &self.point_sampler
     }
 
     /// The driver's name and version.

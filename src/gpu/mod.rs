@@ -23,6 +23,7 @@ pub mod formats;
 pub mod grid;
 pub mod kernel;
 mod late_errors;
+pub mod panel_texture;
 pub mod passes;
 pub mod pipelines;
 mod plate;

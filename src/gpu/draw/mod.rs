@@ -377,6 +377,7 @@ impl Shared<'_> {
             backdrop_map: &backdrop.view,
             lamps: &light.lamps,
             polarised_behind,
+            point_sampler: gpu.point_sampler(),
         };
         let formats = [radiance_format(key.full_precision), POLARISATION_FORMAT];
         let formats = if *tracks_polarisation { &formats[..] } else { &formats[..1] };

@@ -186,10 +186,11 @@ impl FlowOf<'_> {
             thickness: &recorder.gpu.uniform("flow thickness", &uniform),
             tangents: &flow.tangents,
             control: &field.control.block,
-            // Where there is no map nothing is read from it, and any buffer will do.
-            map: map.unwrap_or(&field.tracer),
-            tracer: &field.tracer,
+            // Where there is no map nothing is read from it, and any texture will do.
+            map: &map.unwrap_or(&field.tracer).view,
+            tracer: &field.tracer.view,
             log_thickness: self.solver.log_thickness(),
+            point_sampler: recorder.gpu.point_sampler(),
         };
         kernel.flow_thickness(recorder, STEP_FLOW, flow.cell_groups())
     }

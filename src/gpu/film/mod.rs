@@ -31,6 +31,7 @@ use super::{
     control::Control,
     device::{Gpu, GpuError},
     grid::Grid,
+    panel_texture::PanelTexture,
     passes::{
         blacken::BlackFilm,
         conserve::Target,
@@ -39,12 +40,11 @@ use super::{
         sample_tracer::{Gathered, Sampling, sample_tracer},
     },
     readback::Readback,
-    shown_film::FilmTexture,
     timing::{Groups, Recorder},
 };
 use crate::physics::{
     film::{Cap, Seed, SeedGrids, model::DrainLaw},
-    sphere::{CubedSphere, GridError},
+    sphere::{CubedSphere, GridError, HALO},
     transport::Scheme,
 };
 
@@ -88,9 +88,9 @@ pub struct Field {
     smooth: Option<Grid>,
     /// Where steps are traced, if not on the film's own grid.
     coarse: Option<Grid>,
-    step_map: wgpu::Buffer,
+    step_map: PanelTexture,
     /// The map, and where its next step goes.
-    map: [wgpu::Buffer; 2],
+    map: [PanelTexture; 2],
     /// Whether the map is known to be the identity, as it is until a step is taken after the film was seeded or after a remap that was due
     /// whatever the device measured. Nobody looks through it then, and only pictures need to have it written down.
     map_is_identity: bool,
@@ -98,14 +98,14 @@ pub struct Field {
     has_drained: bool,
     ticks_since_decision: u32,
     /// The tracer of the last remap.
-    tracer: wgpu::Buffer,
+    tracer: PanelTexture,
     /// What a remap samples before it is the tracer.
     sampled: wgpu::Buffer,
     /// Room for error compensation.
-    corrected: Option<wgpu::Buffer>,
+    corrected: Option<PanelTexture>,
     /// What is shown, before its correction, and as pictures read it.
     shown: wgpu::Buffer,
-    texture: FilmTexture,
+    texture: PanelTexture,
     /// Which of the maps it was sampled through.
     shown_map: usize,
     control: Control,
@@ -151,18 +151,22 @@ impl Field {
             map_sphere(sphere, rules.map_coarsening).map_err(|error| GpuError::Refused(format!("the map: {error}")))?;
         let smooth = (map != sphere).then(|| grid(map));
         let coarse = flow_sphere(sphere, rules.flow_cells).map(grid);
-        let scalars = |label| fine.as_ref().unwrap_or(&film).field(gpu, label, 4);
+        let tracer_grid = fine.as_ref().unwrap_or(&film);
+        let scalars = |label, grid: &Grid| PanelTexture::new(gpu, label, grid.side(), wgpu::TextureFormat::R32Float);
+        let maps = |label, grid: Option<&Grid>| {
+            PanelTexture::new(gpu, label, grid.unwrap_or(&film).side(), wgpu::TextureFormat::Rgba32Float)
+        };
         Ok(Self {
-            step_map: coarse.as_ref().unwrap_or(&film).field(gpu, "step map", 16),
-            map: ["map", "next map"].map(|label| smooth.as_ref().unwrap_or(&film).field(gpu, label, 16)),
+            step_map: maps("step map", coarse.as_ref()),
+            map: ["map", "next map"].map(|label| maps(label, smooth.as_ref())),
             map_is_identity: true,
             has_drained: false,
             ticks_since_decision: 0,
-            tracer: scalars("tracer"),
-            sampled: scalars("sampled"),
-            corrected: (rules.scheme == Scheme::Bfecc).then(|| scalars("corrected")),
+            tracer: scalars("tracer", tracer_grid),
+            sampled: tracer_grid.field(gpu, "sampled", 4),
+            corrected: (rules.scheme == Scheme::Bfecc).then(|| scalars("corrected", tracer_grid)),
             shown: film.field(gpu, "shown", 4),
-            texture: FilmTexture::new(gpu, film.side()),
+            texture: scalars("film", &film),
             shown_map: 0,
             control: Control::new(gpu),
             level: 0.0,
@@ -233,7 +237,7 @@ impl Field {
     pub fn begin(&mut self, gpu: &Gpu, Seed { level, film, tracer }: &Seed) {
         self.level = *level;
         let tracer = tracer.as_ref().unwrap_or(film);
-        gpu.upload(&self.tracer, &tracer.values);
+        self.tracer.upload(gpu, &tracer.values);
         self.targets = [(film, self.level), (tracer, 0.0)].map(|(seeded, level)| {
             let bounds = self.rules.bounded().then_some(seeded.range);
             Target { mean: seeded.mean, bounds, level }
@@ -244,12 +248,12 @@ impl Field {
     }
 
     /// The map, if the scheme keeps one.
-    fn kept_map(&self) -> Option<&wgpu::Buffer> {
+    fn kept_map(&self) -> Option<&PanelTexture> {
         self.rules.scheme.keeps_map().then_some(&self.map[0])
     }
 
     /// The map, if the scheme keeps one and it is not known to be the identity.
-    fn map_so_far(&self) -> Option<&wgpu::Buffer> {
+    fn map_so_far(&self) -> Option<&PanelTexture> {
         self.kept_map().filter(|_| !self.map_is_identity)
     }
 
@@ -259,8 +263,8 @@ impl Field {
         recorder: &mut Recorder<'_>,
         name: &'static str,
         grid: &Grid,
-        map: Option<&wgpu::Buffer>,
-        [from, to]: [&wgpu::Buffer; 2],
+        map: Option<&PanelTexture>,
+        (from, to): (&PanelTexture, &wgpu::Buffer),
         [cells, quads]: [Groups<'_>; 2],
     ) -> Result<(), GpuError> {
         let Rules { scheme, limiter, gathered, cap, .. } = self.rules;
@@ -270,9 +274,9 @@ impl Field {
             gathered,
             cap,
             grid,
-            map,
+            map: map.map(|map| &map.view),
             map_cells: self.map_grid().cells,
-            tracer: (from, self.tracer_grid().cells),
+            tracer: (&from.view, self.tracer_grid().cells),
             control: &self.control.block,
             to,
         };
@@ -281,13 +285,13 @@ impl Field {
 
     /// Spoils one value of the tracer or of the map, to see that the damage is contained.
     pub fn plant(&self, gpu: &Gpu, planted: Planted, cell: usize, value: f32) {
-        let (buffer, sphere, numbers) = match planted {
-            Planted::Tracer => (&self.tracer, self.tracer_grid().sphere, 1),
-            Planted::Map => (&self.map[0], self.map_grid().sphere, 4),
+        let (texture, sphere, texel) = match planted {
+            Planted::Tracer => (&self.tracer, self.tracer_grid().sphere, &[value][..]),
+            Planted::Map => (&self.map[0], self.map_grid().sphere, &[value, 0.0, 0.0, 0.0][..]),
         };
         let (panel, i, j) = sphere.cell(cell % sphere.cells());
-        let place = sphere.padded_index(panel, i as isize, j as isize) as u64;
-        gpu.queue.write_buffer(buffer, place * 4 * numbers, &value.to_ne_bytes());
+        let [x, y, z] = [i + HALO, j + HALO, panel].map(|place| place as u32);
+        texture.upload_texel(gpu, wgpu::Origin3d { x, y, z }, texel);
     }
 
     /// Starts to read back what the device knows of the film: a [`ControlBlock`](super::control::ControlBlock).
@@ -296,10 +300,12 @@ impl Field {
         Readback::of_buffer(gpu, &self.control.block, self.control.block.size())
     }
 
-    /// Copies as many bytes as a step and a lookup of every cell move, and changes no state: steps are measured against it.
-    pub fn copy_state(&self, recorder: &mut Recorder<'_>) {
-        for [from, to] in [&self.map.each_ref(), &[&self.tracer, &self.sampled]] {
-            recorder.encoder().copy_buffer_to_buffer(from, 0, to, 0, from.size());
+    /// Copies as many bytes as some steps with a lookup of every cell move, and changes no state: steps are measured against it.
+    pub fn copy_state(&self, recorder: &mut Recorder<'_>, steps: u64) {
+        let tracer = self.tracer.copy(recorder);
+        for _ in 0..steps {
+            self.map[0].copy_to(recorder, &self.map[1]);
+            self.tracer.copy_to(recorder, &tracer);
         }
     }
 }

@@ -5,12 +5,12 @@ use crate::gpu::{
     control::Control,
     device::{Gpu, GpuError},
     passes::{
+        balance_film::BalanceFilm,
         blacken::BlackFilm,
         conserve::{Excess, Sum, conserve},
         decide_remap::{RemapRule, decide_remap},
         diffuse::Diffusion,
         reset_map::ResetMap,
-        settle_tracer::SettleTracer,
     },
     timing::{Groups, Recorder, STEP_FIELD},
 };
@@ -52,24 +52,25 @@ impl Field {
     pub(super) fn remap_if_due(&mut self, recorder: &mut Recorder<'_>) -> Result<(), GpuError> {
         let (ticks, rule) = (std::mem::take(&mut self.ticks_since_decision), self.remap_rule());
         let grids = (self.map_grid(), self.tracer_grid());
-        decide_remap(recorder, STEP_FIELD, grids, &self.map[0], &self.control, (ticks, rule))?;
+        decide_remap(recorder, STEP_FIELD, grids, &self.map[0].view, &self.control, (ticks, rule))?;
         let due = &self.control;
         REMAP.into_iter().try_for_each(|operation| match operation {
             RemapOperation::SampleTracer => {
-                let tracers = [&self.tracer, &self.sampled];
+                let tracers = (&self.tracer, &self.sampled);
                 let groups = [due.tracer_groups(), due.quad_groups()];
                 self.sample(recorder, STEP_FIELD, self.tracer_grid(), self.kept_map(), tracers, groups)
             }
-            RemapOperation::Diffuse => self.diffusion.iter().try_for_each(|diffusion| {
-                diffusion.record(recorder, self.tracer_grid(), due, &self.sampled, &self.tracer)
-            }),
-            RemapOperation::Settle => self.settle(recorder, self.groups_due()),
+            RemapOperation::Diffuse => self
+                .diffusion
+                .iter()
+                .try_for_each(|diffusion| diffusion.record(recorder, self.tracer_grid(), due, &self.sampled)),
+            RemapOperation::Settle => self.settle(recorder, &self.sampled, self.groups_due()),
             RemapOperation::Drain => self.drain.iter().try_for_each(|(law, _)| self.lose(recorder, law)),
             RemapOperation::Blacken => self.black.iter().try_for_each(|black| self.blacken(recorder, black)),
             // A map that is known to be the identity is not read.
             RemapOperation::ResetMap if rule.is_due_after(ticks) => Ok(()),
             RemapOperation::ResetMap => {
-                let kernel = ResetMap { tangents: &self.map_grid().tangents, map: &self.map[0] };
+                let kernel = ResetMap { tangents: &self.map_grid().tangents, map: &self.map[0].view };
                 kernel.reset_map(recorder, STEP_FIELD, due.map_groups())
             }
         })?;
@@ -85,32 +86,36 @@ impl Field {
 
     /// Lets film leave at the rim, and counts it.
     fn lose(&self, recorder: &mut Recorder<'_>, law: &DrainLaw) -> Result<(), GpuError> {
-        law.record(recorder, self.tracer_grid(), self.level, &self.control, [&self.tracer, &self.sampled])?;
+        law.record(recorder, self.tracer_grid(), self.level, &self.control, (&self.tracer.view, &self.sampled))?;
         self.account(recorder, &self.sampled, self.groups_due(), Excess::Drained)?;
-        self.settle(recorder, self.groups_due())
+        self.settle(recorder, &self.sampled, self.groups_due())
     }
 
     /// Lets thin film collapse to black film: evaporation has ended where it is black, and what collapsing film loses goes to the film
     /// as a whole.
     fn blacken(&self, recorder: &mut Recorder<'_>, black: &BlackFilm) -> Result<(), GpuError> {
         let (grid, due) = (self.tracer_grid(), &self.control);
+        black.stop_evaporation(recorder, grid, due, (&self.tracer.view, &self.sampled))?;
         // Each account rounds: it is not taken where nothing can have changed.
         if black.law.evaporated_nm > 0.0 {
-            black.stop_evaporation(recorder, grid, due, &self.tracer)?;
-            self.account(recorder, &self.tracer, self.groups_due(), Excess::Spared)?;
+            self.account(recorder, &self.sampled, self.groups_due(), Excess::Spared)?;
         }
-        black.collapse(recorder, grid, due, &self.tracer, &self.sampled)?;
-        self.settle(recorder, self.groups_due())
+        let collapsed = black.collapse(recorder, grid, due, &self.sampled)?;
+        self.settle(recorder, collapsed, self.groups_due())
     }
 
-    /// Makes what was sampled the tracer.
-    pub(super) fn settle(&self, recorder: &mut Recorder<'_>, groups: [Groups<'_>; 3]) -> Result<(), GpuError> {
+    /// Makes a field the tracer, with its liquid restored.
+    pub(super) fn settle(
+        &self,
+        recorder: &mut Recorder<'_>,
+        sampled: &wgpu::Buffer,
+        groups: [Groups<'_>; 3],
+    ) -> Result<(), GpuError> {
         if self.rules.conserved {
-            self.account(recorder, &self.sampled, groups, Excess::Balanced)?;
+            self.account(recorder, sampled, groups, Excess::Balanced)?;
         }
-        let Self { sampled, tracer, control, .. } = self;
-        let kernel = SettleTracer { balance: &control.tracer_balance, sampled, tracer };
-        kernel.settle_tracer(recorder, STEP_FIELD, groups[2])
+        let kernel = BalanceFilm { balance: &self.control.tracer_balance, sampled, film: &self.tracer.view };
+        kernel.balance_film(recorder, STEP_FIELD, groups[2])
     }
 
     /// Sums the excess of a field on the tracer's grid, and corrects it as told.

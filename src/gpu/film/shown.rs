@@ -4,10 +4,10 @@ use super::Field;
 use crate::gpu::{
     device::GpuError,
     passes::{
+        balance_film::BalanceFilm,
         conserve::{Excess, Sum, conserve, parts},
         read_film::read_film,
         reset_map::ResetMap,
-        show_film::ShowFilm,
         trace_step::Step,
     },
     shown_film::Shown,
@@ -25,10 +25,10 @@ impl Field {
         if map.is_none() && self.rules.scheme.keeps_map() {
             // Pictures look through it wherever it leads.
             let grid = self.map_grid();
-            let kernel = ResetMap { tangents: &grid.tangents, map: &self.map[0] };
+            let kernel = ResetMap { tangents: &grid.tangents, map: &self.map[0].view };
             kernel.reset_map(recorder, SHOW_FIELD, grid.padded_groups())?;
         }
-        self.sample(recorder, SHOW_FIELD, &self.film, map, [&self.tracer, &self.shown], self.all_cells())?;
+        self.sample(recorder, SHOW_FIELD, &self.film, map, (&self.tracer, &self.shown), self.all_cells())?;
         let sum = Sum {
             grid: &self.film,
             field: &self.shown,
@@ -40,8 +40,9 @@ impl Field {
             let groups = [[parts(&self.film), 1, 1].into(), [1; 3].into()];
             conserve(recorder, SHOW_FIELD, self.target(0), &sum, groups, Excess::Balanced)?;
         }
-        let kernel = ShowFilm { balance: &self.control.shown_balance, sampled: &self.shown, film: &self.texture.view };
-        kernel.show_film(recorder, SHOW_FIELD, self.film.padded_groups())
+        let kernel =
+            BalanceFilm { balance: &self.control.shown_balance, sampled: &self.shown, film: &self.texture.view };
+        kernel.balance_film(recorder, SHOW_FIELD, self.film.padded_groups())
     }
 
     /// What was last shown.
@@ -51,9 +52,9 @@ impl Field {
             film: &self.texture.view,
             texture: &self.texture.texture,
             balance: &self.control.shown_balance,
-            map: &self.map[self.shown_map],
+            map: &self.map[self.shown_map].view,
             map_cells: self.map_grid().cells,
-            tracer: &self.tracer,
+            tracer: &self.tracer.view,
             tracer_cells: self.tracer_grid().cells,
         }
     }

@@ -1,9 +1,14 @@
 //! A step that moves the liquid: its trace, the film's map after it, and the remap that may be due.
 
+use bytemuck::Zeroable;
+
 use super::Field;
 use crate::gpu::{
+    control::BalanceBlock,
     device::GpuError,
+    panel_texture::PanelTexture,
     passes::{
+        balance_film::BalanceFilm,
         compose_map::{Composition, compose_map},
         conserve::parts,
         correct_error::CorrectError,
@@ -61,13 +66,13 @@ impl Field {
 
     /// Bytes that a step must read and write: the tracer, and the map where there is one.
     fn step_bytes(&self) -> u64 {
-        let read = self.map_so_far().map_or(0, wgpu::Buffer::size) + self.tracer.size();
+        let read = self.map_so_far().map_or(0, PanelTexture::bytes) + self.tracer.bytes();
         let written = if self.rules.scheme.keeps_map() { &self.map[1] } else { &self.tracer };
-        read + written.size()
+        read + written.bytes()
     }
 
     /// Whether the trace of a step is its composition with a map: where there is no map, and the grids are the same.
-    fn trace_is_map(&self, before: Option<&wgpu::Buffer>) -> bool {
+    fn trace_is_map(&self, before: Option<&PanelTexture>) -> bool {
         before.is_none() && self.flow_grid().cells == self.map_grid().cells
     }
 
@@ -77,11 +82,11 @@ impl Field {
         recorder: &mut Recorder<'_>,
         name: &'static str,
         step: &Step,
-        before: Option<&wgpu::Buffer>,
+        before: Option<&PanelTexture>,
         into: usize,
     ) -> Result<(), GpuError> {
         let traced = if self.trace_is_map(before) { &self.map[into] } else { &self.step_map };
-        trace_step(recorder, name, step, self.flow_grid(), traced)
+        trace_step(recorder, name, step, self.flow_grid(), &traced.view)
     }
 
     /// Composes the step that was traced with a map, into one of the two.
@@ -89,7 +94,7 @@ impl Field {
         &self,
         recorder: &mut Recorder<'_>,
         name: &'static str,
-        before: Option<&wgpu::Buffer>,
+        before: Option<&PanelTexture>,
         into: usize,
     ) -> Result<(), GpuError> {
         if self.trace_is_map(before) {
@@ -98,10 +103,10 @@ impl Field {
         let composition = Composition {
             grid: self.map_grid(),
             step_cells: self.flow_grid().cells,
-            step_map: &self.step_map,
-            before,
+            step_map: &self.step_map.view,
+            before: before.map(|map| &map.view),
             control: &self.control.block,
-            after: &self.map[into],
+            after: &self.map[into].view,
         };
         compose_map(recorder, name, &composition)
     }
@@ -112,7 +117,7 @@ impl Field {
         recorder: &mut Recorder<'_>,
         name: &'static str,
         step: &Step,
-        before: Option<&wgpu::Buffer>,
+        before: Option<&PanelTexture>,
         into: usize,
     ) -> Result<(), GpuError> {
         self.trace(recorder, name, step, before, into)?;
@@ -125,15 +130,18 @@ impl Field {
         let (all, everywhere) = (grid.padded_groups().into(), self.all_cells());
         self.trace_and_compose(recorder, STEP_FIELD, step, None, 0)?;
         let back = Some(&self.map[0]);
-        self.sample(recorder, STEP_FIELD, grid, back, [&self.tracer, &self.sampled], everywhere)?;
+        self.sample(recorder, STEP_FIELD, grid, back, (&self.tracer, &self.sampled), everywhere)?;
         if let Some(corrected) = &self.corrected {
+            let as_it_is = &recorder.gpu.uniform("no balance", &BalanceBlock::zeroed());
+            let kernel = BalanceFilm { balance: as_it_is, sampled: &self.sampled, film: &corrected.view };
+            kernel.balance_film(recorder, STEP_FIELD, grid.padded_groups())?;
             self.trace_and_compose(recorder, STEP_FIELD, &step.reversed(), None, 1)?;
             let forth = Some(&self.map[1]);
-            self.sample(recorder, STEP_FIELD, grid, forth, [&self.sampled, &self.shown], everywhere)?;
-            let kernel = CorrectError { tracer: &self.tracer, returned: &self.shown, corrected };
+            self.sample(recorder, STEP_FIELD, grid, forth, (corrected, &self.shown), everywhere)?;
+            let kernel = CorrectError { tracer: &self.tracer.view, returned: &self.shown, corrected: &corrected.view };
             kernel.correct_error(recorder, STEP_FIELD, grid.padded_groups())?;
-            self.sample(recorder, STEP_FIELD, grid, back, [corrected, &self.sampled], everywhere)?;
+            self.sample(recorder, STEP_FIELD, grid, back, (corrected, &self.sampled), everywhere)?;
         }
-        self.settle(recorder, [[parts(grid), 1, 1].into(), [1; 3].into(), all])
+        self.settle(recorder, &self.sampled, [[parts(grid), 1, 1].into(), [1; 3].into(), all])
     }
 }

@@ -7,7 +7,7 @@ use crate::gpu::{
     control::{Control, ControlBlock},
     device::{Gpu, GpuError},
     grid::Grid,
-    kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
+    kernel::{Read, ReadWrite, Texture2dArray, Uniform, kernels, shader_struct},
     timing::{Recorder, STEP_FIELD},
     uniform_buffer::UniformBuffer,
 };
@@ -56,10 +56,11 @@ shader_struct! {
 kernels! {
     pass blacken;
 
-    /// Gives back to the tracer what did not evaporate from film that was black already.
+    /// The tracer as it was settled, with what did not evaporate from film that was black already.
     struct StopEvaporation {
         @0 blacken: Uniform<BlackenUniform>;
         @3 result: ReadWrite<[f32]>;
+        @6 settled: Texture2dArray;
     }
     compute stop_evaporation;
 
@@ -89,7 +90,7 @@ pub struct BlackFilm {
     pub law: BlackeningLaw,
     /// What the tracer departs from, nm.
     level_nm: f32,
-    /// The tracer's means along rows, nm.
+    /// The tracer's means along rows, nm; then what each cell has after it has collapsed.
     row_means: wgpu::Buffer,
     /// The tracer's means around cells, nm.
     means: wgpu::Buffer,
@@ -123,35 +124,36 @@ impl BlackFilm {
         recorder.gpu.uniform("blacken", &uniform)
     }
 
-    /// If a remap is due, gives back to the tracer what did not evaporate from film that was black already.
+    /// If a remap is due, gives back what did not evaporate from film that was black already: from a tracer into another buffer.
     pub fn stop_evaporation(
         &self,
         recorder: &mut Recorder<'_>,
         grid: &Grid,
         control: &Control,
-        tracer: &wgpu::Buffer,
+        (settled, result): (&wgpu::TextureView, &wgpu::Buffer),
     ) -> Result<(), GpuError> {
         let blacken = &self.uniform(recorder, grid);
-        StopEvaporation { blacken, result: tracer }.stop_evaporation(recorder, STEP_FIELD, control.tracer_groups())
+        StopEvaporation { blacken, result, settled }.stop_evaporation(recorder, STEP_FIELD, control.tracer_groups())
     }
 
-    /// If a remap is due, lets the tracer collapse for the ticks since the last one, into another buffer.
+    /// If a remap is due, lets a tracer collapse for the ticks since the last one, and gives what is left of it.
     pub fn collapse(
         &self,
         recorder: &mut Recorder<'_>,
         grid: &Grid,
         control: &Control,
         tracer: &wgpu::Buffer,
-        to: &wgpu::Buffer,
-    ) -> Result<(), GpuError> {
+    ) -> Result<&wgpu::Buffer, GpuError> {
         let (blacken, block) = (&self.uniform(recorder, grid), &control.block);
         let Self { row_means, means, .. } = self;
         let (all, one) = (control.tracer_groups(), control.one_group());
         MeanAlong { blacken, tracer, result: row_means }.mean_along_rows(recorder, STEP_FIELD, all)?;
         MeanAlong { blacken, tracer: row_means, result: means }.mean_along_columns(recorder, STEP_FIELD, all)?;
         halo_of_thickness(recorder, grid, means, one)?;
-        Collapse { blacken, control: block, tracer, result: to, means, tangents: &grid.tangents }
+        let collapsed = row_means;
+        Collapse { blacken, control: block, tracer, result: collapsed, means, tangents: &grid.tangents }
             .collapse(recorder, STEP_FIELD, all)?;
-        halo_of_thickness(recorder, grid, to, one)
+        halo_of_thickness(recorder, grid, collapsed, one)?;
+        Ok(collapsed)
     }
 }

@@ -9,8 +9,8 @@ use crate::{
     gpu::{
         control::BalanceBlock,
         kernel::{
-            Matrix, Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uint2d, Uint2dArray, Uniform, kernels,
-            overrides, shader_struct,
+            Matrix, PointSampler, Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uint2d, Uint2dArray, Uniform,
+            kernels, overrides, shader_struct,
         },
         quadrature::{MAX_WAVELENGTHS, QuadratureOverrides, QuadratureSample},
     },
@@ -182,8 +182,8 @@ kernels! {
         @8 film: Texture2dArray;
         @9 quadrature: Uniform<[QuadratureSample; MAX_WAVELENGTHS]>;
         @10 film_balance: Uniform<BalanceBlock>;
-        @11 film_map: Read<[[f32; 4]]>;
-        @12 film_tracer: Read<[f32]>;
+        @11 film_map: Texture2dArray;
+        @12 film_tracer: Texture2dArray;
         @13 hole_middle: Read<[f32; 4]>;
         @14 hole_rim: Read<[RimValue]>;
         @15 picture_behind: Texture2d;
@@ -195,6 +195,7 @@ kernels! {
         @21 backdrop_map: TextureCube;
         @22 backdrop_sampler: Sampler;
         @23 polarised_behind: Uint2d;
+        @24 point_sampler: PointSampler;
     }
     draw ring, everywhere as shade;
 

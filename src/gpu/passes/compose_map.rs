@@ -4,7 +4,7 @@ use crate::gpu::{
     control::ControlBlock,
     device::GpuError,
     grid::Grid,
-    kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
+    kernel::{Read, ReadWrite, Rgba32Float, Texture2dArray, Uniform, Written2dArray, kernels, shader_struct},
     timing::Recorder,
 };
 
@@ -33,9 +33,9 @@ kernels! {
         @0 compose: Uniform<ComposeUniform>;
         @1 tangents: Read<[f32]>;
         @2 control: ReadWrite<ControlBlock>;
-        @3 step_map: Read<[[f32; 4]]>;
-        @4 map_before: Read<[[f32; 4]]>;
-        @5 map_after: ReadWrite<[[f32; 4]]>;
+        @3 step_map: Texture2dArray;
+        @4 map_before: Texture2dArray;
+        @5 map_after: Written2dArray<Rgba32Float>;
     }
     compute compose_map, compose_quads;
 }
@@ -47,13 +47,13 @@ pub struct Composition<'a> {
     /// Cells along a panel's edge of the grid that the step was traced on.
     pub step_cells: u32,
     /// The step.
-    pub step_map: &'a wgpu::Buffer,
+    pub step_map: &'a wgpu::TextureView,
     /// The map before it, if there is one.
-    pub before: Option<&'a wgpu::Buffer>,
+    pub before: Option<&'a wgpu::TextureView>,
     /// The film's control block.
     pub control: &'a wgpu::Buffer,
     /// The map after it.
-    pub after: &'a wgpu::Buffer,
+    pub after: &'a wgpu::TextureView,
 }
 
 /// Records one composition.

@@ -5,7 +5,7 @@ use crate::gpu::{
     control::{Control, ControlBlock, RemapArguments},
     device::GpuError,
     grid::Grid,
-    kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
+    kernel::{ReadWrite, Texture2dArray, Uniform, kernels, shader_struct},
     timing::Recorder,
 };
 
@@ -45,7 +45,7 @@ kernels! {
     struct MeasureDistortion {
         @0 decide: Uniform<DecideUniform>;
         @1 control: ReadWrite<ControlBlock>;
-        @2 map: Read<[[f32; 4]]>;
+        @2 map: Texture2dArray;
     }
     compute measure_distortion;
 
@@ -63,7 +63,7 @@ pub fn decide_remap(
     recorder: &mut Recorder<'_>,
     name: &'static str,
     (film, tracer): (&Grid, &Grid),
-    map: &wgpu::Buffer,
+    map: &wgpu::TextureView,
     control: &Control,
     (ticks, rule): (u32, RemapRule),
 ) -> Result<(), GpuError> {

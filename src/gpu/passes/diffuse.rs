@@ -48,7 +48,8 @@ kernels! {
 pub struct Diffusion {
     law: (f64, f64),
     plan: DiffusionPlan,
-    spread: wgpu::Buffer,
+    /// Room for two stages.
+    stages: [wgpu::Buffer; 2],
 }
 
 impl Diffusion {
@@ -56,7 +57,11 @@ impl Diffusion {
     #[must_use]
     pub fn new(gpu: &Gpu, grid: &Grid, rad2_s: f64, tick_s: f64) -> Option<Self> {
         let plan = DiffusionPlan::new(rad2_s, tick_s, grid.sphere.cell_angle())?;
-        Some(Self { law: (rad2_s, tick_s), plan, spread: grid.field(gpu, "spread", 4) })
+        Some(Self {
+            law: (rad2_s, tick_s),
+            plan,
+            stages: ["first stage", "second stage"].map(|label| grid.field(gpu, label, 4)),
+        })
     }
 
     /// What it was made for: rad²/s, and the length of a tick in seconds.
@@ -71,16 +76,15 @@ impl Diffusion {
         self.plan.latest_ticks
     }
 
-    /// Records the diffusion of a field over the ticks since the last remap, if one is due. The other buffer is overwritten.
+    /// Records the diffusion of a field over the ticks since the last remap, if one is due.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
         grid: &Grid,
         control: &Control,
         field: &wgpu::Buffer,
-        spare: &wgpu::Buffer,
     ) -> Result<(), GpuError> {
-        let fields = [field, spare, &self.spread, field];
+        let fields = [field, &self.stages[0], &self.stages[1], field];
         for _ in 0..self.plan.parts {
             for stage in 1..=STAGES {
                 let k = stage as usize;

@@ -7,7 +7,7 @@ use crate::{
         control::{Control, ControlBlock},
         device::GpuError,
         grid::{Grid, rim_numbers},
-        kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
+        kernel::{PointSampler, Read, ReadWrite, Texture2dArray, Uniform, kernels, shader_struct},
         timing::{Recorder, STEP_FIELD},
     },
     physics::film::model::{DrainLaw, MAX_RIM_PATCHES},
@@ -64,8 +64,9 @@ kernels! {
         @0 drain: Uniform<DrainUniform>;
         @1 tangents: Read<[f32]>;
         @2 control: ReadWrite<ControlBlock>;
-        @3 tracer: Read<[f32]>;
+        @3 tracer: Texture2dArray;
         @4 drained: ReadWrite<[f32]>;
+        @5 point_sampler: PointSampler;
     }
     compute drain_film;
 }
@@ -100,7 +101,7 @@ impl DrainLaw {
         grid: &Grid,
         level_nm: f32,
         control: &Control,
-        [tracer, drained]: [&wgpu::Buffer; 2],
+        (tracer, drained): (&wgpu::TextureView, &wgpu::Buffer),
     ) -> Result<(), GpuError> {
         let kernel = DrainFilm {
             drain: &recorder.gpu.uniform("drain", &self.uniform(grid, level_nm)),
@@ -108,6 +109,7 @@ impl DrainLaw {
             control: &control.block,
             tracer,
             drained,
+            point_sampler: recorder.gpu.point_sampler(),
         };
         kernel.drain_film(recorder, STEP_FIELD, control.tracer_groups())
     }

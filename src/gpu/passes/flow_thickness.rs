@@ -2,7 +2,7 @@
 
 use crate::gpu::{
     control::ControlBlock,
-    kernel::{Read, ReadWrite, Uniform, kernels, shader_struct},
+    kernel::{PointSampler, Read, ReadWrite, Texture2dArray, Uniform, kernels, shader_struct},
 };
 
 shader_struct! {
@@ -43,9 +43,10 @@ kernels! {
         @0 thickness: Uniform<ThicknessUniform>;
         @1 tangents: Read<[f32]>;
         @2 control: ReadWrite<ControlBlock>;
-        @3 map: Read<[[f32; 4]]>;
-        @4 tracer: Read<[f32]>;
+        @3 map: Texture2dArray;
+        @4 tracer: Texture2dArray;
         @5 log_thickness: ReadWrite<[f32]>;
+        @6 point_sampler: PointSampler;
     }
     compute flow_thickness;
 }

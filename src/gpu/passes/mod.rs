@@ -5,6 +5,7 @@
 pub mod add_light;
 pub mod backdrop;
 pub mod bake_table;
+pub mod balance_film;
 pub mod blacken;
 pub mod bodies;
 pub mod bubble;
@@ -38,8 +39,6 @@ pub mod probe_colour;
 pub mod read_film;
 pub mod reset_map;
 pub mod sample_tracer;
-pub mod settle_tracer;
-pub mod show_film;
 pub mod small_bubbles;
 pub mod tonemap;
 pub mod trace_flow;
@@ -53,6 +52,7 @@ pub fn kernels() -> Vec<Kernel> {
     let passes = [
         add_light::kernels(),
         backdrop::kernels(),
+        balance_film::kernels(),
         bake_table::kernels(),
         blacken::kernels(),
         bodies::kernels(),
@@ -87,8 +87,6 @@ pub fn kernels() -> Vec<Kernel> {
         read_film::kernels(),
         reset_map::kernels(),
         sample_tracer::kernels(),
-        settle_tracer::kernels(),
-        show_film::kernels(),
         small_bubbles::kernels(),
         tonemap::kernels(),
         trace_flow::kernels(),

@@ -5,7 +5,7 @@ use crate::{
         control::ControlBlock,
         device::GpuError,
         grid::{Grid, rim_numbers},
-        kernel::{Read, ReadWrite, Uniform, choices, kernels, shader_struct},
+        kernel::{PointSampler, Read, ReadWrite, Texture2dArray, Uniform, choices, kernels, shader_struct},
         timing::{Groups, Recorder},
     },
     physics::{film::Cap, transport::Scheme},
@@ -59,9 +59,10 @@ kernels! {
         @0 sample: Uniform<SampleUniform>;
         @1 tangents: Read<[f32]>;
         @2 control: ReadWrite<ControlBlock>;
-        @3 map: Read<[[f32; 4]]>;
-        @4 tracer: Read<[f32]>;
+        @3 map: Texture2dArray;
+        @4 tracer: Texture2dArray;
         @5 sampled: ReadWrite<[f32]>;
+        @6 point_sampler: PointSampler;
     }
     compute sample_tracer, sample_quads;
 }
@@ -79,11 +80,11 @@ pub struct Sampling<'a> {
     /// The grid that is written.
     pub grid: &'a Grid,
     /// The map, if there is one.
-    pub map: Option<&'a wgpu::Buffer>,
+    pub map: Option<&'a wgpu::TextureView>,
     /// Its cells along a panel's edge.
     pub map_cells: u32,
     /// The tracer, and its cells along a panel's edge.
-    pub tracer: (&'a wgpu::Buffer, u32),
+    pub tracer: (&'a wgpu::TextureView, u32),
     /// The film's control block.
     pub control: &'a wgpu::Buffer,
     /// Where it goes.
@@ -122,10 +123,11 @@ pub fn sample_tracer(
         sample: &recorder.gpu.uniform("sample", &uniform),
         tangents: &grid.tangents,
         control: sampling.control,
-        // Where there is no map nothing is read from it, and any buffer will do.
+        // Where there is no map nothing is read from it, and any texture will do.
         map: map.unwrap_or(tracer),
         tracer,
         sampled: sampling.to,
+        point_sampler: recorder.gpu.point_sampler(),
     };
     if sampling.takes_quads() {
         kernel.sample_quads(recorder, name, groups)

@@ -1,6 +1,6 @@
 //! Traces one step of a film's motion back in a solved flow.
 
-use crate::gpu::kernel::{Read, ReadWrite, Uniform, kernels, shader_struct};
+use crate::gpu::kernel::{Read, Rgba32Float, Uniform, Written2dArray, kernels, shader_struct};
 
 shader_struct! {
     /// A step: see `shaders/pass/trace_flow.wgsl`.
@@ -24,7 +24,7 @@ kernels! {
         @0 solved: Uniform<SolvedUniform>;
         @1 tangents: Read<[f32]>;
         @2 velocity: Read<[[f32; 4]]>;
-        @3 step_map: ReadWrite<[[f32; 4]]>;
+        @3 step_map: Written2dArray<Rgba32Float>;
     }
     compute trace_flow;
 }

@@ -7,7 +7,7 @@ use crate::{
     gpu::{
         device::GpuError,
         grid::Grid,
-        kernel::{Matrix, Read, ReadWrite, Uniform, choices, kernels, shader_struct, shader_view},
+        kernel::{Matrix, Read, Rgba32Float, Uniform, Written2dArray, choices, kernels, shader_struct, shader_view},
         timing::Recorder,
     },
     physics::{
@@ -93,7 +93,7 @@ kernels! {
         override FLOW: FlowKind;
         @0 step: Uniform<StepUniform>;
         @1 tangents: Read<[f32]>;
-        @2 step_map: ReadWrite<[[f32; 4]]>;
+        @2 step_map: Written2dArray<Rgba32Float>;
     }
     compute trace_step;
 }
@@ -208,7 +208,7 @@ pub fn trace_step(
     name: &'static str,
     step: &Step,
     grid: &Grid,
-    step_map: &wgpu::Buffer,
+    step_map: &wgpu::TextureView,
 ) -> Result<(), GpuError> {
     let (tangents, groups) = (&grid.tangents, grid.padded_groups());
     match step {

@@ -1,4 +1,4 @@
-//! The film's amount of liquid: the twin of `shaders/pass/conserve.wgsl` and `shaders/pass/settle_tracer.wgsl`.
+//! The film's amount of liquid: the twin of `shaders/pass/conserve.wgsl` and `shaders/pass/balance_film.wgsl`.
 //!
 //! With A the film's solid angle, φ̄ the mean at the start, s what evaporation has spared in black film and q what has left at the rim, both means
 //! over the film, a field φ has too much of

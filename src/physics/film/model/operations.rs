@@ -45,7 +45,7 @@ pub enum RemapOperation {
     SampleTracer,
     /// It spreads: `diffuse`.
     Diffuse,
-    /// Its liquid is restored, and it is the tracer from now on: `conserve` and `settle_tracer`.
+    /// Its liquid is restored, and it is the tracer from now on: `conserve` and `balance_film`.
     Settle,
     /// Film leaves at the rim, and is counted: `drain`, `conserve`.
     Drain,

@@ -1,4 +1,4 @@
-//! Puts a film into the texture that pictures read.
+//! Puts what was sampled of a film into a texture.
 
 use crate::gpu::{
     control::BalanceBlock,
@@ -6,13 +6,13 @@ use crate::gpu::{
 };
 
 kernels! {
-    pass show_film;
+    pass balance_film;
 
     /// What was sampled, with its liquid restored by a correction.
-    struct ShowFilm {
+    struct BalanceFilm {
         @0 balance: Uniform<BalanceBlock>;
         @1 sampled: Read<[f32]>;
         @2 film: Written2dArray<R32Float>;
     }
-    compute show_film;
+    compute balance_film;
 }
