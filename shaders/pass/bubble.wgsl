@@ -4,25 +4,26 @@
 import package::camera::view::{View, clip_position, pixel_angle, view_plane, view_ray};
 import package::film::control::Balance;
 import package::film::hole::{Rim, TAU};
-import package::film::wall::optical_nm;
 import package::light::environment::{Light, backdrop_radiance, environment_radiance};
 import package::light::lamps::Lamp;
-import package::light::others::{AMONG_OTHERS, mirrored_light, passed_others};
-import package::light::stokes::{Stokes, packed, turn_between, turned, unpacked, unpolarised};
+import package::light::others::{AMONG_OTHERS, passed_others};
+import package::light::polarisation::{mean_polarisation, path_polarisation, picture_axis, polarisation_behind};
+import package::light::polarisation::{sample_behind, sample_polarisation};
+import package::light::stokes::{packed, turn_between, turned, unpolarised};
 import package::light::stored::storable;
-import package::light::strips::reflected_surroundings;
 import package::light::water::{crossing, past_meniscus, upward};
-import package::optics::airy::{cos_refracted, surface_reflectance};
+import package::optics::airy::surface_reflectance;
 import package::optics::quadrature::QuadratureSample;
-import package::optics::film_colour::{THICKNESSES, film_reflection};
+import package::optics::film_colour::film_reflection;
 import package::optics::table::{FilmPoint, TableAxes};
-import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, MIRRORS_OTHERS, TRACKS_POLARISATION, Walls};
-import package::optics::walls::{WAVELENGTHS, product_of_colours, resolved, wavelength_polarisation, wavelength_radiance};
+import package::optics::walls::{EVERYTHING, FURTHER, Hits, INNER, TRACKS_POLARISATION, WAVELENGTHS, Walls};
+import package::optics::walls::{product_of_colours, resolved, wavelength_radiance};
 import package::sphere::axes::perpendicular;
-import package::sphere::hops::{Followed, Hop, followed, left_before, mirrored, reflected_inside};
+import package::sphere::hits::{first_hits, four_hits};
+import package::sphere::hops::{Followed, Hop, followed, left_before, mirrored};
 import package::sphere::others::OtherBubble;
 import package::sphere::path::{Path, PixelPart, WHOLE_PIXEL, footprint, polarisation_along, spanned_angles};
-import package::sphere::samples::{OUT_OF_FOCUS, REFINED_SAMPLES, outward_in_picture, pixel_radiance};
+import package::sphere::samples::{OUT_OF_FOCUS, pixel_radiance};
 import package::sphere::trace::{eye_is_inside, from_round, outline, path_along, to_round};
 
 // 1: there may be bubbles behind the bubble, and `picture_behind` shows them. 0: nothing is behind it but the backdrop.
@@ -88,7 +89,6 @@ struct ListPart {
 @group(0) @binding(10) var<uniform> film_balance: Balance;
 @group(0) @binding(11) var film_map: texture_2d_array<f32>;
 @group(0) @binding(12) var film_tracer: texture_2d_array<f32>;
-@group(0) @binding(24) var point_sampler: sampler;
 @group(0) @binding(13) var<storage, read> hole_middle: vec4f;
 @group(0) @binding(14) var<storage, read> hole_rim: array<Rim>;
 @group(0) @binding(15) var picture_behind: texture_2d<f32>;
@@ -100,8 +100,9 @@ struct ListPart {
 // The environment as it is seen behind the bubbles.
 @group(0) @binding(21) var backdrop_map: texture_cube<f32>;
 @group(0) @binding(22) var backdrop_sampler: sampler;
-// What is polarised of `picture_behind`: see light/stokes.wgsl. Its axis is that of `picture_axis`.
+// What is polarised of `picture_behind`: see light/polarisation.wgsl.
 @group(0) @binding(23) var polarised_behind: texture_2d<u32>;
+@group(0) @binding(24) var point_sampler: sampler;
 
 // A corner of the polygon around an edge of the ring.
 fn corner(number: u32, edge: vec2f) -> vec4f {
@@ -184,154 +185,6 @@ fn straight_through(path: Path, is_inside: bool) -> Followed {
         behind = left * crossing(back.z, path.direction.z, path.direction) * backdrop_behind(path);
     }
     return Followed(Hop(back, path.direction), 0.0, left, behind);
-}
-
-// How the optical path in the film changes from pixel to pixel at four hits in a row, in nm.
-struct Slopes {
-    across: vec4f,
-    down: vec4f,
-}
-
-// Those of the last sample that all pixels took.
-var<private> slopes: array<Slopes, 3>;
-
-// Width of the thicknesses that a sample spans at some four hits, in nm: the change of the path in the film, which angles have a part in, over the
-// part of the pixel.
-@diagnostic(off, derivative_uniformity)
-fn spread_nm(path: Path, walls_nm: vec4f, four: u32) -> vec4f {
-    if (THICKNESSES == 1u) {
-        return vec4f(0.0);
-    }
-    let cos_t = cos_refracted(axes.index, path.cos_theta);
-    if (REFINED_SAMPLES == 0u || path.part.is_everywhere) {
-        let path_nm = cos_t * walls_nm;
-        slopes[four] = Slopes(dpdx(path_nm), dpdy(path_nm));
-    }
-    let slope = slopes[four];
-    let line = path.part.line;
-    let along = path.part.size.x * (line.x * slope.across + line.y * slope.down);
-    let beside = path.part.size.y * (line.x * slope.down - line.y * slope.across);
-    return sqrt(along * along + beside * beside) / cos_t;
-}
-
-// Four hits more, and where the ray is after them.
-struct FourHits {
-    hits: Hits,
-    last: Followed,
-}
-
-// The first four, and by how much more their steps are of s light than of p light.
-struct FirstHits {
-    four: FourHits,
-    polarised: mat4x3f,
-}
-
-fn four_hits(path: Path, at: Followed, four: u32) -> FourHits {
-    let a = followed(path, at);
-    let b = followed(path, a);
-    let c = followed(path, b);
-    let d = followed(path, c);
-    let walls_nm = vec4f(
-        optical_nm(at.hop.point, false),
-        optical_nm(a.hop.point, false),
-        optical_nm(b.hop.point, false),
-        optical_nm(c.hop.point, false),
-    );
-    let steps = mat4x3f(a.light - at.light, b.light - a.light, c.light - b.light, d.light - c.light);
-    return FourHits(Hits(walls_nm, spread_nm(path, walls_nm, four), steps), d);
-}
-
-// The first four hits: the front wall, which there is none of from inside the bubble, and three inside, or one.
-fn first_hits(path: Path, is_inside: bool, at: Followed) -> FirstHits {
-    let behind = at.light;
-    let front = path.foot - path.half_chord * path.round;
-    let outward = mirrored(path, front);
-    var last = reflected_inside(path, at);
-    let seen = outer_and_first(path, MirroredRays(front, outward, at.hop.point, last.hop.direction), is_inside);
-    let from_first = last.light * seen[1].q;
-    last.light *= seen[1].i;
-    var polarised = mat4x3f(vec3f(0.0), from_first, -from_first, vec3f(0.0));
-    var walls_nm = vec4f(0.0, optical_nm(at.hop.point, true), 0.0, 0.0);
-    var steps = mat4x3f(vec3f(0.0), last.light - behind, vec3f(0.0), vec3f(0.0));
-    if (INNER > 1u) {
-        let a = last;
-        let b = followed(path, a);
-        last = followed(path, b);
-        walls_nm.z = optical_nm(a.hop.point, false);
-        walls_nm.w = optical_nm(b.hop.point, false);
-        steps[2] = b.light - a.light;
-        steps[3] = last.light - b.light;
-    }
-    if (!is_inside) {
-        walls_nm.x = optical_nm(front, true);
-        let left = left_before(path) * crossing(front.z, outward.z, outward);
-        steps[0] = left * seen[0].i - behind;
-        polarised[0] = left * seen[0].q;
-    }
-    return FirstHits(FourHits(Hits(walls_nm, spread_nm(path, walls_nm, 0u), steps), last), polarised);
-}
-
-// The outer reflection and the first inner one: where they are, and where light goes from there.
-struct MirroredRays {
-    front: vec3f,
-    outward: vec3f,
-    back: vec3f,
-    inward: vec3f,
-}
-
-// Light from both, with other bubbles in it. Its polarisation refers to the plane of incidence: s light has its field across.
-fn outer_and_first(path: Path, rays: MirroredRays, is_inside: bool) -> array<Stokes, 2> {
-    if (MIRRORS_OTHERS == 0u) {
-        let outer = reflected_surroundings(path, rays.outward, 2.0);
-        return array(unpolarised(outer), unpolarised(reflected_surroundings(path, rays.inward, -2.0)));
-    }
-    let outer = footprint(spanned_angles(path, rays.outward, 2.0));
-    let first = footprint(spanned_angles(path, rays.inward, -2.0));
-    let across = path.across / max(length(path.across), 1e-9);
-    var seen = array(unpolarised(vec3f(0.0)), unpolarised(vec3f(0.0)));
-    // In a loop, so that its code stands once.
-    for (var k = select(0u, 1u, is_inside); k < 2u; k++) {
-        let is_first = k == 1u;
-        let point = select(rays.front, rays.back, is_first);
-        let direction = select(rays.outward, rays.inward, is_first);
-        seen[k] = mirrored_light(point, direction, across, select(outer, first, is_first));
-    }
-    return seen;
-}
-
-// What is polarised of the picture behind the last sample and at it, and the sum over a pixel's samples, with their number.
-var<private> sample_behind: Stokes;
-var<private> sample_polarisation: Stokes;
-var<private> polarisation: Stokes;
-var<private> polarisation_samples: f32;
-
-// The axis that what is polarised of the picture refers to.
-fn picture_axis(direction: vec3f) -> vec3f {
-    return normalize(cross(direction, view.up));
-}
-
-fn polarisation_behind(position: vec2f) -> Stokes {
-    return unpacked(textureLoad(polarised_behind, vec2u(position), 0));
-}
-
-// Counts what is polarised at a sample of which the bubble covers a part.
-fn count_polarisation(coverage: f32) {
-    if (TRACKS_POLARISATION == 1u) {
-        polarisation.q += mix(sample_behind.q, sample_polarisation.q, coverage);
-        polarisation.u += mix(sample_behind.u, sample_polarisation.u, coverage);
-        polarisation_samples += 1.0;
-    }
-}
-
-// What is polarised along a path: what is polarised behind, of which walls leave a part, and what they add.
-fn path_polarisation(path: Path, walls: Walls, behind: Stokes, turn: vec2f) -> Stokes {
-    var change = mat2x3f();
-    let of_light = light.unseen * behind.u;
-    for (var k = 0u; k < WAVELENGTHS; k++) {
-        change += wavelength_polarisation(quadrature[k], path.cos_theta, walls, of_light);
-    }
-    let found = Stokes(vec3f(0.0), behind.q + light.scale * change[0], behind.u + light.scale * change[1]);
-    return turned(found, vec2f(turn.x, -turn.y));
 }
 
 // What is seen along a ray: see optics/walls.wgsl.
@@ -445,8 +298,8 @@ struct Shaded {
 @fragment
 fn shade(@builtin(position) position: vec4f) -> Shaded {
     let radiance = vec4f(storable(pixel_radiance(position.xy)), 1.0);
-    let part = 1.0 / max(polarisation_samples, 1.0);
-    return Shaded(radiance, packed(part * polarisation.q, part * polarisation.u));
+    let polarised = mean_polarisation();
+    return Shaded(radiance, packed(polarised.q, polarised.u));
 }
 
 // The yardstick of the frame's cost: a plain mirror with one filtered environment lookup.
