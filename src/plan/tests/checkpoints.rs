@@ -87,6 +87,47 @@ fn checkpoints_of_another_past_or_film_are_not_gone_back_to() {
     assert_eq!((steps, passes[0]), (130 + 78, "seed_field"));
 }
 
+/// The device follows the passes of many journeys through time: what a pass restores is what lies in its slot then, even where the same plan
+/// overwrites the slot.
+#[test]
+fn what_is_restored_is_what_was_saved() {
+    let (scene, mut state) = (free_scene(), GpuState::default());
+    let mut slots: BTreeMap<usize, Moment> = BTreeMap::new();
+    let (mut film, mut overwritten) = (None, 0);
+    for journey in 1..60_u64 {
+        let tick = journey * journey * 7919 % 2400;
+        loop {
+            let next = plan(&frame_request(&scene, tick, Pace::UNMEASURED), &state);
+            let mut read = BTreeSet::new();
+            for (pass, _) in &next.steps {
+                match pass {
+                    Pass::SeedField { key, .. } => film = Some(key.moment),
+                    Pass::RestoreField { slot, key, .. } => {
+                        assert_eq!(slots.get(slot), Some(&key.moment), "slot {slot} on the way to {tick}");
+                        read.insert(*slot);
+                        film = Some(key.moment);
+                    }
+                    Pass::StepField { key, ticks, .. } => {
+                        assert_eq!(film, Some(Moment::tick(ticks.start)));
+                        film = Some(key.moment);
+                    }
+                    Pass::SaveField { slot, key, .. } => {
+                        assert_eq!(film, Some(key.moment));
+                        overwritten += u32::from(read.contains(slot));
+                        slots.insert(*slot, key.moment);
+                    }
+                    _ => (),
+                }
+            }
+            state = next.after;
+            if next.complete {
+                break;
+            }
+        }
+    }
+    assert!(overwritten > 0, "no plan overwrites what it read");
+}
+
 #[test]
 fn films_have_as_many_checkpoints_as_there_is_room_for() {
     for (cells, slots) in [(16, 8), (256, 8), (300, 5), (512, 2), (1024, 2)] {
