@@ -72,8 +72,7 @@ fn bubbles_out_of_focus_are_those_of_rays_through_a_lens() {
         let sharp = seen(&LensSample { blurs_bubbles: false, ..LensSample::MIDDLE });
         let mut truth = vec![DVec3::ZERO; whole.len()];
         for k in 0..PLACES {
-            let lens =
-                LensSample { defocus: 0.0, ..LensSample::of(k, PLACES, 0.5e-3 * loaded.scene.lens.aperture_mm, 0) };
+            let lens = LensSample::point(k, PLACES, 0.5e-3 * loaded.scene.lens.aperture_mm, 0);
             truth.iter_mut().zip(seen(&lens)).for_each(|(sum, radiance)| *sum += radiance / f64::from(PLACES));
         }
         // As they are shown: of two bright pixels nobody sees how bright they are.

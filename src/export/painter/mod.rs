@@ -99,11 +99,9 @@ impl Painter {
     /// What one of the pictures needs whose mean is the picture of a moment through the whole lens, while the shutter is open.
     fn request_through(&self, moment: Moment, k: u32, count: u32) -> anyhow::Result<FrameRequest> {
         let Lens { aperture_mm, blades, shutter_s, .. } = self.story.lens;
-        let mut lens = LensSample::of(k, count, 0.5e-3 * aperture_mm, blades);
-        if self.options.is_reference() {
-            // It comes to the truth by its samples alone.
-            lens.defocus = 0.0;
-        }
+        // The reference comes to the truth by its samples alone.
+        let sample = if self.options.is_reference() { LensSample::point } else { LensSample::disc };
+        let lens = sample(k, count, 0.5e-3 * aperture_mm, blades);
         let tick_s = self.story.motion.tick_s;
         let open_s = shutter_s * (f64::from(k) + 0.5) / f64::from(count);
         self.request_by(&lens, Moment::of_time(moment.ticks() * tick_s + open_s, tick_s), 1)
