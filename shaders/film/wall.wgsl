@@ -46,7 +46,7 @@ fn thickness_nm(place: vec3f, is_early: bool) -> f32 {
         if (MAGNIFIED == 1u && is_early) {
             thickness_nm = film_through_map(direction);
         } else {
-            thickness_nm = film_at(film, direction, bubble.cells);
+            thickness_nm = film_at(film, point_sampler, direction, bubble.cells);
         }
     }
     thickness_nm *= bubble.thickness_factor;

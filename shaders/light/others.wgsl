@@ -71,7 +71,7 @@ struct OtherWall {
 // Light from behind a wall after it, with what the wall mirrors. Its polarisation refers to the plane of incidence.
 fn past_other_wall(wall: OtherWall, behind: Stokes, footprint: f32) -> Stokes {
     let mirrored = mirrored_by_wall(wall, reflect(wall.direction, wall.place), footprint);
-    let film = FilmPoint(wall.cos_theta, other_nm(films, others[wall.number], wall.place), 0.0);
+    let film = FilmPoint(wall.cos_theta, other_nm(films, point_sampler, others[wall.number], wall.place), 0.0);
     let mean = reflected_light(film, vec3f(1.0));
     let reflected = reflected_light(film, mirrored - behind.i);
     return past_wall(behind, mirrored, reflected, mean, half_difference(film, mean));
@@ -84,7 +84,7 @@ fn mirrored_by_wall(wall: OtherWall, direction: vec3f, footprint: f32) -> vec3f 
         return from_outside;
     }
     let opposite = wall.place + 2.0 * wall.cos_theta * direction;
-    let film = FilmPoint(wall.cos_theta, other_nm(films, others[wall.number], opposite), 0.0);
+    let film = FilmPoint(wall.cos_theta, other_nm(films, point_sampler, others[wall.number], opposite), 0.0);
     return from_outside + reflected_light(film, surroundings(reflect(direction, opposite), footprint) - from_outside);
 }
 
@@ -185,7 +185,7 @@ fn next_chord(direction: vec3f, end_m: f32, first: u32) -> NextChord {
 // What a wall leaves of light that passes it: of s light and of p light of the bubble, whose s light has its field along an axis.
 fn wall_left(other: OtherBubble, chord: Chord, distance_m: f32, direction: vec3f, axis: vec3f) -> array<vec3f, 2> {
     let place = place_on(other, distance_m * direction);
-    let film = FilmPoint(chord.cos_theta, other_nm(films, other, place), 0.0);
+    let film = FilmPoint(chord.cos_theta, other_nm(films, point_sampler, other, place), 0.0);
     let mean = reflected_light(film, vec3f(1.0));
     let of_s = turn_to_wall(axis, direction, place).x * half_difference(film, mean);
     return array(max(1.0 - mean - of_s, vec3f(0.0)), max(1.0 - mean + of_s, vec3f(0.0)));

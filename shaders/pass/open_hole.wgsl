@@ -35,6 +35,7 @@ struct OpenHole {
 
 @group(0) @binding(0) var<uniform> hole: OpenHole;
 @group(0) @binding(1) var film: texture_2d_array<f32>;
+@group(0) @binding(4) var point_sampler: sampler;
 // The middle of the hole, and its rim.
 @group(0) @binding(2) var<storage, read_write> middle: vec4f;
 @group(0) @binding(3) var<storage, read_write> rim: array<Rim>;
@@ -50,7 +51,7 @@ fn thickness_nm(direction: vec3f) -> f32 {
     if (UNIFORM_FILM == 1u) {
         return remaining_nm(hole.thickness_nm);
     }
-    return remaining_nm(film_at(film, direction, hole.cells));
+    return remaining_nm(film_at(film, point_sampler, direction, hole.cells));
 }
 
 fn cell_texel(cell: u32) -> vec3u {

@@ -46,6 +46,7 @@ struct Tile {
 @group(0) @binding(9) var<storage, read> lists: array<u32>;
 @group(0) @binding(10) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(11) var picture_behind: texture_2d<f32>;
+@group(0) @binding(12) var point_sampler: sampler;
 
 // The whole picture, of which the pass draws the tiles that have bubbles.
 @vertex
@@ -166,9 +167,9 @@ fn through_bubble(bubble: OtherBubble, path: Path, behind: vec3f) -> vec3f {
         let r2 = surface_reflectance(axes.index, path.cos_theta).x;
         more = 2.0 * r2 / (1.0 + r2) * (surroundings(path, thrice, -6.0) - seen_twice);
     }
-    let outer = wall_colours(path, other_nm(films, bubble, front));
-    let inner = wall_colours(path, other_nm(films, bubble, back));
-    let third = wall_colours(path, other_nm(films, bubble, next));
+    let outer = wall_colours(path, other_nm(films, point_sampler, bubble, front));
+    let inner = wall_colours(path, other_nm(films, point_sampler, bubble, back));
+    let third = wall_colours(path, other_nm(films, point_sampler, bubble, next));
     // Colours over white are the walls' reflectances for each primary of the picture.
     let ones = vec3f(1.0);
     let over_white = 1.0 / (light.seen * ones);

@@ -56,13 +56,13 @@ fn place_on(other: OtherBubble, place_m: vec3f) -> vec3f {
 }
 
 // The thickness of the plain film that looks like the one at a point of the unit sphere, in nm.
-fn other_nm(films: texture_2d_array<f32>, other: OtherBubble, place: vec3f) -> f32 {
+fn other_nm(films: texture_2d_array<f32>, point_sampler: sampler, other: OtherBubble, place: vec3f) -> f32 {
     if (place.z < other.rim_z) {
         return 0.0;
     }
     var nm = other.thickness_nm;
     if (other.cells > 0u) {
-        nm = film_part_at(films, other.to_film * upward(place), other.cells, other.origin);
+        nm = film_part_at(films, point_sampler, other.to_film * upward(place), other.cells, other.origin);
     }
     nm *= other.thickness_factor;
     nm = max(nm - other.evaporated_nm, min(nm, other.black_nm));

@@ -144,6 +144,7 @@ impl Shared<'_> {
             lists: &gpu.storage("lists of small bubbles", &lists.lists),
             tiles: &gpu.storage("tiles", &lists.tiles),
             picture_behind: self.behind,
+            point_sampler: gpu.point_sampler(),
             lamps: &self.light.lamps,
         };
         let draw = small.cover(gpu, &[radiance_format(key.full_precision)])?;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::{
     gpu::{
         device::{Gpu, GpuError},
-        kernel::{ReadWrite, Texture2dArray, Uniform, kernels, shader_struct},
+        kernel::{PointSampler, ReadWrite, Texture2dArray, Uniform, kernels, shader_struct},
         shown_film::{NoFilm, Shown},
         timing::Recorder,
     },
@@ -65,6 +65,7 @@ kernels! {
         @1 film: Texture2dArray;
         @2 middle: ReadWrite<[f32; 4]>;
         @3 rim: ReadWrite<[RimValue]>;
+        @4 point_sampler: PointSampler;
     }
     compute open_hole;
 }
@@ -104,6 +105,7 @@ impl OpenHole {
             film,
             middle: &self.middle,
             rim: &self.rim,
+            point_sampler: gpu.point_sampler(),
         };
         kernel.open_hole(recorder, "open_hole", [1; 3])
     }

@@ -6,7 +6,7 @@ use super::{
     bubble::OtherBubble,
 };
 use crate::gpu::kernel::{
-    Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uint2dArray, Uniform, kernels, shader_struct,
+    PointSampler, Read, Sampler, Texture2d, Texture2dArray, TextureCube, Uint2dArray, Uniform, kernels, shader_struct,
 };
 
 /// Side of a tile in pixels: bubbles are found by the tiles that they may cover.
@@ -50,6 +50,7 @@ kernels! {
         @9 lists: Read<[u32]>;
         @10 tiles: Read<[SmallTile]>;
         @11 picture_behind: Texture2d;
+        @12 point_sampler: PointSampler;
     }
     draw cover as small_bubbles;
 }
