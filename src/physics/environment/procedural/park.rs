@@ -96,6 +96,7 @@ impl Park {
         if slope > TREES[1] {
             return self.sky(direction);
         }
+        let slope = slope - self.ground(turns(direction.truncate()));
         let seen = if slope < TREES[0] { self.meadow(direction) } else { self.trees(direction, slope) };
         self.photographer.over(seen, direction)
     }
@@ -229,17 +230,24 @@ impl Park {
         turns.into_iter().fold(seen, |seen, (x, y, seed)| layer(seen, DVec2::new(x, y), seed))
     }
 
-    /// Grass, with the long shadows that trees throw away from the sun.
+    /// How high the ground rises to the trees, by azimuth: it is not quite level.
+    fn ground(&self, azimuth: f64) -> f64 {
+        0.014 * self.noise.at(DVec2::new(azimuth * 2.0, 0.8)) + 0.004 * self.noise.at(DVec2::new(azimuth * 7.0, 0.1))
+    }
+
+    /// Grass, with the long shadows that trees throw away from the sun, and what the sun finds between them.
     fn meadow(&self, direction: DVec3) -> DVec3 {
         // In metres from below the bubble, which hangs at 1.4 m.
         let place = direction.truncate() * (1.4 / (-direction.z).max(0.02));
         let shadow = DVec2::new(place.dot(self.sun_level) * 0.004, place.perp_dot(self.sun_level) * 0.016);
-        let lit = smoothstep(-0.1, 1.5, self.noise.at(shadow));
-        let detail = self.noise.at(place * 0.11) * smoothstep(0.03, 0.3, -direction.z);
+        let edge = 0.3 * self.noise.at(shadow * DVec2::new(3.0, 3.7) + 0.3);
+        let lit = smoothstep(0.05, 0.75, self.noise.at(shadow) + edge);
+        let near = smoothstep(0.03, 0.3, -direction.z);
+        let detail = near * (self.noise.at(place * 0.11) + 0.7 * near * self.noise.at(place.perp() * 0.43));
         let worn = self.noise.at(place * 0.031 + 0.4);
-        let tufts = (1.0 + 0.16 * detail + 0.22 * worn).max(0.3);
+        let tufts = (1.0 + 0.16 * detail + 0.20 * worn).max(0.3);
         let shade = DVec3::new(0.052, 0.066, 0.030);
-        let sunny = DVec3::new(0.122, 0.122, 0.050);
+        let sunny = DVec3::new(0.122, 0.116, 0.045);
         shade.lerp(sunny, lit) * tufts
     }
 }
