@@ -52,7 +52,7 @@ const TABLE: Edit = edit(
 );
 const WAVELENGTHS: Edit = edit("pass/bubble.wgsl", "k < WAVELENGTHS;", "k < min(WAVELENGTHS, 1u);");
 const INNER: Edit = edit(
-    "pass/bubble.wgsl",
+    "sphere/hits.wgsl",
     "    if (INNER > 1u) {\n        let a = last;",
     "    if (INNER > 99u) {\n        let a = last;",
 );

@@ -247,7 +247,7 @@ impl Park {
         let worn = self.noise.at(place * 0.031 + 0.4);
         let tufts = (1.0 + 0.16 * detail + 0.20 * worn).max(0.3);
         let shade = DVec3::new(0.052, 0.066, 0.030);
-        let sunny = DVec3::new(0.122, 0.116, 0.045);
+        let sunny = DVec3::new(0.107, 0.116, 0.043);
         shade.lerp(sunny, lit) * tufts
     }
 }
