@@ -1,6 +1,6 @@
 // The film of the bubble that a pass draws: how thick it is at a point of its wall.
 //
-// The pass declares what this reads: `bubble`, `film` with its balance, map and tracer, and the hole.
+// The pass declares what this reads: `bubble`, `film` with its balance, map and tracer, the `point_sampler` of these, and the hole.
 
 import package::film::control::balanced;
 import package::film::hole::{HOLE_MERIDIANS, angle_from, meridian_of, mixed, pierced};

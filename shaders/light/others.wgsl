@@ -1,7 +1,7 @@
 // What other bubbles do to light: they are seen in a bubble's mirror, and they dim what its walls reflect.
 //
-// The pass that draws bubbles declares what this reads: `bubble`, `others`, its `part` of their `lists`, `films`, the table, the light, and the
-// functions `surroundings` and `from_round`.
+// The pass that draws bubbles declares what this reads: `bubble`, `others`, its `part` of their `lists`, `films` with their `point_sampler`, the table,
+// the light, and the functions `surroundings` and `from_round`.
 
 import package::light::stokes::{Stokes, past_wall, turn_between, turned, unpolarised};
 import package::optics::film_colour::reflection_at;

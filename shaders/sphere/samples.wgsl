@@ -1,9 +1,10 @@
 // The samples that a pixel of a bubble is the mean of.
 //
-// The pass that draws bubbles declares what this reads: `view`, `bubble`, and the functions `bubble_radiance`, `beside` and `count_polarisation`.
+// The pass that draws bubbles declares what this reads: `view`, `bubble`, and the functions `bubble_radiance` and `beside`.
 
 import package::camera::circle::{in_circle, sample_width};
 import package::camera::view::{pixel_angle, view_plane};
+import package::light::polarisation::count_polarisation;
 import package::sphere::path::{PixelPart, WHOLE_PIXEL};
 import package::sphere::trace::outline;
 

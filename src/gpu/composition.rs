@@ -134,12 +134,13 @@ impl Composition {
     }
 
     /// Whether the picture keeps what is polarised of it. Bubbles reflect and pass s light otherwise than p light, and bubbles in front do so once
-    /// more: to leave that out is most of the error of spectral pictures. Pictures through a polariser do not keep it.
+    /// more: to leave that out is most of the error of spectral pictures. Pictures through a polariser do not keep it. Where it is kept, layer 0 is the
+    /// backdrop alone.
     #[must_use]
     pub fn tracks_polarisation(&self, key: &DrawKey) -> bool {
         let is_spectral = |films: &FilmColours| films.quadrature.quality == Quality::Spectral;
-        self.layers() > 1
-            && self.placed.len() > 1
+        self.placed.len() > 1
+            && self.placed.iter().all(|placed| placed.layer > 0)
             && key.rendering == Rendering::Full
             && key.lighting.light.polariser.is_none()
             && key.lighting.films.iter().any(is_spectral)

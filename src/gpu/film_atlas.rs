@@ -2,13 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::{device::Gpu, shown_film::Shown, timing::Recorder};
+use super::{panel_texture::PanelTexture, shown_film::Shown, timing::Recorder};
 
 /// A texture with the films of several bubbles side by side, a layer a panel, halos included.
 pub struct FilmAtlas {
-    /// All its layers.
-    pub view: wgpu::TextureView,
-    texture: wgpu::Texture,
+    /// The texture.
+    pub films: PanelTexture,
     /// Where the film of each bubble lies, in texels, by its index.
     places: BTreeMap<usize, [u32; 2]>,
 }
@@ -17,7 +16,7 @@ impl FilmAtlas {
     /// The place of each film, and the size of the texture that holds them. Films lie in equal squares; those that a texture of `limit` texels has no
     /// room for have no place.
     fn laid_out(films: &BTreeMap<usize, Shown<'_>>, limit: u32) -> (BTreeMap<usize, [u32; 2]>, [u32; 2]) {
-        let side = films.values().map(|film| film.texture.width()).max().unwrap_or(1);
+        let side = films.values().map(|shown| shown.film.size()[0]).max().unwrap_or(1);
         let columns = (limit / side).min((films.len() as f64).sqrt().ceil() as u32).max(1);
         let rows = (limit / side).min((films.len() as u32).div_ceil(columns)).max(1);
         let place = |k: u32| [k % columns * side, k / columns * side];
@@ -28,34 +27,16 @@ impl FilmAtlas {
     /// Keeps a texture that fits, else makes a new one, and records the copies of all films.
     pub fn of(old: Option<Self>, recorder: &mut Recorder<'_>, films: &BTreeMap<usize, Shown<'_>>) -> Self {
         let gpu = recorder.gpu;
-        let (places, [width, height]) = Self::laid_out(films, gpu.device.limits().max_texture_dimension_2d);
-        let fits = |atlas: &Self| [atlas.texture.width(), atlas.texture.height()] == [width, height];
-        let atlas = old.filter(fits).unwrap_or_else(|| Self::empty(gpu, [width, height]));
+        let (places, size) = Self::laid_out(films, gpu.device.limits().max_texture_dimension_2d);
+        let old = old.map(|atlas| atlas.films).filter(|old| old.size() == size);
+        let atlas = old.unwrap_or_else(|| PanelTexture::new(gpu, "films", size, wgpu::TextureFormat::R32Float));
         for (index, [x, y]) in &places {
-            let film = films[index].texture;
+            let film = &films[index].film.texture;
             let origin = wgpu::Origin3d { x: *x, y: *y, z: 0 };
             let to = wgpu::TexelCopyTextureInfo { origin, ..atlas.texture.as_image_copy() };
             recorder.encoder().copy_texture_to_texture(film.as_image_copy(), to, film.size());
         }
-        Self { places, ..atlas }
-    }
-
-    fn empty(gpu: &Gpu, [width, height]: [u32; 2]) -> Self {
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("films"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: gpu.array_layers(6) },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::R32Float,
-            usage: wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        });
-        let view = texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2Array),
-            ..Default::default()
-        });
-        Self { view, texture, places: BTreeMap::new() }
+        Self { films: atlas, places }
     }
 
     /// Where the film of a bubble lies, in texels, if there was room for it.

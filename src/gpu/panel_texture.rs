@@ -12,15 +12,11 @@ pub struct PanelTexture {
 }
 
 impl PanelTexture {
-    /// A field of panels with some texels along an edge.
-    pub(in crate::gpu) fn new(gpu: &Gpu, label: &str, side: u32, format: wgpu::TextureFormat) -> Self {
+    /// A field of panels of some texels across and down.
+    pub(in crate::gpu) fn new(gpu: &Gpu, label: &str, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> Self {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(label),
-            size: wgpu::Extent3d {
-                width: side,
-                height: side,
-                depth_or_array_layers: gpu.array_layers(PANELS.len() as u32),
-            },
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: gpu.array_layers(PANELS.len() as u32) },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -36,6 +32,12 @@ impl PanelTexture {
             ..Default::default()
         });
         Self { texture, view }
+    }
+
+    /// Texels of a panel, across and down.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        [self.texture.width(), self.texture.height()]
     }
 
     /// Bytes of a texel.
@@ -60,7 +62,7 @@ impl PanelTexture {
         self.write(gpu, wgpu::Origin3d::ZERO, bytemuck::cast_slice(values), self.panels());
     }
 
-    /// Writes the first bytes of one texel.
+    /// Writes one texel.
     pub(in crate::gpu) fn upload_texel(&self, gpu: &Gpu, origin: wgpu::Origin3d, texel: &[f32]) {
         self.write(gpu, origin, bytemuck::cast_slice(texel), wgpu::Extent3d::default());
     }
@@ -76,7 +78,7 @@ impl PanelTexture {
 
     /// Copies all panels to a texture that is made for them.
     pub(in crate::gpu) fn copy(&self, recorder: &mut Recorder<'_>) -> Self {
-        let copy = Self::new(recorder.gpu, "copy of a field", self.texture.width(), self.texture.format());
+        let copy = Self::new(recorder.gpu, "copy of a field", self.size(), self.texture.format());
         self.copy_to(recorder, &copy);
         copy
     }

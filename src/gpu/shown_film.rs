@@ -11,9 +11,7 @@ use super::{
 #[derive(Clone, Copy)]
 pub struct Shown<'a> {
     /// The thickness at the film's cells.
-    pub film: &'a wgpu::TextureView,
-    /// The texture that it is a view of.
-    pub texture: &'a wgpu::Texture,
+    pub film: &'a PanelTexture,
     /// The correction of what is looked up through the map.
     pub balance: &'a UniformBuffer<BalanceBlock>,
     /// The map that it was sampled through.
@@ -36,20 +34,22 @@ impl NoFilm {
     /// One texel a panel.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
-        Self { film: PanelTexture::new(gpu, "no film", 1, wgpu::TextureFormat::R32Float), control: Control::new(gpu) }
+        Self {
+            film: PanelTexture::new(gpu, "no film", [1; 2], wgpu::TextureFormat::R32Float),
+            control: Control::new(gpu),
+        }
     }
 
     /// What pictures may bind.
     #[must_use]
     pub fn shown(&self) -> Shown<'_> {
-        let PanelTexture { texture, view } = &self.film;
+        let Self { film, control } = self;
         Shown {
-            film: view,
-            texture,
-            balance: &self.control.shown_balance,
-            map: view,
+            film,
+            balance: &control.shown_balance,
+            map: &film.view,
             map_cells: 0,
-            tracer: view,
+            tracer: &film.view,
             tracer_cells: 0,
         }
     }

@@ -9,7 +9,7 @@ use crate::physics::{
 };
 
 /// How much wider discs in an aperture are than those that would cover its area once. Against 16 x 16 samples, pictures of a blurred park of 2 x 2, 3 x 3
-/// and 4 x 4 are at 31.3, 34.8 and 37.2 dB (PSNR) with 1.3, at 35.5, 35.9 and 38.7 with 1.9; wider discs blur the edges of the whole one.
+/// and 4 x 4 are at 31.3, 34.8 and 37.2 dB (PSNR) with 1.3, at 35.1, 35.9 and 38.7 with this; wider discs blur the edges of the whole one.
 const DISC_WIDENING: f64 = 1.8;
 
 /// One of the many rays of light through a lens that make a picture: where it passes, and which part of each pixel it meets.

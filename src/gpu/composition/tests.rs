@@ -24,6 +24,14 @@ fn placed(centers_m: &[[f64; 3]], quality: Quality) -> Vec<Placed> {
 }
 
 fn placed_bubbles(bubbles: Vec<Bubble>, quality: Quality) -> Vec<Placed> {
+    let key = draw_key(bubbles, quality);
+    let composition = composition(&key).placed;
+    let mut placed: Vec<(usize, Placed)> = key.bubbles.iter().map(|bubble| bubble.index).zip(composition).collect();
+    placed.sort_by_key(|(index, _)| *index);
+    placed.into_iter().map(|(_, placed)| placed).collect()
+}
+
+fn draw_key(bubbles: Vec<Bubble>, quality: Quality) -> DrawKey {
     let scene = Scene {
         bubbles,
         camera: Camera { azimuth_deg: 0.0, elevation_deg: 0.0, distance_m: 0.6, ..Camera::default() },
@@ -44,11 +52,7 @@ fn placed_bubbles(bubbles: Vec<Bubble>, quality: Quality) -> Vec<Placed> {
         gamut: Gamut::Srgb,
         pace: Pace::Whole,
     };
-    let key = request(&scene, &resources, &shot).unwrap().picture.draw;
-    let composition = composition(&key).placed;
-    let mut placed: Vec<(usize, Placed)> = key.bubbles.iter().map(|bubble| bubble.index).zip(composition).collect();
-    placed.sort_by_key(|(index, _)| *index);
-    placed.into_iter().map(|(_, placed)| placed).collect()
+    request(&scene, &resources, &shot).unwrap().picture.draw
 }
 
 fn layers(centers_m: &[[f64; 3]]) -> Vec<usize> {
@@ -86,6 +90,28 @@ fn a_wire_is_drawn_before_its_bubble_and_after_it() {
     let [ring, near] = &placed[..] else { panic!("{placed:?}") };
     assert_eq!((ring.bodies[0].layers, ring.layer, ring.behind_layer), ([1, 3], 2, 2));
     assert!(near.layer == 4 && near.bodies.is_empty());
+}
+
+/// Layer 0 is then the backdrop alone, for what is polarised is known from there on.
+#[test]
+fn what_is_polarised_is_kept_where_bubbles_lie_over_one_another() {
+    let tracks = |centers_m: &[[f64; 3]], quality, change: fn(&mut Composition)| {
+        let key = draw_key(centers_m.iter().copied().map(bubble).collect(), quality);
+        let mut composition = composition(&key);
+        change(&mut composition);
+        composition.tracks_polarisation(&key)
+    };
+    let [over, apart] = [[[0.1, 0.0, 0.0], [-0.1, 0.0, 0.01]], [[0.0, -0.1, 0.0], [0.0, 0.1, 0.0]]];
+    assert!(tracks(&over, Quality::Spectral, |_| ()));
+    assert!(!tracks(&over, Quality::Standard, |_| ()));
+    assert!(!tracks(&apart, Quality::Spectral, |_| ()));
+    assert!(!tracks(&over[..1], Quality::Spectral, |_| ()));
+    // Something at a film that lies over nothing but the backdrop leaves all bubbles in layer 0.
+    let beside = |composition: &mut Composition| {
+        let rect = composition.placed[0].rect.clone();
+        composition.placed[0].bodies.push(PlacedBody { rect, layers: [0, 1] });
+    };
+    assert!(!tracks(&apart, Quality::Spectral, beside));
 }
 
 #[test]

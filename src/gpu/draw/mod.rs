@@ -1,6 +1,7 @@
 //! Draws the linear picture: the backdrop, then the bubbles, layer by layer, each ring by ring.
 
 mod bodies;
+mod shared;
 mod small;
 mod values;
 
@@ -9,28 +10,20 @@ use super::{
     device::{Gpu, GpuError},
     environment::Environment,
     film_atlas::FilmAtlas,
-    formats::{POLARISATION_FORMAT, radiance_format},
+    formats::radiance_format,
     kernel::Drawable,
-    passes::{
-        backdrop::{Backdrop, LampOverrides, LampUniform, LightUniform, MAX_LAMPS, ViewUniform},
-        bake_table::{Table, TableOverrides},
-        bubble::{OtherBubble, Shade, ShadeMirror},
-        open_hole::OpenHole,
-    },
+    passes::{backdrop::Backdrop, bake_table::Table, bubble::OtherBubble, open_hole::OpenHole},
     quadrature::Quadrature,
     rings::{Ring, disc, middle_everywhere, rings},
     shown_film::{NoFilm, Shown},
     target::Target,
     timing::Recorder,
-    uniform_buffer::UniformBuffer,
 };
 use crate::plan::{BackdropKey, BubbleKey, DrawKey, FilmColours, Lighting, Rendering};
+use shared::Shared;
 use small::SmallDraw;
+use values::backdrop_colour;
 pub use values::view_uniform;
-use values::{
-    backdrop_colour, bubble_uniform, lamp_uniforms, light_uniform, list_part, other_bubble, ring_overrides,
-    small_bubbles,
-};
 
 /// What a draw reads that other passes left.
 pub struct DrawInputs<'a> {
@@ -96,13 +89,8 @@ enum BackdropDraw {
 }
 
 impl BackdropDraw {
-    fn new(
-        gpu: &Gpu,
-        key: &DrawKey,
-        lighting: &Lighting,
-        light: &LightBuffers,
-        (view, map): (&UniformBuffer<ViewUniform>, &Environment),
-    ) -> Result<Self, GpuError> {
+    fn new(gpu: &Gpu, shared: &Shared<'_>) -> Result<Self, GpuError> {
+        let Shared { key, lighting, view, light, backdrop: map, .. } = shared;
         if let (BackdropKey::Colour(radiance), false) = (&lighting.light.backdrop, key.on_bath) {
             return Ok(Self::Colour(backdrop_colour(key, lighting, *radiance)));
         }
@@ -118,67 +106,6 @@ impl BackdropDraw {
             lamps: &light.lamps,
         };
         Ok(Self::Drawn(backdrop.cover(gpu, &[radiance_format(key.full_precision)])?))
-    }
-}
-
-/// A light on the device.
-struct LightBuffers {
-    light: UniformBuffer<LightUniform>,
-    lamps: UniformBuffer<[LampUniform; MAX_LAMPS]>,
-    lit: LampOverrides,
-}
-
-impl LightBuffers {
-    fn new(gpu: &Gpu, key: &DrawKey, lighting: &Lighting, maps: [&Environment; 2]) -> Self {
-        let count = lighting.environment.0.lamps().len().min(MAX_LAMPS);
-        Self {
-            light: gpu.uniform("light", &light_uniform(lighting, key.exposed_ev, maps)),
-            lamps: gpu.uniform("lamps", &lamp_uniforms(lighting)),
-            lit: LampOverrides { LAMPS: count as u32 },
-        }
-    }
-}
-
-/// What all bubbles of a picture are drawn with.
-struct Shared<'a> {
-    key: &'a DrawKey,
-    lighting: &'a Lighting,
-    view: UniformBuffer<ViewUniform>,
-    light: LightBuffers,
-    environment: &'a Environment,
-    backdrop: &'a Environment,
-    behind: &'a wgpu::TextureView,
-    so_far: &'a wgpu::TextureView,
-    others: Others,
-    films: &'a wgpu::TextureView,
-    tracks_polarisation: bool,
-    polarised_behind: &'a wgpu::TextureView,
-    /// All small bubbles.
-    small: wgpu::Buffer,
-}
-
-/// All bubbles as others show them, and which of them each bubble has to do with.
-struct Others {
-    bubbles: wgpu::Buffer,
-    /// For each bubble the places of others in the list: those of its cluster, then those that it mirrors.
-    lists: wgpu::Buffer,
-    /// Where the part of each bubble begins.
-    first: Vec<u32>,
-}
-
-impl Others {
-    fn new(gpu: &Gpu, key: &DrawKey, lighting: &Lighting, inputs: &DrawInputs<'_>) -> Self {
-        let (mut lists, mut first) = (Vec::new(), Vec::new());
-        for placed in &inputs.composition.placed {
-            first.push(lists.len() as u32);
-            lists.extend(placed.among.iter().chain(&placed.mirrored).map(|place| *place as u32));
-        }
-        let is_needed = !lists.is_empty();
-        // Buffers hold at least one value, read or not.
-        lists.push(0);
-        let shown = key.bubbles.iter().take(if is_needed { usize::MAX } else { 1 });
-        let bubbles: Vec<_> = shown.map(|bubble| other_bubble(key, lighting, bubble, inputs.atlas)).collect();
-        Self { bubbles: gpu.storage("others", &bubbles), lists: gpu.storage("lists of others", &lists), first }
     }
 }
 
@@ -202,32 +129,22 @@ struct Drawn<'a> {
 
 impl DrawPass {
     /// Makes ready what a key asks for in one of its lights.
-    pub fn new(gpu: &Gpu, key: &DrawKey, lighting: &Lighting, inputs: &DrawInputs<'_>) -> Result<Self, GpuError> {
+    pub fn new<'a>(
+        gpu: &Gpu,
+        key: &'a DrawKey,
+        lighting: &'a Lighting,
+        inputs: &DrawInputs<'a>,
+    ) -> Result<Self, GpuError> {
         let (count, most) = (key.small.len(), gpu.most_values::<OtherBubble>());
         if count as u64 > most {
             return Err(GpuError::TooManyBubbles { count, most });
         }
-        let view = gpu.uniform("view", &view_uniform(key));
-        let light = LightBuffers::new(gpu, key, lighting, [inputs.environment, inputs.backdrop]);
-        let backdrop = BackdropDraw::new(gpu, key, lighting, &light, (&view, inputs.backdrop))?;
-        let tracks_polarisation = inputs.composition.tracks_polarisation(key);
-        let mut pass = Self { backdrop, layers: Vec::new(), width: key.size[0], tracks_polarisation };
-        let [behind, so_far] = inputs.drawn.map(|target| &target.view);
-        let others = Others::new(gpu, key, lighting, inputs);
-        let shared = Shared {
-            key,
-            lighting,
-            view,
-            light,
-            environment: inputs.environment,
-            backdrop: inputs.backdrop,
-            behind,
-            so_far,
-            others,
-            films: &inputs.atlas.view,
-            tracks_polarisation,
-            polarised_behind: &inputs.polarised[1].view,
-            small: gpu.storage("small bubbles", &small_bubbles(key, lighting, inputs.atlas)),
+        let shared = Shared::new(gpu, key, lighting, inputs);
+        let mut pass = Self {
+            backdrop: BackdropDraw::new(gpu, &shared)?,
+            layers: Vec::new(),
+            width: key.size[0],
+            tracks_polarisation: shared.tracks_polarisation,
         };
         // Fills the binding where the quality has no table.
         let unread = |films: &FilmColours| films.table.is_none().then(|| Table::unread(gpu, &films.quadrature.optics));
@@ -242,7 +159,7 @@ impl DrawPass {
             let Some(colours) = colours(bubble.material) else { continue };
             let film = (inputs.film)(bubble.index).unwrap_or_else(|| no_film.shown());
             let hole = (inputs.hole)(bubble.index).unwrap_or(&no_hole);
-            let first_other = shared.others.first[place];
+            let first_other = shared.first_other(place);
             for ring in bubble_rings(key, lighting, bubble) {
                 let drawn = Drawn { bubble, placed, first_other, ring: &ring, colours: &colours, film: &film, hole };
                 pass.layers[placed.layer].rings.push((shared.ring(gpu, &drawn)?, ring.vertices()));
@@ -286,47 +203,56 @@ impl DrawPass {
             // The first rows clear the whole picture.
             BackdropDraw::Colour(colour) => (None, (rows.start == 0).then_some(*colour)),
         };
-        let draw = |recorder: &mut Recorder<'_>, layer: &Layer, backdrop: Option<&Drawable>, clear| {
-            let small_parts = || layer.small.iter().flat_map(|small| small.parts(rows).map(|part| (&small.draw, part)));
-            if self.tracks_polarisation && !layer.rings.is_empty() {
-                recorder.render_into("draw", &[(&target.view, None), (&polarised.view, None)], |pass| {
-                    pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
-                    layer.rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
-                });
-            }
-            recorder.render("draw", &target.view, clear, |pass| {
-                pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
-                backdrop.into_iter().for_each(|backdrop| backdrop.draw(pass, 3));
-                let rings = layer.rings.iter().filter(|_| !self.tracks_polarisation);
-                rings.for_each(|(ring, vertices)| ring.draw(pass, *vertices));
-                layer.bodies.iter().for_each(|(body, vertices)| body.draw(pass, *vertices));
-                for (small, PixelRect { columns, rows }) in small_parts() {
-                    pass.set_scissor_rect(columns.start, rows.start, columns.len() as u32, rows.len() as u32);
-                    small.draw(pass, 3);
-                }
-            });
-            let draws =
-                usize::from(backdrop.is_some()) + layer.rings.len() + layer.bodies.len() + small_parts().count();
-            recorder.counts.draws += draws as u64;
-        };
         let Some((first, later)) = self.layers.split_first() else { return };
-        draw(recorder, first, backdrop, colour);
+        self.draw(recorder, first, (target, polarised), rows, (backdrop, colour));
         if self.tracks_polarisation {
             // Light from the backdrop is not polarised.
             let nothing = Some(wgpu::Color::TRANSPARENT);
             recorder.render("draw", &polarised.view, nothing, |_| {});
         }
         for layer in later {
-            for (rects, to) in [(&layer.behind, behind), (&layer.so_far, so_far)] {
+            let copies = [(&layer.behind, target, behind), (&layer.so_far, target, so_far)];
+            let of_polarised = (&layer.behind, polarised, polarised_behind);
+            for (rects, from, to) in copies.into_iter().chain(self.tracks_polarisation.then_some(of_polarised)) {
                 let parts = rects.iter().filter_map(|rect| rect.within(rows));
-                parts.for_each(|part| copy_part(recorder.encoder(), target, to, &part));
+                parts.for_each(|part| copy_part(recorder.encoder(), from, to, &part));
             }
-            if self.tracks_polarisation {
-                let parts = layer.behind.iter().filter_map(|rect| rect.within(rows));
-                parts.for_each(|part| copy_part(recorder.encoder(), polarised, polarised_behind, &part));
-            }
-            draw(recorder, layer, None, None);
+            self.draw(recorder, layer, (target, polarised), rows, (None, None));
         }
+    }
+
+    /// Records some rows of a layer, over a backdrop or a colour where there is one.
+    fn draw(
+        &self,
+        recorder: &mut Recorder<'_>,
+        layer: &Layer,
+        (target, polarised): (&Target, &Target),
+        rows: &std::ops::Range<u32>,
+        (backdrop, colour): (Option<&Drawable>, Option<wgpu::Color>),
+    ) {
+        let small_parts = || layer.small.iter().flat_map(|small| small.parts(rows).map(|part| (&small.draw, part)));
+        let draw_rings = |pass: &mut wgpu::RenderPass<'_>| {
+            pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
+            layer.rings.iter().for_each(|(ring, vertices)| ring.draw(pass, *vertices));
+        };
+        // Only bubbles change what is polarised.
+        if self.tracks_polarisation && !layer.rings.is_empty() {
+            recorder.render_into("draw", &[(&target.view, None), (&polarised.view, None)], draw_rings);
+        }
+        recorder.render("draw", &target.view, colour, |pass| {
+            pass.set_scissor_rect(0, rows.start, self.width, rows.len() as u32);
+            backdrop.into_iter().for_each(|backdrop| backdrop.draw(pass, 3));
+            if !self.tracks_polarisation {
+                draw_rings(pass);
+            }
+            layer.bodies.iter().for_each(|(body, vertices)| body.draw(pass, *vertices));
+            for (small, PixelRect { columns, rows }) in small_parts() {
+                pass.set_scissor_rect(columns.start, rows.start, columns.len() as u32, rows.len() as u32);
+                small.draw(pass, 3);
+            }
+        });
+        let draws = usize::from(backdrop.is_some()) + layer.rings.len() + layer.bodies.len() + small_parts().count();
+        recorder.counts.draws += draws as u64;
     }
 }
 
@@ -337,57 +263,6 @@ fn copy_part(encoder: &mut wgpu::CommandEncoder, from: &Target, to: &Target, par
     let size =
         wgpu::Extent3d { width: part.columns.len() as u32, height: part.rows.len() as u32, depth_or_array_layers: 1 };
     encoder.copy_texture_to_texture(from, to, size);
-}
-
-impl Shared<'_> {
-    /// Makes one ring of a bubble ready: as it is, or a mirror in its place.
-    fn ring(&self, gpu: &Gpu, drawn: &Drawn<'_>) -> Result<Drawable, GpuError> {
-        let Self { key, lighting, view, light, environment, backdrop, behind, so_far, others, films, .. } = self;
-        let Self { tracks_polarisation, polarised_behind, .. } = self;
-        let Drawn { ring, film, hole, colours: Colours { films: film_colours, table, quadrature }, .. } = drawn;
-        let bubble = &gpu.uniform("bubble", &bubble_uniform(key, drawn));
-        let part = &gpu.storage("part of the lists", &[list_part(drawn)]);
-        let coloured = film_colours.table.as_ref().is_some_and(|table| table.coloured);
-        let shade = Shade {
-            shape: ring_overrides(key, lighting, *tracks_polarisation, drawn),
-            table_kind: TableOverrides { COLOURED: coloured, POLARISED: lighting.light.polariser.is_some() },
-            summed: quadrature.overrides(),
-            lit: light.lit,
-            view,
-            light: &light.light,
-            environment: &environment.view,
-            environment_sampler: environment.sampler(film_colours.quadrature.quality),
-            backdrop_sampler: backdrop.backdrop_sampler(),
-            bubble,
-            axes: &table.axes,
-            table: &table.view,
-            film: film.film,
-            quadrature: &quadrature.buffer,
-            film_balance: film.balance,
-            film_map: film.map,
-            film_tracer: film.tracer,
-            hole_middle: &hole.middle,
-            hole_rim: &hole.rim,
-            picture_behind: behind,
-            picture_so_far: so_far,
-            others: &others.bubbles,
-            lists: &others.lists,
-            films,
-            part,
-            backdrop_map: &backdrop.view,
-            lamps: &light.lamps,
-            polarised_behind,
-            point_sampler: gpu.point_sampler(),
-        };
-        let formats = [radiance_format(key.full_precision), POLARISATION_FORMAT];
-        let formats = if *tracks_polarisation { &formats[..] } else { &formats[..1] };
-        match (key.rendering == Rendering::Yardstick, ring.edges_rad) {
-            (false, Some(_)) => shade.ring(gpu, formats),
-            (false, None) => shade.everywhere(gpu, formats),
-            (true, Some(_)) => ShadeMirror::in_place_of(&shade).ring(gpu, formats),
-            (true, None) => ShadeMirror::in_place_of(&shade).everywhere(gpu, formats),
-        }
-    }
 }
 
 /// Pixels that the picture's draws cover: all of the backdrop, and each bubble's bounding rectangle.

@@ -152,10 +152,9 @@ impl Field {
         let smooth = (map != sphere).then(|| grid(map));
         let coarse = flow_sphere(sphere, rules.flow_cells).map(grid);
         let tracer_grid = fine.as_ref().unwrap_or(&film);
-        let scalars = |label, grid: &Grid| PanelTexture::new(gpu, label, grid.side(), wgpu::TextureFormat::R32Float);
-        let maps = |label, grid: Option<&Grid>| {
-            PanelTexture::new(gpu, label, grid.unwrap_or(&film).side(), wgpu::TextureFormat::Rgba32Float)
-        };
+        let field = |label, grid: &Grid, format| PanelTexture::new(gpu, label, [grid.side(); 2], format);
+        let scalars = |label, grid: &Grid| field(label, grid, wgpu::TextureFormat::R32Float);
+        let maps = |label, grid: Option<&Grid>| field(label, grid.unwrap_or(&film), wgpu::TextureFormat::Rgba32Float);
         Ok(Self {
             step_map: maps("step map", coarse.as_ref()),
             map: ["map", "next map"].map(|label| maps(label, smooth.as_ref())),

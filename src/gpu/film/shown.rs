@@ -49,8 +49,7 @@ impl Field {
     #[must_use]
     pub fn shown(&self) -> Shown<'_> {
         Shown {
-            film: &self.texture.view,
-            texture: &self.texture.texture,
+            film: &self.texture,
             balance: &self.control.shown_balance,
             map: &self.map[self.shown_map].view,
             map_cells: self.map_grid().cells,

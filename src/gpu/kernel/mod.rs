@@ -1,5 +1,5 @@
-//! Kernels: shader entry points, each declared once. From the declaration follow the call, which names each binding and each constant, and
-//! what tests hold against the shader: numbers, names, types and uses of bindings, and the constants. A kernel reads like its shader:
+//! Kernels: shader entry points, each declared once. From the declaration follow the call, which names each binding and each constant, the layout
+//! of its pipelines, and what tests hold against the shader: numbers, names, types and uses of bindings, and the constants. A kernel reads like its shader:
 //!
 //! ```text
 //! kernels! {

@@ -63,7 +63,7 @@ pub struct TextureCube;
 pub struct Written2dArray<F>(PhantomData<F>);
 /// A sampler that filters.
 pub struct Sampler;
-/// A sampler that filters nothing, for textures that no hardware need filter: it gathers texels four by four.
+/// A sampler that filters nothing, for textures that no hardware need filter: shaders gather their texels, four at a time.
 pub struct PointSampler;
 
 /// A format of textures that are written.
@@ -119,10 +119,6 @@ const fn buffer(ty: BufferBindingType) -> BindingType {
     BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
 }
 
-const fn texture(sample_type: TextureSampleType, view_dimension: Dimension) -> BindingType {
-    BindingType::Texture { sample_type, view_dimension, multisampled: false }
-}
-
 const fn written(format: wgpu::TextureFormat) -> BindingType {
     let access = wgpu::StorageTextureAccess::WriteOnly;
     BindingType::StorageTexture { access, format, view_dimension: Dimension::D2Array }
@@ -140,36 +136,23 @@ slot!(
     { T: Contents + ?Sized } ReadWrite<T> = Buffer,
     SlotKind::ReadWrite(T::layout()), buffer(BufferBindingType::Storage { read_only: false }), whole
 );
-slot!(
-    Texture2d = TextureView,
-    SlotKind::Texture(Dimension::D2),
-    texture(LOADED, Dimension::D2),
-    BindingResource::TextureView
-);
-slot!(
-    Texture2dArray = TextureView,
-    SlotKind::Texture(Dimension::D2Array),
-    texture(LOADED, Dimension::D2Array),
-    BindingResource::TextureView
-);
-slot!(
-    Uint2d = TextureView,
-    SlotKind::UintTexture(Dimension::D2),
-    texture(TextureSampleType::Uint, Dimension::D2),
-    BindingResource::TextureView
-);
-slot!(
-    Uint2dArray = TextureView,
-    SlotKind::UintTexture(Dimension::D2Array),
-    texture(TextureSampleType::Uint, Dimension::D2Array),
-    BindingResource::TextureView
-);
-slot!(
-    TextureCube = TextureView,
-    SlotKind::Texture(Dimension::Cube),
-    texture(FILTERED, Dimension::Cube),
-    BindingResource::TextureView
-);
+/// Makes a type a texture that is read, of a kind, a way to read it and a shape.
+macro_rules! texture_slot {
+    ($slot:ty, $kind:ident, $read:expr, $dimension:ident) => {
+        slot!(
+            $slot = TextureView,
+            SlotKind::$kind(Dimension::$dimension),
+            BindingType::Texture { sample_type: $read, view_dimension: Dimension::$dimension, multisampled: false },
+            BindingResource::TextureView
+        );
+    };
+}
+
+texture_slot!(Texture2d, Texture, LOADED, D2);
+texture_slot!(Texture2dArray, Texture, LOADED, D2Array);
+texture_slot!(TextureCube, Texture, FILTERED, Cube);
+texture_slot!(Uint2d, UintTexture, TextureSampleType::Uint, D2);
+texture_slot!(Uint2dArray, UintTexture, TextureSampleType::Uint, D2Array);
 slot!(
     { F: WrittenFormat } Written2dArray<F> = TextureView,
     SlotKind::Written(F::FORMAT), written(F::FORMAT), BindingResource::TextureView

@@ -90,8 +90,8 @@ pub struct BlackFilm {
     pub law: BlackeningLaw,
     /// What the tracer departs from, nm.
     level_nm: f32,
-    /// The tracer's means along rows, nm; then what each cell has after it has collapsed.
-    row_means: wgpu::Buffer,
+    /// The tracer's means along rows, nm; once those are used, what each cell has after it has collapsed.
+    scratch: wgpu::Buffer,
     /// The tracer's means around cells, nm.
     means: wgpu::Buffer,
 }
@@ -100,8 +100,8 @@ impl BlackFilm {
     /// On a film's tracer grid, for a tracer that departs from a level in nm.
     #[must_use]
     pub fn new(gpu: &Gpu, grid: &Grid, law: BlackeningLaw, level_nm: f32) -> Self {
-        let [row_means, means] = ["means along rows", "means"].map(|label| grid.field(gpu, label, 4));
-        Self { law, level_nm, row_means, means }
+        let [scratch, means] = ["scratch of black film", "means"].map(|label| grid.field(gpu, label, 4));
+        Self { law, level_nm, scratch, means }
     }
 
     fn uniform(&self, recorder: &Recorder<'_>, grid: &Grid) -> UniformBuffer<BlackenUniform> {
@@ -145,15 +145,14 @@ impl BlackFilm {
         tracer: &wgpu::Buffer,
     ) -> Result<&wgpu::Buffer, GpuError> {
         let (blacken, block) = (&self.uniform(recorder, grid), &control.block);
-        let Self { row_means, means, .. } = self;
+        let Self { scratch, means, .. } = self;
         let (all, one) = (control.tracer_groups(), control.one_group());
-        MeanAlong { blacken, tracer, result: row_means }.mean_along_rows(recorder, STEP_FIELD, all)?;
-        MeanAlong { blacken, tracer: row_means, result: means }.mean_along_columns(recorder, STEP_FIELD, all)?;
+        MeanAlong { blacken, tracer, result: scratch }.mean_along_rows(recorder, STEP_FIELD, all)?;
+        MeanAlong { blacken, tracer: scratch, result: means }.mean_along_columns(recorder, STEP_FIELD, all)?;
         halo_of_thickness(recorder, grid, means, one)?;
-        let collapsed = row_means;
-        Collapse { blacken, control: block, tracer, result: collapsed, means, tangents: &grid.tangents }
+        Collapse { blacken, control: block, tracer, result: scratch, means, tangents: &grid.tangents }
             .collapse(recorder, STEP_FIELD, all)?;
-        halo_of_thickness(recorder, grid, collapsed, one)?;
-        Ok(collapsed)
+        halo_of_thickness(recorder, grid, scratch, one)?;
+        Ok(scratch)
     }
 }

@@ -98,7 +98,7 @@ impl OpenHole {
     ) -> Result<(), GpuError> {
         let gpu = recorder.gpu;
         let no_film = NoFilm::new(gpu);
-        let film = shown.unwrap_or_else(|| no_film.shown()).film;
+        let film = &shown.unwrap_or_else(|| no_film.shown()).film.view;
         let kernel = FollowRim {
             UNIFORM_FILM: matches!(key.film, FilmKey::Uniform(_)),
             hole: &gpu.uniform("open hole", &uniform(key)),
